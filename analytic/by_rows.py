@@ -10,75 +10,113 @@ from cointoss.analytic.flight.flying import sample
 from cointoss.analytic.flight.state_vector import STATE_SIZE, position_of, spin_of, velocity_of
 from cointoss.analytic.horizon.certainty import certainty_of
 from cointoss.analytic.horizon.horizon import MOST_CARRIED, STEP_ERROR, TURN_ERROR, ErrorsMade, find_horizon
-from cointoss.analytic.settings import MANY, contact_limits
+from cointoss.analytic.settings import MANY, ContactLimits, contact_limits
+from cointoss.models.answers import REFUSED
 from cointoss.models.barriers import energy
+from cointoss.models.body import NO_CODE, OwnCode, with_budgets, with_own_law
 from cointoss.models.faults import Fault
 from cointoss.models.impact_row import FIRST_ROOM
 from cointoss.models.kernel.arrays import Row, Table
 from cointoss.models.kernel.compiled import compiled
+from cointoss.models.making import MOST_LOSSLESS
 from cointoss.models.records import IMPACT_ROW
 from cointoss.models.rows import (
     AIR_EXPONENT,
+    bodies_alike,
     body_of,
-    fault_of,
-    foreign_number,
+    examine_each,
     has_linear_air,
     rules_of,
     write_release,
 )
 
-ANSWER = ("outcome", "ending", "impacts", "last_face", "end_time", "trusted_impacts", "outcome_certain")
-"""Columns of what is answered of a toss; the last two are -1 where they were not asked for."""
 IMPACT = ("time", "face", "energy", "impulse_x", "impulse_y", "impulse_z")
 """Columns of an impact, in SI."""
 PIECE = 2 + STATE_SIZE
 """Numbers of a piece of a path: when it starts, its `Mode`, and the state there."""
 NO_TRUST, TRUST, CERTAIN = range(3)
 """What is found beside the outcome: nothing, the trusted impacts, and whether the outcome is certain, too."""
-NO_SCENARIO = -2
-"""In place of the outcome, where the numbers make no scenario."""
 _LIMITS = contact_limits(MANY)
 
 
 @compiled
-def toss_each(rows: Table, wanted: int, answers: Table) -> None:
+def toss_rows(rows: Table, own: OwnCode, limits: ContactLimits, wanted: int, answers: Table) -> None:
     """Toss each of many scenarios.
+
+    Args:
+        rows: of their fields, each a scenario's, (n, m).
+        own: a contact law of one's own in place of theirs, or `NO_CODE`.
+        limits: of sustained contact.
+        wanted: `NO_TRUST`, `TRUST` or `CERTAIN`.
+        answers: where they go, (n, 7), see `cointoss.models.answers.ANSWER`.
+    """
+    impacts, y = np.zeros(2 if wanted == NO_TRUST else FIRST_ROOM, IMPACT_ROW), np.empty(STATE_SIZE)
+    first = 0
+    while first < len(rows):
+        end = first + 1
+        while end < len(rows) and bodies_alike(rows[first], rows[end]):
+            end += 1
+        some = rows[first:end]
+        if has_linear_air(rows[first]):
+            _toss_run(body_of(rows[first], None), some, own, limits, wanted, impacts, y, answers[first:end])
+        else:
+            body = body_of(rows[first], rows[first, AIR_EXPONENT])
+            _toss_run(body, some, own, limits, wanted, impacts, y, answers[first:end])
+        first = end
+
+
+@compiled
+def _toss_run(body, rows, own, limits, wanted, impacts, y, answers):
+    """Toss rows with one coin, air and gravity."""
+    for i in range(len(rows)):
+        for k in range(1, answers.shape[1]):
+            answers[i, k] = -1.0
+        rules = rules_of(rows[i])
+        if own.address != 0:
+            rules = with_own_law(rules, own)
+        if wanted != NO_TRUST:
+            rules = with_budgets(rules, min(rules.max_impacts, MOST_LOSSLESS), rules.max_time)
+        write_release(rows[i], y)
+        impacts = _answer(body, rules, limits, wanted, impacts, y, answers[i])
+
+
+@compiled
+def toss_each(rows: Table, wanted: int, answers: Table) -> None:
+    """Toss each of many scenarios, of which some may be none.
 
     Args:
         rows: of their fields, (n, m).
         wanted: `NO_TRUST`, `TRUST` or `CERTAIN`.
-        answers: where they go, (n, 7), see `ANSWER`.
+        answers: where they go, (n, 7), see `cointoss.models.answers.ANSWER`; `REFUSED` in place of the outcome of what is no scenario.
     """
-    impacts, y = np.zeros(2 if wanted == NO_TRUST else FIRST_ROOM, IMPACT_ROW), np.empty(STATE_SIZE)
+    faults = np.empty(1, np.int8)
     for i in range(len(rows)):
-        for k in range(answers.shape[1]):
-            answers[i, k] = -1.0
-        if foreign_number(rows[i]) >= 0:
-            answers[i, 0] = NO_SCENARIO
-        elif has_linear_air(rows[i]):
-            _answer(body_of(rows[i], None), rows[i], wanted, impacts, y, answers[i])
+        examine_each(rows[i : i + 1], faults)
+        if faults[0] == Fault.NONE.value:
+            toss_rows(rows[i : i + 1], NO_CODE, _LIMITS, wanted, answers[i : i + 1])
         else:
-            _answer(body_of(rows[i], rows[i, AIR_EXPONENT]), rows[i], wanted, impacts, y, answers[i])
+            for k in range(answers.shape[1]):
+                answers[i, k] = -1.0
+            answers[i, 0] = REFUSED
 
 
 @compiled
-def _answer(body, row, wanted, impacts, y, answer):
-    if fault_of(body, row).fault != Fault.NONE:
-        answer[0] = NO_SCENARIO
-        return
-    rules = rules_of(row)
-    write_release(row, y)
+def _answer(body, rules, limits, wanted, impacts, y, answer):
+    """Toss a coin, write how it ended, and return the rows of impacts, which may have grown."""
     keep_all = wanted != NO_TRUST
-    n, impacts, pieces, outcome, ending, end_time = toss_coin(body, rules, _LIMITS, y, impacts, keep_all)
-    _write_end(n, impacts, Verdict(outcome, ending), end_time, answer)
+    n, impacts, pieces, outcome, ending, end_time = toss_coin(body, rules, limits, y, impacts, keep_all)
     if keep_all:
         _write_trust(body, rules, impacts[:n], pieces, Verdict(outcome, ending), wanted, answer)
+    # The outcome last: where it is, the answer is whole.
+    _write_end(n, impacts, Verdict(outcome, ending), end_time, answer)
+    return impacts
 
 
 @compiled
 def _write_end(n, impacts, verdict, end_time, answer):
-    answer[0], answer[1], answer[2], answer[4] = verdict.outcome.value, verdict.ending.value, n, end_time
+    answer[1], answer[2], answer[4] = verdict.ending.value, n, end_time
     answer[3] = impacts[(n - 1) % len(impacts)]["face"] if n > 0 else 0
+    answer[0] = verdict.outcome.value
 
 
 @compiled
@@ -97,7 +135,7 @@ def toss_one(row: Row, answer: Row, impacts: Table, pieces: Table, sizes: Row) -
 
     Args:
         row: of its fields; of a scenario, see `examine`.
-        answer: where it goes, (7,), see `ANSWER`.
+        answer: where it goes, (7,), see `cointoss.models.answers.ANSWER`.
         impacts: where they go, (m, 6), see `IMPACT`.
         pieces: where they go, (k, `PIECE`), the last where the toss ends.
         sizes: how many impacts and pieces there are, (2,); written to.

@@ -1,6 +1,6 @@
 """What Python and a page call of the compiled engine; annotations say which rows of numbers are passed."""
 
-from cointoss.analytic import by_rows, events, path, seeing, striking, tile
+from cointoss.analytic import by_rows, events, path, seeing, striking
 from cointoss.analytic.air import force
 from cointoss.analytic.horizon import certainty, horizon
 from cointoss.analytic.horizon import event_tangent as tangent
@@ -14,8 +14,7 @@ toss_each = engine.entry(by_rows.toss_each)
 toss_one = engine.entry(by_rows.toss_one)
 sample_path = engine.entry(by_rows.sample_path)
 
-toss_tile = engine.entry(tile.toss_tile)
-trust_tile = engine.entry(tile.trust_tile)
+toss_rows = engine.entry(by_rows.toss_rows)
 toss_coin = engine.entry(events.toss_coin)
 find_horizon = engine.entry(horizon.find_horizon)
 certainty_of = engine.entry(certainty.certainty_of)

@@ -3,7 +3,7 @@
 from cointoss.coin_mj.bounces.inverse import Rebounds, solref_of
 from cointoss.coin_mj.bounces.pair import PairBounce, bounce
 from cointoss.coin_mj.bounces.recipe import Bounce, solref
-from cointoss.coin_mj.ensemble import toss_many
+from cointoss.coin_mj.many import require_rows, toss_rows
 from cointoss.coin_mj.model.settings import FINE, MANY, Friction, Realisation, Settings
 from cointoss.coin_mj.toss import impacts_of, require_supported, toss
 
@@ -18,11 +18,11 @@ __all__ = [
     "Settings",
     "bounce",
     "impacts_of",
-    "require_supported",
+    "require_rows", "require_supported",
     "solref",
     "solref_of",
     "toss",
-    "toss_many",
+    "toss_rows",
 ]
 
 if __name__ == "coin_mj":  # by its bare name, in a checkout

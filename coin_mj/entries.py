@@ -1,13 +1,13 @@
 """What Python calls of the compiled engine; annotations are the kinds of the rows."""
 
-from cointoss.coin_mj import events, sampling, tile
+from cointoss.coin_mj import by_rows, events, sampling
 from cointoss.coin_mj.model import air
 from cointoss.coin_mj.steps import constrained_step
 from cointoss.models.kernel.library import Library
 
 engine = Library(__name__, lacks_none=True)
 
-toss_tile = engine.entry(tile.toss_tile)
+toss_rows = engine.entry(by_rows.toss_rows)
 toss_coin = engine.entry(events.toss_coin)
 sample_path = engine.entry(sampling.sample_path)
 sample_contacts = engine.entry(sampling.sample_contacts)

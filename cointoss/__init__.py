@@ -23,20 +23,17 @@ if TYPE_CHECKING:
     from cointoss.compare.report.comparison import Comparison as Comparison
     from cointoss.compare.report.comparison import compare as compare
     from cointoss.compare.shares.along import shares as shares
-    from cointoss.compare.shares.record import Shares as Shares
+    from cointoss.compare.sweep.basin import basin as basin
     from cointoss.compare.sweep.errors import MapError as MapError
     from cointoss.compare.sweep.errors import SweepError as SweepError
-    from cointoss.compare.sweep.in_memory import basin as basin
-    from cointoss.compare.sweep.many_outcomes import toss_to_zarr as toss_to_zarr
-    from cointoss.compare.sweep.outcome_map import OutcomeMap as OutcomeMap
     from cointoss.compare.sweep.reading import read_map as read_map
+    from cointoss.compare.sweep.toss_many import toss_many as toss_many
     from cointoss.models.errors import ScenarioError as ScenarioError
     from cointoss.models.hand import Hand as Hand
     from cointoss.models.hand import load_hand as load_hand
     from cointoss.models.laws import ContactLaw as ContactLaw
     from cointoss.models.laws import EndingTest as EndingTest
     from cointoss.models.laws import RestitutionKind as RestitutionKind
-    from cointoss.models.outcomes import Outcomes as Outcomes
     from cointoss.models.parts import Air as Air
     from cointoss.models.parts import Coin as Coin
     from cointoss.models.parts import EndingCriteria as EndingCriteria
@@ -57,7 +54,6 @@ if TYPE_CHECKING:
     from cointoss.models.records import TrustEnd as TrustEnd
     from cointoss.models.records import UnsupportedError as UnsupportedError
     from cointoss.models.records import UnusableEngineError as UnusableEngineError
-    from cointoss.models.releases import Releases as Releases
     from cointoss.models.scenario import Scenario as Scenario
     from cointoss.models.unused import UnusedFieldWarning as UnusedFieldWarning
 
@@ -75,16 +71,13 @@ _NAMES = {
     "cointoss.compare.fitting.observed": ("Observed",),
     "cointoss.compare.report.comparison": ("Comparison",),
     "cointoss.compare.shares.along": ("shares",),
-    "cointoss.compare.shares.record": ("Shares",),
+    "cointoss.compare.sweep.basin": ("basin",),
     "cointoss.compare.sweep.errors": ("MapError", "SweepError"),
-    "cointoss.compare.sweep.in_memory": ("basin",),
-    "cointoss.compare.sweep.many_outcomes": ("toss_to_zarr",),
-    "cointoss.compare.sweep.outcome_map": ("OutcomeMap",),
     "cointoss.compare.sweep.reading": ("read_map",),
+    "cointoss.compare.sweep.toss_many": ("toss_many",),
     "cointoss.models.errors": ("ScenarioError",),
     "cointoss.models.hand": ("Hand", "load_hand"),
     "cointoss.models.laws": ("ContactLaw", "EndingTest", "RestitutionKind"),
-    "cointoss.models.outcomes": ("Outcomes",),
     "cointoss.models.reading": ("load", "named_scenarios", "parse"),
     "cointoss.models.records": (
         "ApproximationWarning",
@@ -100,7 +93,6 @@ _NAMES = {
         "UnsupportedError",
         "UnusableEngineError",
     ),
-    "cointoss.models.releases": ("Releases",),
     "cointoss.models.parts": ("Air", "Coin", "EndingCriteria", "Floor", "Release"),
     "cointoss.models.scenario": ("Scenario",),
     "cointoss.models.unused": ("UnusedFieldWarning",),

@@ -5,10 +5,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol, cast
 
 from cointoss.models.distribution import versions_of
-from cointoss.models.outcomes import Outcomes
+from cointoss.models.answers import Answers
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.reading import ScenarioSource
 from cointoss.models.records import Toss, UnsupportedError
-from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
 
 if TYPE_CHECKING:
@@ -35,8 +35,12 @@ class Package(Protocol):
         """Toss a coin; raise `UnsupportedError` for what the engine doesn't model."""
         ...
 
-    def toss_many(self, scenario: ScenarioSource, releases: Releases, *, settings: Any = ...) -> Outcomes:
-        """Toss a coin once from each release; raise `ValueError` for a release that can't be."""
+    def toss_rows(self, rows: Array, **how: Any) -> Answers:
+        """Toss the scenarios of rows; see `cointoss.analytic.toss_rows`."""
+        ...
+
+    def require_rows(self, rows: Array, **how: Any) -> None:
+        """Raise `UnsupportedError` for rows that the engine doesn't toss so, before the first toss."""
         ...
 
     def require_supported(self, scenario: Scenario, *, settings: Any) -> None:

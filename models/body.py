@@ -99,6 +99,25 @@ def with_budgets(rules: Rules, max_impacts: int, max_time: float) -> Rules:
 
 
 @compiled
+def with_own_law(rules: Rules, own: OwnCode) -> Rules:
+    """Return the rules with a contact law of one's own, which is not followed into sustained contact."""
+    return Rules(
+        ContactLaw.SHARP_EDGE.value,
+        own,
+        rules.restitution,
+        rules.restitution_threshold,
+        rules.restitution_kind,
+        rules.friction,
+        rules.rolling_friction,
+        rules.pivoting_friction,
+        rules.test,
+        rules.max_impacts,
+        rules.max_time,
+        rules.caught,
+    )
+
+
+@compiled
 def with_floor(rules: Rules, chi: float, mu: float) -> Rules:
     """Return the same rules with another restitution χ and friction μ."""
     return Rules(

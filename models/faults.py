@@ -4,18 +4,17 @@ import math
 from enum import IntEnum
 from typing import NamedTuple
 
-from cointoss.models.attitude import Quaternion, norm_of, normalized
+from cointoss.models.attitude import Quaternion, norm_of
 from cointoss.models.barriers import highest_on_floor
 from cointoss.models.body import Body, Rules
 from cointoss.models.clearance import damping_rate
 from cointoss.models.geometry import gap
 from cointoss.models.inertia import is_positive_definite, obeys_triangle_inequality, principal_moments
-from cointoss.models.kernel.arrays import Table
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector, norm
 from cointoss.models.laws import ContactLaw, RestitutionKind
 from cointoss.models.making import Cylinder
-from cointoss.models.state import State, state
+from cointoss.models.state import State
 
 FASTEST_SPIN, FASTEST_DRAG = 1e5, 1e4
 """Beyond all tosses, which would take hours to follow; against √(g/r)."""
@@ -232,30 +231,3 @@ def is_finite(body: Body) -> bool:
     for coefficient in body.drag:
         total += abs(coefficient)
     return abs(total) < math.inf
-
-
-@compiled
-def normalize(quaternions: Table) -> int:
-    """Bring Euler parameters, (n, 4), to norm 1; return the first row that is too far from it, or -1."""
-    for i in range(len(quaternions)):
-        row = quaternions[i]
-        e = (row[0], row[1], row[2], row[3])
-        if not abs(norm_of(e) - 1) <= NORM_ERROR:
-            return i
-        row[0], row[1], row[2], row[3] = normalized(e)
-    return -1
-
-
-@compiled
-def first_fault(
-    body: Body, positions: Table, velocities: Table, attitudes: Table, spins: Table
-) -> tuple[int, Found]:
-    """Return the first release with a fault, and the fault; the last where there is none."""
-    found, i = Found(Fault.NONE, 0.0), 0
-    for i in range(len(positions)):
-        x, v, e, w = positions[i], velocities[i], attitudes[i], spins[i]
-        at = state((x[0], x[1], x[2]), (v[0], v[1], v[2]), (e[0], e[1], e[2], e[3]), (w[0], w[1], w[2]))
-        found = fault_of_release(body, at)
-        if found.fault != Fault.NONE:
-            break
-    return i, found

@@ -1,5 +1,6 @@
 """What a dotted field of a scenario means: its table, key and component, its word and its unit."""
 
+import math
 import re
 from typing import Any
 
@@ -7,6 +8,7 @@ import numpy as np
 from pydantic import BaseModel
 
 from cointoss.models.errors import ScenarioError, shown
+from cointoss.models.units import in_si
 
 SPACE, BODY = ("x", "y", "z"), ("xi", "eta", "zeta")
 COMPONENTS = {
@@ -118,6 +120,8 @@ def put(data: dict[str, Any], field: str, value: Any) -> None:
     if last not in COMPONENTS.get(path, last):
         accepted = ", ".join(f"{path}.{name}" for name in COMPONENTS[path])
         raise ScenarioError(f"{field} = {shown(value)}: unknown component; accepted: {accepted}")
+    if field == "release.spin":
+        field, value = "release.angular_velocity", _of_size(data, value)
     table, key, index = split(field)
     part = data
     if table:
@@ -134,3 +138,23 @@ def put(data: dict[str, Any], field: str, value: Any) -> None:
     elif field in _OTHER_ATTITUDE and value is not None:
         part[_OTHER_ATTITUDE[field]] = None
     part[key] = value.model_dump() if isinstance(value, BaseModel) else value
+
+
+def _of_size(data: dict[str, Any], size: Any) -> list[float]:
+    """Return the angular velocity of a scenario's tables with another size, about the same axis [rad/s].
+
+    Raises:
+        ScenarioError: where the coin does not spin, and for what is no size.
+    """
+    release = data.get("release")
+    spin = release.get("angular_velocity") if isinstance(release, dict) else None
+    own = [float(w) for w in spin or _ZERO]
+    if not any(own):
+        accepted = ", ".join(f"release.angular_velocity.{name}" for name in BODY)
+        raise ScenarioError(f"release.spin = {shown(size)}: the coin has no axis; accepted: {accepted}")
+    try:
+        rate = in_si(size, "rad/s") if isinstance(size, str) else float(size)
+    except (TypeError, ValueError) as error:
+        raise ScenarioError(f"release.spin = {shown(size)}: accepted: {error}") from None
+    whole = math.hypot(*own)
+    return [w / whole * rate for w in own]

@@ -13,9 +13,9 @@ import numpy as np
 from cointoss.models.attitude import quaternion_from_angles
 from cointoss.models.body import Body
 from cointoss.models.errors import FieldError, ScenarioError
-from cointoss.models.reading import plain_text, tables_of
+from cointoss.models.batch import STATE
+from cointoss.models.reading import ScenarioSource, plain_text, scenario_of, tables_of
 from cointoss.models.records import Array
-from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
 from cointoss.models.units import in_si
 from cointoss.models.words import Word
@@ -31,6 +31,8 @@ QUANTITIES = {
 """What a person calls the numbers of a hand that may vary, and their SI units in pint's spelling."""
 UPWARDS = ("heads", "either")
 """Sides that may be up at the release."""
+MOST = 10_000_000
+"""Releases that are drawn at a time: a gigabyte."""
 PEOPLE = math.radians(10.0)
 """Root of the mean square of 90° - ψ over 48 people who flipped 350,757 times [rad].
 
@@ -123,8 +125,35 @@ class Hand:
             f"{self.spin:.6g} rad/s, each ± {100 * self.scatter:.3g} %, {psi}{caught}"
         )
 
-    def releases(self, body: Body, rng: np.random.Generator, count: int) -> Releases:
-        """Draw releases; L is as likely to point to any side, and any point of the rim to be the lowest.
+    def releases(self, scenario: ScenarioSource, n: int, *, seed: int = 0) -> dict[str, Any]:
+        """Draw releases of a scenario's coin, as `cointoss.toss_many` takes them.
+
+            cointoss.toss_many("zloty", hand.releases("zloty", 1000) | {"restitution": "0.2:0.8:7"})
+
+        Args:
+            scenario: a `Scenario`, the path of its file, or the name of one that comes with the package.
+            n: how many.
+            seed: of the draws.
+
+        Returns:
+            The numbers of each release by field, arrays of n; and the height at which the hand catches the
+            coin, where it does.
+
+        Raises:
+            ScenarioError: for a scenario that can't be used, or a catch below the coin.
+            ValueError: for another n.
+        """
+        if isinstance(n, bool) or not isinstance(n, int | np.integer) or not 1 <= n <= MOST:
+            raise ValueError(f"n: {n!r}, accepted: a whole number from 1 to {MOST}")
+        described = self.scenario(scenario_of(scenario))
+        states = self.states(described.body, np.random.default_rng(seed), int(n))
+        caught = {} if self.caught is None else {"ending.caught": self.caught}
+        return dict(zip(STATE, states.T.copy(), strict=True)) | caught
+
+    def states(self, body: Body, rng: np.random.Generator, count: int) -> Array:
+        """Draw the states at release, (n, 13): position, velocity, Euler parameters, angular velocity.
+
+        L is as likely to point to any side, and any point of the rim to be the lowest.
 
         Args:
             body: the coin.
@@ -142,15 +171,17 @@ class Hand:
         momentum = (inertia[0, 0] * spin)[:, None] * direction
         turned = self._turned(rng, count)
         # The other side comes up by a half turn about ξ; the angular velocity in space stays.
-        return Releases(
-            position=_along_z(height),
-            velocity=_along_z(speed),
-            quaternion=np.where(turned, (0.0, 1.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)),
-            angular_velocity=np.where(turned, (1, -1, -1), 1) * np.linalg.solve(inertia, momentum.T).T,
+        return np.hstack(
+            [
+                _along_z(height),
+                _along_z(speed),
+                np.where(turned, (0.0, 1.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)),
+                np.where(turned, (1, -1, -1), 1) * np.linalg.solve(inertia, momentum.T).T,
+            ]
         )
 
-    def _spun(self, body: Body, rng: np.random.Generator, count: int) -> Releases:
-        """Draw releases of a coin whose rim touches the floor, C at rest, turning about the vertical."""
+    def _spun(self, body: Body, rng: np.random.Generator, count: int) -> Array:
+        """Draw states of a coin whose rim touches the floor, C at rest, turning about the vertical."""
         spin = self._scattered(self.spin, rng, count)
         psi, phi = rng.normal(self.psi, self.psi_scatter, count), rng.uniform(0, 2 * np.pi, count)
         psi = np.where(self._turned(rng, count)[:, 0], np.pi - psi, psi)
@@ -158,11 +189,14 @@ class Hand:
         vertical = np.column_stack([np.sin(psi) * np.sin(phi), np.sin(psi) * np.cos(phi), np.cos(psi)])
         lowest = body.radius * np.hypot(vertical[:, 0], vertical[:, 1])
         lowest += body.thickness / 2 * np.abs(vertical[:, 2])
-        return Releases(
-            position=_along_z(lowest + vertical @ np.array(body.center)),
-            velocity=np.zeros((count, 3)),
-            quaternion=np.array([quaternion_from_angles((0.0, *row)) for row in zip(psi, phi, strict=True)]),
-            angular_velocity=spin[:, None] * vertical,
+        quaternions = [quaternion_from_angles((0.0, *row)) for row in zip(psi, phi, strict=True)]
+        return np.hstack(
+            [
+                _along_z(lowest + vertical @ np.array(body.center)),
+                np.zeros((count, 3)),
+                np.array(quaternions).reshape(count, 4),
+                spin[:, None] * vertical,
+            ]
         )
 
     def _scattered(self, mean: float, rng: np.random.Generator, count: int) -> Array:

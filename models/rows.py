@@ -20,7 +20,7 @@ from cointoss.models.faults import (
     fault_of_toss,
 )
 from cointoss.models.fields import BODY, COMPONENTS
-from cointoss.models.kernel.arrays import Array, Row
+from cointoss.models.kernel.arrays import Array, Codes, Row, Table
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector
 from cointoss.models.laws import ContactLaw, EndingTest, RestitutionKind
@@ -249,6 +249,46 @@ def fault_of(body, row):
     """Return what is wrong with the scenario of a row, whose coin is made."""
     found = fault_of_parts(row)
     return found if found.fault != Fault.NONE else fault_of_toss(body, rules_of(row), release_of(row))
+
+
+@compiled
+def bodies_alike(first: Array, second: Array) -> bool:
+    """Return whether two rows have the same coin, air and gravity."""
+    for i in range(_FLOOR):
+        if not (first[i] == second[i] or (math.isnan(first[i]) and math.isnan(second[i]))):
+            return False
+    return True
+
+
+@compiled
+def examine_each(rows: Table, faults: Codes) -> None:
+    """Write the `Fault` of each row, 0 of a scenario's.
+
+    Args:
+        rows: of numbers, each within its bounds where it is finite, (n, 46).
+        faults: where they go, (n,).
+    """
+    first = 0
+    while first < len(rows):
+        end = first + 1
+        while end < len(rows) and bodies_alike(rows[first], rows[end]):
+            end += 1
+        if foreign_number(rows[first]) >= 0:
+            for i in range(first, end):
+                faults[i] = Fault.ROW.value
+        elif has_linear_air(rows[first]):
+            _examine_run(body_of(rows[first], None), rows[first:end], faults[first:end])
+        else:
+            _examine_run(body_of(rows[first], rows[first, AIR_EXPONENT]), rows[first:end], faults[first:end])
+        first = end
+
+
+@compiled
+def _examine_run(body, rows, faults):
+    """Write the faults of rows with one coin, air and gravity."""
+    for i in range(len(rows)):
+        is_foreign = foreign_number(rows[i]) >= 0
+        faults[i] = Fault.ROW.value if is_foreign else fault_of(body, rows[i]).fault.value
 
 
 @compiled

@@ -91,10 +91,19 @@ class Scenario(Part):
         for name, new in zip(pairs[::2], pairs[1::2], strict=True):
             require_type("field", name, str, 'a dotted path, such as "floor.restitution"')
             put(data, name, new)
+        return Scenario.checked(data)
+
+    @classmethod
+    def checked(cls, tables: dict[str, Any]) -> "Scenario":
+        """Return the scenario of tables, checked as a scenario file is, without a word of unused fields.
+
+        Raises:
+            ScenarioError: naming field, value and what is accepted.
+        """
         try:
-            return Scenario.model_validate(data)
+            return cls.model_validate(tables)
         except ValidationError as error:
-            raise ScenarioError(describe(error, Scenario)) from None
+            raise ScenarioError(describe(error, cls)) from None
 
     def as_tables(self) -> dict[str, Any]:
         """Return the scenario as a file has it: numbers in SI, lists, words for what has a name."""

@@ -1,104 +1,53 @@
 """Many tosses cut into tiles, made on all cores."""
 
-import threading
-import warnings
 from collections import deque
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from concurrent.futures import wait
-from dataclasses import fields
-from typing import Any, NamedTuple
-
-import numpy as np
-from numpy.typing import NDArray
 
 from cointoss.models.cores import cores_used
 from cointoss.models.interruptible import begun
-from cointoss.models.kernel.arrays import Codes, Counts, Flags, Row, Table
-from cointoss.models.outcomes import Outcomes
-from cointoss.models.releases import Releases, states_of
 
 PARTS = 4
 """Tiles that each thread has at least, where there are tosses enough: all end at about the same time."""
+PATIENCE = 1.0
+"""How long an interruption waits for the tiles under way [s]."""
 
 
-class Tile(NamedTuple):
-    """Some tosses, a row each: where they start, and room for how they end."""
+def in_tiles(n: int, most: int, work: Callable[[slice], None], workers: int | None = None) -> None:
+    """Do work on n rows, tile by tile, on several threads.
 
-    states: Table
-    """At time 0, (k, 13)."""
-    outcome: Codes
-    ending: Codes
-    last_face: Codes
-    impacts: Counts
-    end_time: Row
-    trusted_impacts: Counts
-    outcome_certain: Flags
-
-
-def toss_in_tiles(
-    releases: Releases,
-    most: int,
-    toss_tile: Callable[[Tile], None],
-    progress: Callable[[int, int], None],
-    *,
-    also: Collection[str] = (),
-    partial: bool = False,
-) -> Outcomes:
-    """Make tosses, tile by tile, on the cores of `cores_used`.
+    A signal's handler that raises ends it: what was begun goes on unheeded for its tile, and no other begins.
 
     Args:
-        releases: the states at time 0.
-        most: tosses that a thread makes at a time, at most; Ctrl-C leaves them to their thread.
-        toss_tile: makes some tosses, and writes how they end. It should not hold Python's lock.
-        progress: called after each tile with the number of tosses so far and of all, on any thread.
-        also: the optional columns of `Outcomes` that it writes.
-        partial: whether Ctrl-C returns what is done, with a warning, instead of raising KeyboardInterrupt.
-
-    Returns:
-        How each toss ended, in the order of `releases`.
+        n: number of rows.
+        most: rows of a tile, at most.
+        work: done on each tile's rows; it should not hold Python's lock.
+        workers: number of threads, by default that of `cores_used`.
     """
-    n = len(releases)
-    found: dict[str, NDArray[Any]] = {
-        item.name: np.zeros(n, item.metadata["kind"]) for item in fields(Outcomes)
-    }
-    columns = Tile(states_of(releases), **found)
+    threads = workers or cores_used()
+    tile = min(most, max(1, n // (PARTS * threads)))
+    left = deque(range(0, n, tile))
 
-    cores = cores_used()
-    tile = min(most, max(1, n // (PARTS * cores)))
-    left, done, counting = deque(range(0, n, tile)), 0, threading.Lock()
-
-    def toss_what_is_left() -> None:
-        nonlocal done
+    def work_on_what_is_left() -> None:
         while True:
             try:
                 first = left.popleft()
             except IndexError:
                 return
             try:
-                toss_tile(Tile._make(column[first : first + tile] for column in columns))
+                work(slice(first, min(first + tile, n)))
             except BaseException:
                 left.clear()
                 raise
-            with counting:
-                done += min(tile, n - first)
-                progress(done, n)
 
-    tossing = [begun(toss_what_is_left) for _ in range(min(len(left), cores))]
+    working = [begun(work_on_what_is_left) for _ in range(min(len(left), threads))]
     try:
-        wait(tossing)
+        wait(working)
     except KeyboardInterrupt:
-        if not partial:
-            raise
         left.clear()
-        wait(tossing)  # for the tiles under way, unless Ctrl-C comes again
-        warnings.warn(
-            f"interrupted: {done:,} of {n:,} tosses were made; the others have the ending none", stacklevel=3
-        )
+        wait(working, timeout=PATIENCE)
+        raise
     finally:
-        left.clear()  # a signal's handler may have raised
-    for each in tossing:
+        left.clear()
+    for each in working:
         each.result()
-    for item in fields(Outcomes):
-        if item.default is None and item.name not in also:
-            del found[item.name]
-    return Outcomes(**found)

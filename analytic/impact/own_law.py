@@ -197,20 +197,25 @@ def rules_by(law: OwnLaw | None, scenario: Scenario) -> Rules:
     if law is None:
         return rules
     require_type("law", law, OwnLaw, "a cointoss.OwnLaw; a named law is the scenario's floor.contact")
+    require_floor(law, scenario)
+    most = scenario.ending.max_impacts or MOST_LOSSLESS
+    return rules._replace(law=ContactLaw.SHARP_EDGE, own=law.code, max_impacts=most)
+
+
+def require_floor(law: OwnLaw, scenario: Scenario) -> None:
+    """Refuse a floor that a law of one's own can't be used with; see `rules_by`."""
     floor = scenario.floor
     if floor.restitution > law.max_restitution:
         raise UnsupportedError(
             f"floor.restitution = {floor.restitution:g}: accepted: up to max_restitution, "
             f"{law.max_restitution:g}, of the law {law.name}"
         )
-    if resists(rules):
+    if resists(scenario.rules):
         key = "rolling_friction" if floor.rolling_friction > 0 else "pivoting_friction"
         raise UnsupportedError(
             f"floor.{key} = {getattr(floor, key):g}: accepted: 0 with the law {law.name}, "
             "which is not followed into sustained contact"
         )
-    most = scenario.ending.max_impacts or MOST_LOSSLESS
-    return rules._replace(law=ContactLaw.SHARP_EDGE, own=law.code, max_impacts=most)
 
 
 def residuals(law: OwnLaw, body: Body, rules: Rules, impacts: Impacts) -> Array:

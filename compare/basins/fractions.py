@@ -3,7 +3,7 @@
 from numpy.typing import ArrayLike
 
 from cointoss.compare.basins.maps import outcome_codes
-from cointoss.models.outcomes import tally
+from cointoss.models.answers import tally
 from cointoss.models.records import Outcome
 
 

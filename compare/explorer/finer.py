@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.grid import Sweep, Tile
+from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.layers import NOT_TOSSED
-from cointoss.compare.sweep.pixels import toss_pixels
+from cointoss.compare.sweep.run import toss_part
 
 SIDE = 32
 """Of a tile, in pixels of the finer map."""
@@ -42,7 +42,8 @@ def toss_tile(sweep: Sweep, level: int, column: int, row: int) -> NDArray[np.int
     outcome = np.full((SIDE, SIDE), NOT_TOSSED, dtype=np.int8)
     if x is not None and y is not None:
         finer = replace(sweep, x=x, y=y, margin=None, trust=False)
-        outcome[rows, columns] = toss_pixels(finer, Tile(slice(0, y.count), slice(0, x.count))).outcome
+        tossed = toss_part(finer, np.arange(y.count * x.count))["outcome"]
+        outcome[rows, columns] = tossed.reshape(finer.shape)
     return outcome
 
 

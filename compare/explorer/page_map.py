@@ -8,7 +8,7 @@ import numpy as np
 
 from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.layers import NOT_TOSSED
-from cointoss.compare.sweep.outcome_map import OutcomeMap
+from cointoss.compare.sweep.tossed_map import TossedMap
 from cointoss.compare.web.playable import shown_outcomes
 
 MOST_SHOWN = 4_000_000
@@ -16,7 +16,7 @@ MOST_SHOWN = 4_000_000
 _KINDS = {"outcome": "<i1", "impacts": "<i4", "margin": "<f4", "trusted_impacts": "<i4", "untrusted": "<i1"}
 
 
-def page_map(found: OutcomeMap) -> dict[str, Any]:
+def page_map(found: TossedMap) -> dict[str, Any]:
     """Return a map as JSON; arrays row by row in base64, little-endian."""
     sweep = found.sweep
     margin = sweep.quantity if sweep.margin else None

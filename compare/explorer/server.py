@@ -21,7 +21,7 @@ from cointoss.compare.explorer.tosses import require_inside, toss_pixel
 from cointoss.compare.explorer.turns import Client, in_turn
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.reading import read_map
+from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.models.errors import ScenarioError
 from cointoss.models.records import UnsupportedError
 
@@ -62,7 +62,7 @@ class Explorer(ThreadingTCPServer):
             UnwritableError: for a port that can't be had.
         """
         self.path = path
-        self.sweep = read_map(path, most=MOST_SHOWN).sweep
+        self.sweep = tossed_map_at(path, most=MOST_SHOWN).sweep
         self.files = {f"/{name}": content for name, content in page_files().items()}
         self.turns = {path: threading.Lock() for path in ("/map", "/toss", "/tile")}
         try:
@@ -141,7 +141,7 @@ class Request(BaseHTTPRequestHandler):
 
     def _map(self, query: Query) -> Any:
         _require_names(query)
-        return page_map(read_map(self.server.path, most=MOST_SHOWN))
+        return page_map(tossed_map_at(self.server.path, most=MOST_SHOWN))
 
     def _toss(self, query: Query) -> Any:
         _require_names(query, "x", "y", also="engine")

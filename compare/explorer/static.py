@@ -1,7 +1,5 @@
 """The explorer as one file: the page, its map, and the tosses of some pixels; it needs no server."""
 
-from dataclasses import replace
-from itertools import count
 from pathlib import Path
 
 import numpy as np
@@ -12,8 +10,8 @@ from cointoss.compare.explorer.page_map import page_map
 from cointoss.compare.explorer.tosses import MOST_IMPACTS, toss_pixel
 from cointoss.compare.output.files import write_text
 from cointoss.compare.sweep.grid import Sweep
-from cointoss.compare.sweep.outcome_map import OutcomeMap
-from cointoss.compare.sweep.reading import read_map
+from cointoss.compare.sweep.reading import tossed_map_at
+from cointoss.compare.sweep.tossed_map import TossedMap
 from cointoss.compare.web.scripts import ENGINE_POLICY, POLICY, one_file
 from cointoss.compare.web.wasm.carried import engine_data
 from cointoss.models.notebook import Frame
@@ -42,22 +40,15 @@ def write_static(map_path: Path, out: Path) -> None:
         MapError, ScenarioError: for what is no map.
         UnwritableError: naming the file and why.
     """
-    write_text(out, _page(read_map(map_path, most=MOST_PIXELS), TOSSED))
+    write_text(out, _page(tossed_map_at(map_path, most=MOST_PIXELS), TOSSED))
 
 
-def explore(shown: OutcomeMap) -> Frame:
+def explore(shown: TossedMap) -> Frame:
     """Return a frame with that page of a map, for a notebook."""
-    return Frame(f"map of {shown.sweep.title}", _page(_thinned(shown), TOSSED_IN_FRAME), HEIGHT)
+    return Frame(f"map of {shown.sweep.title}", _page(shown.thinned(MOST_PIXELS), TOSSED_IN_FRAME), HEIGHT)
 
 
-def _thinned(whole: OutcomeMap) -> OutcomeMap:
-    """Return a map, or every second, third, ... of its pixels along both axes, for a page."""
-    step = next(step for step in count(1) if whole.outcome[::step, ::step].size <= MOST_PIXELS)
-    layers = {name: layer[::step, ::step] for name, layer in whole.layers.items()}
-    return replace(whole, **layers, stride=step * whole.stride)
-
-
-def _page(shown: OutcomeMap, tossed: tuple[int, int]) -> str:
+def _page(shown: TossedMap, tossed: tuple[int, int]) -> str:
     """Return the page of a map, with at most so many columns and rows of its pixels tossed."""
     sweep = shown.sweep
     columns, rows = (_spread(axis.count, most) for axis, most in zip((sweep.x, sweep.y), tossed, strict=True))

@@ -5,13 +5,15 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.stats import binom, binomtest, chi2_contingency, norm, t
+from scipy.stats import binom, chi2_contingency, norm, t
 
 from cointoss.compare.metrics.estimate import Estimate
 from cointoss.models.records import Array
 
 LEVEL = 0.99
 """Of all confidence intervals: of a hundred verdicts by chance alone one would be wrong."""
+Z = float(norm.ppf((1 + LEVEL) / 2))
+"""Standard deviations of a normal interval of this level."""
 FEWEST = 20
 """Values of a sample whose median is compared by a bootstrap."""
 PARTS = 20
@@ -37,10 +39,26 @@ def share_of(met: int, count: int, counted: str = "tosses") -> Estimate:
     Raises:
         ValueError: for more that meet it than there are, or a negative number.
     """
-    if count == 0 == met:
-        return Estimate(np.nan, 0.0, 1.0, 0, counted)
-    interval = binomtest(met, count).proportion_ci(LEVEL, "wilson")
-    return Estimate(met / count, float(interval.low), float(interval.high), count, counted)
+    if not 0 <= met <= count:
+        raise ValueError(f"met: {met}, accepted: a number from 0 to the count, {count}")
+    value, low, high = (float(one) for one in wilson(met, count))
+    return Estimate(value, low, high, count, counted)
+
+
+def wilson(met: ArrayLike, count: ArrayLike) -> tuple[Array, Array, Array]:
+    """Return shares of samples, and the ends of their intervals (E. B. Wilson, J. Am. Stat. Assoc. 22 (1927) 209).
+
+    Of no sample a share is NaN, and may be anything from 0 to 1.
+
+    Args:
+        met: how many of each sample meet something, of any shape.
+        count: how many each has.
+    """
+    k, n = np.broadcast_arrays(np.asarray(met, dtype=float), np.asarray(count, dtype=float))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        share = k / n
+    middle, wide = (k + Z**2 / 2) / (n + Z**2), Z * np.sqrt(k * (n - k) / np.maximum(n, 1) + Z**2 / 4) / (n + Z**2)
+    return share, np.where(k == 0, 0.0, middle - wide), np.where(k == n, 1.0, middle + wide)
 
 
 def mean_share(shares: ArrayLike, counted: str = "tosses") -> Estimate:

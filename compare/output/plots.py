@@ -1,11 +1,10 @@
-"""Plots of tosses and of outcomes, in axes of one's own or new ones."""
+"""Plots of tosses, in axes of one's own or new ones."""
 
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
-from cointoss.models.outcomes import Outcomes
 from cointoss.models.palette import COLORS
 from cointoss.models.records import Face, Toss
 
@@ -40,13 +39,4 @@ def plot_toss(toss: Toss, ax: Axes | None = None, **line: Any) -> Axes:
     axes.set(xlabel="time [s]", ylabel="height of the mass centre [m]")
     axes.legend()
     axes.set_title(f"{toss.outcome}, by the engine {toss.engine}")
-    return axes
-
-
-def plot_outcomes(outcomes: Outcomes, ax: Axes | None = None) -> Axes:
-    """Draw how many tosses had each outcome, as bars."""
-    axes, counts = axes_or_new(ax), outcomes.counts
-    bars = axes.bar(list(counts), list(counts.values()), color=[COLORS[name] for name in counts])
-    axes.bar_label(bars)
-    axes.set(xlabel="outcome", ylabel="tosses")
     return axes

@@ -16,7 +16,7 @@ from cointoss.compare.metrics.release_arrays import joined
 from cointoss.compare.shares.plan import Plan
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.run import next_pixels
-from cointoss.models.outcomes import tally
+from cointoss.models.answers import tally
 from cointoss.models.records import Outcome
 from cointoss.models.stages import stage
 

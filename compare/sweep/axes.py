@@ -1,15 +1,16 @@
-"""A span of a field of the scenario, and an axis of a map: such a span and its values."""
+"""How a field varies: a span that it may lie in, and an axis, the values that it takes."""
 
-import difflib
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.models.errors import MOST_NAMED, ScenarioError
+from cointoss.models.errors import ScenarioError, shown
 from cointoss.models.fields import UNITS, WORDS, lambda_unit, printed_unit
 from cointoss.models.hand import QUANTITIES
+from cointoss.models.names import SPIN, full_name
 from cointoss.models.parts import LARGEST
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
@@ -19,7 +20,9 @@ MOST_VALUES = 1_000_000
 """On one axis: a map of more than 1e12 pixels fits no disk."""
 HAND = {f"hand.{name}": unit for name, (_, unit) in QUANTITIES.items()}
 """The SI units of a hand's numbers, by field."""
-_WORDS = {**WORDS, **{f"hand.{name}": word for name, (word, _) in QUANTITIES.items()}}
+NUMBERS = {**UNITS, SPIN: "rad/s"}
+"""The SI units of all fields of a scenario that are numbers, in pint's spelling."""
+_WORDS = {**WORDS, SPIN: "spin", **{f"hand.{name}": word for name, (word, _) in QUANTITIES.items()}}
 FORM = "FIELD=START:STOP:N, such as release.position.z=0.2:0.6:400"
 SPAN_FORM = "FIELD=START:STOP, such as release.position.z=0.2:0.6"
 
@@ -42,7 +45,7 @@ class Span:
     @property
     def word(self) -> str:
         """What a person calls its field."""
-        return _WORDS.get(self.field, self.field)
+        return word_of(self.field)
 
     @property
     def printed_unit(self) -> str:
@@ -68,7 +71,12 @@ class Axis(Span):
         return next(texts for texts in written if len(set(texts)) == self.count)
 
 
-def parse_axis(text: str, scenario: Scenario, units: Mapping[str, str] = UNITS) -> Axis:
+def word_of(field: str) -> str:
+    """Return what a person calls a field."""
+    return _WORDS.get(field, field)
+
+
+def parse_axis(text: str, scenario: Scenario, units: Mapping[str, str] = NUMBERS) -> Axis:
     """Read an axis from FIELD=START:STOP:N; numbers are SI, or carry a unit: "coin.mass=2 g:5 g:100".
 
     Args:
@@ -79,18 +87,30 @@ def parse_axis(text: str, scenario: Scenario, units: Mapping[str, str] = UNITS) 
     Raises:
         SweepError: naming what is wrong and what is accepted.
     """
-    field, parts = split_span(text, 3, FORM)
-    span = span_of(field, parts[0], parts[1], unit_of(field, scenario, units))
+    field, ends = split_span(text, 3, FORM)
+    return axis_of(field, ends, scenario, units)
+
+
+def axis_of(
+    name: str, ends: Sequence[Any], scenario: Scenario, units: Mapping[str, str] = NUMBERS
+) -> Axis:
+    """Return an axis; the arguments are those of `parse_axis`, but for its field and START, STOP and N.
+
+    Raises:
+        SweepError: naming what is wrong and what is accepted.
+    """
+    span = span_of(name, ends[:2], scenario, units)
+    text = f"{span.field}={ends[0]}:{ends[1]}:{ends[2]}"
     try:
-        count = int(parts[2])
-    except ValueError:
+        count = int(ends[2])
+    except (ValueError, TypeError):
         count = 0
-    if not 2 <= count <= MOST_VALUES:
-        raise SweepError(f"{text}: N = {parts[2]}; accepted: a whole number from 2 to {MOST_VALUES}")
+    if not 2 <= count <= MOST_VALUES or str(ends[2]).strip() != str(count):
+        raise SweepError(f"{text}: N = {ends[2]}; accepted: a whole number from 2 to {MOST_VALUES}")
     axis = Axis(**vars(span), count=count)
     if len(np.unique(axis.values)) < count:
         raise SweepError(f"{text}: not {count} numbers between both; accepted: ends that are farther apart")
-    if field == "ending.max_impacts" and not np.all(np.mod(axis.values, 1) == 0):
+    if span.field == "ending.max_impacts" and not np.all(np.mod(axis.values, 1) == 0):
         raise SweepError(f"{text}: accepted: START, STOP and N that give whole numbers only, such as 1:9:9")
     return axis
 
@@ -108,16 +128,20 @@ def split_span(text: str, parts: int, form: str) -> tuple[str, list[str]]:
     return field.strip(), found
 
 
-def span_of(field: str, start: str | float, stop: str | float, unit: str) -> Span:
-    """Return the span of a field; numbers are in `unit`, texts are such numbers or carry a unit of theirs.
+def span_of(
+    name: str, ends: Sequence[Any], scenario: Scenario, units: Mapping[str, str] = NUMBERS
+) -> Span:
+    """Return the span of a field between two ends: numbers in SI, or texts, which may carry a unit.
 
     Raises:
         SweepError: naming what is wrong and what is accepted.
     """
-    ends = [_number(field, end, unit) for end in (start, stop)]
-    if ends[0] == ends[1]:
-        raise SweepError(f"{field}={start}:{stop}: START = STOP; accepted: two numbers that differ")
-    return Span(field=field, unit=unit, start=ends[0], stop=ends[1])
+    field = named(name, units)
+    unit = unit_of(field, scenario, units)
+    start, stop = (number(field, end, unit) for end in ends)
+    if start == stop:
+        raise SweepError(f"{field}={ends[0]}:{ends[1]}: START = STOP; accepted: two numbers that differ")
+    return Span(field=field, unit=unit, start=start, stop=stop)
 
 
 def require_ends(span: Span, scenario: Scenario) -> None:
@@ -135,39 +159,41 @@ def require_ends(span: Span, scenario: Scenario) -> None:
             raise SweepError(f"{span.field}={span.start:g}:{span.stop:g}: {error}") from None
 
 
-def unit_of(field: str, scenario: Scenario, units: Mapping[str, str] = UNITS) -> str:
-    """Return the SI unit of one of the fields that are accepted, in pint's spelling.
+def named(name: object, known: Collection[str]) -> str:
+    """Return the field of a name, or of a part of it that no other field has, such as "restitution".
 
     Raises:
-        SweepError: for another field.
+        SweepError: naming what is accepted, and what may be meant.
     """
-    if field not in units:
-        what = "numeric field of a scenario" if field not in UNITS else "field that may vary here"
-        raise SweepError(f"{field}: no {what}; accepted: {_accepted(field, list(units))}")
+    if not isinstance(name, str):
+        raise SweepError(f"{shown(name)}: accepted: the name of a field, such as floor.restitution")
+    try:
+        return full_name(name, known)
+    except LookupError as error:
+        what = "field that may vary here" if name in NUMBERS else "numeric field of a scenario"
+        raise SweepError(f"{name}: no {what}; accepted: {error.args[0]}") from None
+
+
+def unit_of(field: str, scenario: Scenario, units: Mapping[str, str] = NUMBERS) -> str:
+    """Return the SI unit of a field in pint's spelling; those of λ depend on the scenario's exponent."""
     return lambda_unit(scenario.air.exponent) if field in ("air.normal", "air.tangential") else units[field]
 
 
-def _accepted(field: str, known: list[str]) -> str:
-    """Return the fields that a wrong name may mean: those called so, its components, or its neighbours."""
-    tables = list(dict.fromkeys(name.partition(".")[0] for name in known if "." in name))
-    table = field.partition(".")[0]
-    of_table = [name for name in known if table in tables and name.startswith(f"{table}.")]
-    near = difflib.get_close_matches(field, of_table, n=1)
-    named = [name for name in known if field in (name.rpartition(".")[2], _WORDS[name])]
-    found = named or [name for name in known if name.startswith(f"{field}.")] or near
-    others = of_table if 0 < len(of_table) <= MOST_NAMED else [f"numbers of {', '.join(tables)}, and gravity"]
-    hint = f" (did you mean {near[0]}?)" if near and not named else ""
-    return ", ".join(dict.fromkeys([*found, *others])) + hint
+def number(field: str, given: object, unit: str) -> float:
+    """Return a number in SI, or that of a text with a unit.
 
-
-def _number(field: str, text: str | float, unit: str) -> float:
+    Raises:
+        SweepError: naming the field, what was given and what is accepted.
+    """
     try:
-        number = float(text)
+        found = float(given) if not isinstance(given, bool) else None  # pyright: ignore[reportArgumentType]
     except (ValueError, TypeError):
+        found = None
+    if found is None:
         try:
-            number = in_si(str(text), unit)
+            found = in_si(str(given), unit)
         except ValueError as error:
-            raise SweepError(f"{field} = {text}: accepted: {error}") from None
-    if not abs(number) <= LARGEST:
-        raise SweepError(f"{field} = {text}: accepted: a finite number within {LARGEST:g}")
-    return number
+            raise SweepError(f"{field} = {given}: accepted: {error}") from None
+    if not abs(found) <= LARGEST:
+        raise SweepError(f"{field} = {given}: accepted: a finite number within {LARGEST:g}")
+    return found

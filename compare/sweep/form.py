@@ -7,16 +7,17 @@ what they decode, and sizes that fill the memory. Zarr is asked only after this 
 import json
 import math
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from cointoss.compare.sweep.axes import MOST_VALUES
+from cointoss.compare.sweep.axes import MOST_VALUES, NUMBERS
 from cointoss.compare.sweep.layers import LAYERS, trust_layer
 from cointoss.models.bounded import read_bounded
 from cointoss.models.errors import shown
-from cointoss.models.fields import UNITS
+from cointoss.models.rows import FIELDS
 
 FORMAT = 1
 """Of a map, under the attribute `cointoss_map`."""
@@ -37,8 +38,8 @@ _ATTRIBUTES = {
     "after": int | None,
     "versions": dict,
 }
-_DEEPEST = 3
-"""Folders within a map: an array, its chunks, those of a row."""
+_DEEPEST = 12
+"""Folders within a store: an array, its chunks, those along each dimension but the last."""
 
 
 class FormError(ValueError):
@@ -60,16 +61,57 @@ class Form(NamedTuple):
 
 
 def is_map(folder: Path) -> bool:
-    """Return whether a folder says that it is a map of this format."""
+    """Return whether a folder says that it is a map, or a store of tosses, of this format."""
     try:
-        return _description(folder)["attributes"]["cointoss_map"] == FORMAT
-    except (OSError, ValueError, LookupError, TypeError):
+        attributes = _description(folder)["attributes"]
+        return FORMAT in (attributes.get("cointoss_map"), attributes.get("cointoss_tosses"))
+    except (OSError, ValueError, LookupError, TypeError, AttributeError):
         return False
+
+
+def read_attributes(folder: Path) -> dict[str, Any]:
+    """Return the attributes of a map or a store of tosses, of the kinds that it must have.
+
+    Raises:
+        FormError: for a folder that is none.
+        OSError: if a file can't be read.
+    """
+    _require_plain(folder)
+    attributes = _description(folder).get("attributes")
+    if not isinstance(attributes, dict) or not is_map(folder):
+        raise FormError("attribute cointoss_map missing")
+    for name, kind in _ATTRIBUTES.items():
+        if not isinstance(attributes.get(name), kind):
+            raise FormError(f"attribute {name} = {shown(attributes.get(name))}")
+    return attributes
+
+
+def require_arrays(
+    folder: Path, sizes: Mapping[str, int], layers: Mapping[str, Any], coordinates: Mapping[str, Any]
+) -> None:
+    """Refuse a store whose arrays are described otherwise than those of a layout; see `store.Layout`.
+
+    Raises:
+        FormError: naming the array.
+        OSError: if a file can't be read.
+    """
+    shape = tuple(sizes.values())
+    tile = _sizes("outcome", _description(folder / "outcome").get("chunk_grid"), within=shape)
+    if math.prod(tile) > MOST_IN_TILE:
+        raise FormError(f"array outcome: tiles of {tile} tosses")
+    for name, layer in layers.items():
+        written = "NaN" if math.isnan(layer.fill_value) else layer.fill_value
+        due = _array(np.dtype(layer.kind).name, written, shape, tile, tuple(sizes))
+        _require_array(name, _description(folder / name), due)
+    for field, (dims, values, _) in coordinates.items():
+        zero = 0 if values.dtype.kind == "i" else 0.0
+        due = _array(values.dtype.name, zero, values.shape, values.shape, dims)
+        _require_array(field, _description(folder / field), due)
 
 
 def foreign_entry(folder: Path) -> str | None:
     """Return the name of something in a map's folder that is no part of a map, if there is any."""
-    known = {DESCRIPTION, *LAYERS, *UNITS}
+    known = {DESCRIPTION, *LAYERS, *NUMBERS, *FIELDS}
     return min((entry.name for entry in folder.iterdir() if entry.name not in known), default=None)
 
 
@@ -153,7 +195,7 @@ def _form(folder: Path) -> Form:
     for name, due in (("zarr_format", 3), ("node_type", "group")):
         if described.get(name) != due:
             raise FormError(f"{name} = {shown(described.get(name))}, not {due}")
-    absent = {"margin", "trusted_impacts", "outcome_certain"}
+    absent = set(LAYERS) - {"outcome", "impacts"}
     absent -= {"margin"} if MARGIN_ALONG in attributes else set()
     absent -= {trust_layer(attributes["after"])} if TRUST in attributes else set()
     arrays = _arrays(folder, described, set(LAYERS) - absent)
@@ -162,7 +204,7 @@ def _form(folder: Path) -> Form:
     tile = _sizes("outcome", arrays["outcome"].get("chunk_grid"), within=shape)
     if math.prod(tile) > MOST_IN_TILE:
         raise FormError(f"array outcome: tiles of {tile[1]} by {tile[0]} pixels")
-    for name, (kind, fill_value) in LAYERS.items():
+    for name, (kind, fill_value, _) in LAYERS.items():
         if name in arrays:
             written = "NaN" if math.isnan(fill_value) else fill_value
             due = _array(np.dtype(kind).name, written, shape, tile, ("y", "x"))
@@ -179,7 +221,7 @@ def _arrays(folder: Path, described: dict[str, Any], layers: set[str]) -> dict[s
     if layers - set(listed):
         raise FormError(f"array {min(layers - set(listed))} missing")
     fields = set(listed) - layers
-    if len(fields) != 2 or not fields <= set(UNITS):
+    if len(fields) != 2 or not fields <= set(NUMBERS):
         raise FormError(f"fields of its axes: {shown(sorted(fields))}, not two of a scenario")
     arrays = {name: _description(folder / name) for name in listed}
     for name, found in arrays.items():

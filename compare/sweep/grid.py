@@ -3,15 +3,19 @@
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import groupby
-from typing import TYPE_CHECKING, NamedTuple
+from functools import cached_property
+from itertools import product
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.compare.engines import Engine, EngineSettings
 from cointoss.compare.sweep.axes import Axis
+from cointoss.compare.sweep.batch import Batch, Varied
 from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.pieces import How
+from cointoss.models.answers import Trust
 from cointoss.models.scenario import Scenario
 from cointoss.models.title import title_of_toss
 
@@ -26,13 +30,6 @@ MARGIN_TOSSES = 64
 """Tosses that the margin of a pixel takes, about."""
 MOST_TILES = 1 << 13
 """In a map, about; a large one has larger tiles."""
-
-
-class Tile(NamedTuple):
-    """A rectangle of pixels."""
-
-    rows: slice
-    columns: slice
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,6 +89,26 @@ class Sweep:
         """Which coin is tossed, in a few words, but for what varies."""
         return title_of_toss(self.scenario, self.name, varied=(self.x.field, self.y.field))
 
+    @cached_property
+    def batch(self) -> Batch:
+        """The tosses of its pixels, row by row, each up to the touch that is shown."""
+        scenario = self.scenario
+        if self.after is not None:
+            most = scenario.ending.max_impacts
+            stop = self.after + 1 if most is None else min(self.after + 1, most)
+            scenario = scenario.replace("ending.max_impacts", stop)
+        varied = (
+            Varied(field=axis.field, dims=(dim,), values=axis.values)
+            for dim, axis in (("y", self.y), ("x", self.x))
+        )
+        return Batch(scenario=scenario, varied=tuple(varied), sizes={"y": self.y.count, "x": self.x.count})
+
+    @property
+    def how(self) -> How:
+        """How its pixels are tossed."""
+        trust: Trust | None = ("certain" if self.after is None else "impacts") if self.trust else None
+        return How(engine=self.engine, settings=self.settings, trust=trust)
+
     @property
     def shape(self) -> tuple[int, int]:
         """Pixels in y and x."""
@@ -99,80 +116,38 @@ class Sweep:
 
 
 def tile_shape(sweep: Sweep) -> tuple[int, int]:
-    """Give the pixels of a tile in y and x: about square, or long where the coin stays the same.
-
-    Only tosses of one coin on one floor are made together, so a tile extends along an axis of the release
-    where the other axis is none.
-    """
+    """Return the pixels of a tile in y and x, about square."""
     ny, nx = sweep.shape
-    most = TILE_TOSSES[sweep.engine]
-    if sweep.scenario.air.exponent > 0 or "air.exponent" in (sweep.x.field, sweep.y.field):
-        most = min(most, SLOW_TILE_TOSSES)
+    most = tosses_in_tile(sweep.engine, sweep.batch)
     if sweep.margin is not None:
         most //= MARGIN_TOSSES
     most = max(most, ny * nx // MOST_TILES, 1)
-    x_of_release, y_of_release = sweep.x.is_of_release, sweep.y.is_of_release
-    if x_of_release and not y_of_release:
-        columns = min(nx, most)
-    elif y_of_release and not x_of_release:
-        columns = min(nx, max(1, most // ny))
-    else:
-        columns = min(nx, max(math.isqrt(most), most // ny))
+    columns = min(nx, max(math.isqrt(most), most // ny))
     return min(ny, most // columns), columns
 
 
-def cut(tile: Tile, pixels: int, *, along_x: bool) -> tuple[Tile, list[Tile]]:
-    """Return the first part of a tile, of at most so many pixels, and the parts that are left.
+def tosses_in_tile(engine: Engine, batch: Batch) -> int:
+    """Return the most tosses of a batch in a tile: seconds of work."""
+    is_slow = batch.scenario.air.exponent > 0 or "air.exponent" in batch.fields
+    return min(TILE_TOSSES[engine], SLOW_TILE_TOSSES) if is_slow else TILE_TOSSES[engine]
+
+
+def tiles(shape: tuple[int, ...], tile: tuple[int, ...]) -> Iterator[tuple[slice, ...]]:
+    """Cut a grid into tiles in the order of a C array; those at the far ends may be smaller.
 
     Args:
-        tile: what to cut.
-        pixels: from 1 on.
-        along_x: whether pixels of one row are kept together; else those of one column.
+        shape: of the grid.
+        tile: of a tile, along the same dimensions.
     """
-    if not along_x:
-        first, left = cut(Tile(*tile[::-1]), pixels, along_x=True)
-        return Tile(*first[::-1]), [Tile(*part[::-1]) for part in left]
-    (top, bottom, _), (start, stop, _) = (part.indices(part.stop) for part in tile)
-    whole_rows = min(pixels // (stop - start), bottom - top)
-    if whole_rows:
-        end, first, left = top + whole_rows, Tile(slice(top, top + whole_rows), tile.columns), []
-    else:
-        end, middle, row = top + 1, start + pixels, slice(top, top + 1)
-        first, left = Tile(row, slice(start, middle)), [Tile(row, slice(middle, stop))]
-    return first, left + ([Tile(slice(end, bottom), tile.columns)] if end < bottom else [])
+    sides = (range(0, size, length) for size, length in zip(shape, tile, strict=True))
+    for corner in product(*sides):
+        yield tuple(
+            slice(first, min(first + length, size))
+            for first, length, size in zip(corner, tile, shape, strict=True)
+        )
 
 
-def gaps(tile: Tile, tossed: NDArray[np.bool_]) -> list[Tile]:
-    """Return the parts of a tile that hold all pixels that are not tossed, and few others.
-
-    Args:
-        tile: of a map.
-        tossed: whether each pixel is, (y, x).
-    """
-    found, top = [], tile.rows.start
-    for run, rows in groupby(map(_missing, tossed)):
-        bottom = top + len(list(rows))
-        if run is not None:
-            columns = slice(tile.columns.start + run[0], tile.columns.start + run[1])
-            found.append(Tile(slice(top, bottom), columns))
-        top = bottom
-    return found
-
-
-def _missing(row: NDArray[np.bool_]) -> tuple[int, int] | None:
-    """Return the first and the end of those that are false; None where none is."""
-    where = np.flatnonzero(~row)
-    return (int(where[0]), int(where[-1]) + 1) if len(where) else None
-
-
-def tiles(shape: tuple[int, int], tile: tuple[int, int]) -> Iterator[Tile]:
-    """Cut a map into tiles, row by row; those at the far ends may be smaller.
-
-    Args:
-        shape: of the map, pixels in y and x.
-        tile: of a tile, likewise.
-    """
-    (ny, nx), (rows, columns) = shape, tile
-    for top in range(0, ny, rows):
-        for left in range(0, nx, columns):
-            yield Tile(slice(top, min(top + rows, ny)), slice(left, min(left + columns, nx)))
+def numbers_in(part: tuple[slice, ...], shape: tuple[int, ...]) -> NDArray[np.intp]:
+    """Return the numbers, in the order of a C array, of what lies in a part of a grid, over that part."""
+    sides = (np.arange(one.start, one.stop) for one in part)
+    return np.ravel_multi_index(np.ix_(*sides), shape)

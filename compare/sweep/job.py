@@ -15,9 +15,9 @@ from cointoss.compare.output.files import UnwritableError, require_file, written
 from cointoss.compare.report.contents import NOT_ASKED, require_folder
 from cointoss.compare.sweep import describe, run, store
 from cointoss.compare.sweep.axes import Axis, parse_axis
-from cointoss.compare.sweep.grid import Sweep, Tile
+from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.layers import trust_layer
-from cointoss.compare.sweep.pixels import Pixels, check, toss_pixels
+from cointoss.compare.sweep.pixels import check
 from cointoss.compare.sweep.untrusted import untrusted_pixels
 from cointoss.models.reading import parse
 from cointoss.models.scenario import Scenario
@@ -121,16 +121,17 @@ def make(job: Job, say: Say) -> Iterator[str]:
     sweeps = sweeps_of(job, scenario, x, y)
     if job.resume:
         for path, sweep in sweeps.items():
-            store.require_same(path, sweep)
+            store.require_same(path, store.layout_of_map(sweep, job.text))
     drawn, maps = len(sweeps) > 1 or job.png is not None, []
     margins = untrusted = None
     for sweep in sweeps.values():
         check(sweep)
         run.require_room(sweep, job.out.parent, maps=len(sweeps), drawn=drawn)
+    layouts = {path: store.layout_of_map(sweep, job.text) for path, sweep in sweeps.items()}
     with _tosser(job.scheduler, say) as tosser:
         for path, sweep in sweeps.items():
-            with store.opened(path, sweep, job.text, overwrite=job.overwrite) as map_:
-                run.fill(map_, sweep, tosser)
+            with store.opened(path, store.layout_of_map(sweep, job.text), overwrite=job.overwrite) as map_:
+                run.fill(map_, tosser(sweep))
                 yield describe.describe_map(path, sweep, run.fractions_of(map_))
                 if sweep.margin is not None:
                     margins = map_.whole("margin")
@@ -188,15 +189,11 @@ def _command(job: Job) -> str:
 
 
 @contextmanager
-def _tosser(scheduler: str | None, say: Say) -> Iterator[run.Tosser]:
+def _tosser(scheduler: str | None, say: Say) -> Iterator[Callable[[Sweep], run.Tosser]]:
     if scheduler is None:
         yield run.toss_here
         return
     from cointoss.compare.sweep.cluster import cluster
 
     with cluster(scheduler, say, "--resume goes on") as workers:
-
-        def toss_there(sweep: Sweep, tiles: Iterable[Tile]) -> Iterator[tuple[Tile, Pixels]]:
-            return workers(partial(toss_pixels, sweep), tiles, sweep.engine)
-
-        yield toss_there
+        yield lambda sweep: lambda parts: workers(partial(run.toss_part, sweep), parts, sweep.engine)

@@ -1,4 +1,4 @@
-"""The arrays of a map: their types, their attributes, and what they hold where no toss was made."""
+"""The arrays of a map and of a store of tosses: their types, attributes, and what they hold without a toss."""
 
 from typing import Any, NamedTuple
 
@@ -7,27 +7,25 @@ from numpy.typing import NDArray
 
 from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.grid import Sweep
+from cointoss.models.answers import COLUMNS, NOT_TOSSED, REFUSED
 from cointoss.models.labelled import meanings_of
 from cointoss.models.records import Outcome
 
-NOT_TOSSED = -1
-"""What `outcome` and the counts hold where no toss was made yet."""
-LAYERS: dict[str, tuple[type[np.number], float]] = {
-    "outcome": (np.int8, NOT_TOSSED),
-    "impacts": (np.int32, NOT_TOSSED),
-    "margin": (np.float64, np.nan),
-    "trusted_impacts": (np.int32, NOT_TOSSED),
-    "outcome_certain": (np.int8, NOT_TOSSED),
-}
-"""Types of the arrays over both axes, and what they hold where no toss was made."""
-
 
 class Layer(NamedTuple):
-    """An array of a map."""
+    """An array over the dimensions of a store."""
 
-    kind: type[np.number]
+    kind: type[np.generic]
     fill_value: float
     attributes: dict[str, Any]
+
+
+OF_TOSSES = {name: Layer(one.kind, one.missing, one.attributes) for name, one in COLUMNS.items()}
+"""The answers of tosses."""
+LAYERS = {name: Layer(one.kind, one.fill_value, {}) for name, one in OF_TOSSES.items()} | {
+    "margin": Layer(np.float64, np.nan, {})
+}
+"""All that there may be, without their attributes, which depend on what is asked for."""
 
 
 def layers_of(sweep: Sweep) -> dict[str, Layer]:
@@ -49,7 +47,7 @@ def layers_of(sweep: Sweep) -> dict[str, Layer]:
         meanings = meanings_of({NOT_TOSSED: "not_tossed", 0: "uncertain", 1: "certain"})
         about = "whether the engine's own errors cannot change the outcome"
         attributes["outcome_certain"] = {"long_name": about, **meanings}
-    return {name: Layer(*LAYERS[name], about) for name, about in attributes.items()}
+    return {name: LAYERS[name]._replace(attributes=about) for name, about in attributes.items()}
 
 
 def trust_layer(after: int | None) -> str:
@@ -58,12 +56,16 @@ def trust_layer(after: int | None) -> str:
 
 
 def holds_tosses(name: str, values: NDArray[Any]) -> NDArray[np.bool_]:
-    """Return where an array of a map, by its name, holds what a toss gave."""
+    """Return where an array, by its name, holds what a toss gave."""
     if name == "outcome":
-        return np.isin(values, list(Outcome))
+        return np.isin(values, [*Outcome, REFUSED])
     if name == "outcome_certain":
-        return np.isin(values, (0, 1))
-    return ~np.isnan(values) if name == "margin" else values >= 0
+        return np.isin(values, (0, 1, REFUSED))
+    if name == "margin":
+        return ~np.isnan(values)
+    if name == "end_time":  # NaN, too, of what is no scenario
+        return np.ones(values.shape, dtype=bool)
+    return (values >= 0) | (values == REFUSED)
 
 
 def bytes_per_pixel(sweep: Sweep) -> int:

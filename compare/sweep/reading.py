@@ -1,40 +1,47 @@
 """Read a map from disk: what it is of, and the pixels that are tossed."""
 
 from collections.abc import Iterable
-from dataclasses import fields, replace
 from numbers import Integral
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.compare.engines import Engine, EngineSettings
+from cointoss.compare.engines import Engine
 from cointoss.compare.film.back_end import BackEndError, require_mujoco
-from cointoss.compare.sweep.axes import Axis
+from cointoss.compare.sweep.axes import Axis, unit_of
 from cointoss.compare.sweep.errors import MapError, SweepError
 from cointoss.compare.sweep.form import MARGIN_ALONG, TRUST, Form, read_form
 from cointoss.compare.sweep.grid import Sweep, tiles
 from cointoss.compare.sweep.layers import LAYERS, layers_of
-from cointoss.compare.sweep.outcome_map import OutcomeMap
-from cointoss.compare.sweep.store import Map
+from cointoss.compare.sweep.store import Store
+from cointoss.compare.sweep.tossed_map import TossedMap, settings_of
 from cointoss.models.errors import ScenarioError, shown
-from cointoss.models.fields import UNITS, lambda_unit
 from cointoss.models.reading import parse
 from cointoss.models.scenario import Scenario
 
-MOST_READ = 100_000_000
+if TYPE_CHECKING:
+    import xarray as xr
+
+MOST_READ = 50_000_000
 """Pixels of a map that is read."""
 MOST_NAME = 255
 """Characters of a scenario's name, as of a file's."""
 MOST_TILES = 1_000_000
 """Tiles of one."""
-MOST_STEPS = 1_000_000_000
-"""Of an engine, in the settings of one."""
 _ACCEPTED = "accepted: a map that cointoss basin made"
 
 
-def read_map(path: str | Path, *, most: int = MOST_READ) -> OutcomeMap:
+def read_map(path: str | Path, *, most: int = MOST_READ) -> "xr.Dataset":
+    """Return a map that `cointoss basin` made, as far as its tiles are tossed and whole.
+
+    The arguments and errors are those of `tossed_map_at`; what it returns is as of `cointoss.basin`.
+    """
+    return tossed_map_at(path, most=most).dataset()
+
+
+def tossed_map_at(path: str | Path, *, most: int = MOST_READ) -> TossedMap:
     """Return a map that `cointoss basin` made, as far as its tiles are tossed and whole.
 
     Args:
@@ -56,7 +63,7 @@ def read_map(path: str | Path, *, most: int = MOST_READ) -> OutcomeMap:
         raise MapError(f"{path}: {'is no' if path.exists() else 'no such'} folder; {_ACCEPTED}")
     try:
         form = read_form(path)
-        map_ = Map.at(path, "r")
+        map_ = Store.at(path, "r")
         sweep = _sweep(path, form, map_)
         layers = layers_of(sweep)
     except (ScenarioError, BackEndError):
@@ -73,7 +80,7 @@ def read_map(path: str | Path, *, most: int = MOST_READ) -> OutcomeMap:
     stride = 1
     while -(-ny // stride) * -(-nx // stride) > most:
         stride += 1
-    return OutcomeMap(name=path.name, sweep=sweep, stride=stride, **_read(map_, form, layers, stride))
+    return TossedMap(name=path.name, sweep=sweep, stride=stride, layers=_read(map_, form, layers, stride))
 
 
 def is_whole(number: object) -> bool:
@@ -81,7 +88,7 @@ def is_whole(number: object) -> bool:
     return isinstance(number, Integral) and not isinstance(number, bool)
 
 
-def _sweep(path: Path, form: Form, map_: Map) -> Sweep:
+def _sweep(path: Path, form: Form, map_: Store) -> Sweep:
     attributes = form.attributes
     scenario = parse(attributes["scenario"], f"{path}: attribute scenario")
     engine = Engine(attributes["engine"])
@@ -98,7 +105,7 @@ def _sweep(path: Path, form: Form, map_: Map) -> Sweep:
         engine=engine,
         x=_axis(form.x, map_, scenario),
         y=_axis(form.y, map_, scenario),
-        settings=_settings(engine, attributes["engine_settings"]),
+        settings=settings_of(engine, attributes["engine_settings"]),
         after=after,
         margin=attributes.get(MARGIN_ALONG),
         trust=TRUST in attributes,
@@ -106,12 +113,11 @@ def _sweep(path: Path, form: Form, map_: Map) -> Sweep:
     )
 
 
-def _axis(field: str, map_: Map, scenario: Scenario) -> Axis:
+def _axis(field: str, map_: Store, scenario: Scenario) -> Axis:
     values = map_.whole(field)
-    is_lambda = field in ("air.normal", "air.tangential")
     axis = Axis(
         field=field,
-        unit=lambda_unit(scenario.air.exponent) if is_lambda else UNITS[field],
+        unit=unit_of(field, scenario),
         start=float(values[0]),
         stop=float(values[-1]),
         count=len(values),
@@ -121,20 +127,9 @@ def _axis(field: str, map_: Map, scenario: Scenario) -> Axis:
     return axis
 
 
-def _settings(engine: Engine, found: dict[str, Any]) -> EngineSettings:
-    """Return the settings with which a map was tossed, but for those that are compiled in."""
-    settings: Any = engine.package.MANY
-    chosen = {item.name for item in fields(settings) if item.init}
-    given = {name: value for name, value in found.items() if name in chosen}
-    for name, value in given.items():
-        if isinstance(value, int) and value > MOST_STEPS:
-            raise ValueError(f"{name} = {shown(value)}")
-    return replace(settings, **given)
-
-
-def _read(map_: Map, form: Form, names: Iterable[str], stride: int) -> dict[str, NDArray[Any]]:
+def _read(map_: Store, form: Form, names: Iterable[str], stride: int) -> dict[str, NDArray[Any]]:
     ny, nx = (-(-count // stride) for count in form.shape)
-    arrays = {name: np.full((ny, nx), LAYERS[name][1], LAYERS[name][0]) for name in names}
+    arrays = {name: np.full((ny, nx), LAYERS[name].fill_value, LAYERS[name].kind) for name in names}
     for tile in tiles(form.shape, form.tile):
         tossed = map_.tossed(tile)
         if not tossed.any():
@@ -142,5 +137,5 @@ def _read(map_: Map, form: Form, names: Iterable[str], stride: int) -> dict[str,
         kept = tuple(slice(-(-part.start // stride), -(-part.stop // stride)) for part in tile)
         first = tuple(slice(-part.start % stride, None, stride) for part in tile)
         for name, array in arrays.items():
-            array[kept] = np.where(tossed, map_.read(tile, name), LAYERS[name][1])[first]
+            array[kept] = np.where(tossed, map_.read(tile, name), LAYERS[name].fill_value)[first]
     return arrays

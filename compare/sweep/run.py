@@ -1,10 +1,8 @@
-"""Fill a map with the tosses that it lacks."""
+"""Fill a store with the tosses that it lacks."""
 
 import math
 import os
 import shutil
-import time
-from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
@@ -14,93 +12,78 @@ from numpy.typing import NDArray
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.output.interruption import Interruption
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.grid import Sweep, Tile, cut, gaps
+from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.layers import bytes_per_pixel, trust_layer
-from cointoss.compare.sweep.pixels import Pixels, toss_pixels
-from cointoss.compare.sweep.store import Map
-from cointoss.models.outcomes import tally
+from cointoss.compare.sweep.pieces import pieces
+from cointoss.compare.sweep.pixels import Layers, pixels_of
+from cointoss.compare.sweep.store import Store
+from cointoss.models.answers import tally
 from cointoss.models.records import Outcome
 from cointoss.models.stages import stage
 
-Tosser = Callable[[Sweep, Iterable[Tile]], Iterator[tuple[Tile, Pixels]]]
-"""Tosses all pixels of tiles and gives these or parts of them, in any order."""
-
-FIRST, GROWTH, SECOND = 8, 8, 1.0
-"""Pixels of the first part that is tossed; how many times as many the next may have; and its time [s]."""
+Numbers = NDArray[np.intp]
+Tosser = Callable[[Iterable[Numbers]], Iterator[tuple[Numbers, Layers]]]
+"""Tosses what has these numbers, each part within a tile, and gives it or parts of it, in any order."""
 DRAWING_BYTES_PER_PIXEL = 80
 """Memory that measuring and drawing a map takes, at most."""
 
 
-def toss_here(sweep: Sweep, tiles: Iterable[Tile]) -> Iterator[tuple[Tile, Pixels]]:
-    """Toss tiles one after the other, on all cores of this machine, in parts of about a second.
+def toss_here(sweep: Sweep) -> Tosser:
+    """Return what tosses pixels one part after the other, on all cores of this machine."""
 
-    What a toss costs is known from the part before: some cost a thousand times what others do.
-    """
-    left, pixels = deque(tiles), FIRST
-    while left:
-        # Tosses of one coin are made together, so such pixels are kept together.
-        part, rest = cut(left.popleft(), pixels, along_x=sweep.x.is_of_release or not sweep.y.is_of_release)
-        left.extendleft(reversed(rest))
-        start = time.perf_counter()
-        tossed = toss_pixels(sweep, part)
-        pixels = next_pixels(tossed.outcome.size, time.perf_counter() - start)
-        yield part, tossed
+    def toss(parts: Iterable[Numbers]) -> Iterator[tuple[Numbers, Layers]]:
+        for numbers, answers in pieces(sweep.batch, sweep.how, parts):
+            yield numbers, pixels_of(sweep, numbers, answers)
+
+    return toss
 
 
-def next_pixels(pixels: int, seconds: float) -> int:
-    """Return how many pixels to toss next, where so many took so long [s]."""
-    return max(1, int(pixels * min(GROWTH, SECOND / max(seconds, 1e-9))))
+def toss_part(sweep: Sweep, numbers: Numbers) -> Layers:
+    """Return what is known of some pixels, tossed at once."""
+    rows = sweep.batch.rows(numbers)
+    how = sweep.how
+    answers = how.engine.package.toss_rows(rows, settings=how.settings, trust=how.trust)
+    return pixels_of(sweep, numbers, answers)
 
 
-def missing(map_: Map) -> list[Tile]:
-    """Return the parts of a map that are not on disk yet."""
-    if map_.is_empty:
-        return map_.tiles
-    return [part for tile in map_.tiles for part in gaps(tile, map_.tossed(tile))]
-
-
-def fill(map_: Map, sweep: Sweep, tosser: Tosser) -> None:
-    """Toss what a map lacks and keep each part as soon as it is tossed; an interruption says what is kept.
+def fill(store: Store, tosser: Tosser, *, shown: bool | None = None) -> None:
+    """Toss what a store lacks and keep each part as soon as it is tossed; an interruption says what is kept.
 
     Raises:
-        UnwritableError: naming the map and why.
-        SweepError, UnsupportedError: for a pixel that can't be tossed.
+        UnwritableError: naming the store and why.
+        ScenarioError, UnsupportedError: for what can't be tossed.
     """
-    left, whole, name = missing(map_), size(map_.tiles), map_.path.name
-    kept = whole - size(left)
+    whole, name = math.prod(store.shape), store.path.name
+    left = [tile for tile in store.tiles if store.is_empty or not store.tossed(tile).all()]
+    kept = whole - sum(int(store.missing(tile).size) for tile in left)
     try:
-        with stage(name, "tosses", total=whole, done=kept) as progress:
-            for tile, pixels in tosser(sweep, left):
-                map_.write(tile, pixels)
-                kept += pixels.outcome.size
+        with stage(name, "tosses", total=whole, done=kept, shown=shown) as progress:
+            for numbers, layers in tosser(map(store.missing, left)):
+                store.write(numbers, layers)
+                kept += len(numbers)
                 progress(kept, whole)
     except Interruption as interruption:
         interruption.message = f"{name}: {kept} of {whole} tosses are saved; --resume continues"
         raise
 
 
-def fractions_of(map_: Map) -> dict[Outcome, float]:
-    """Give the share of a map's pixels that each outcome fills, without the whole map in memory."""
+def fractions_of(store: Store) -> dict[Outcome, float]:
+    """Return the share of a map's pixels that each outcome fills, without the whole map in memory."""
     counts = np.zeros(len(Outcome), dtype=np.int64)
-    for tile in map_.tiles:
-        counts += tally(map_.read(tile))
+    for tile in store.tiles:
+        counts += tally(store.read(tile))
     return {outcome: float(counts[outcome] / counts.sum()) for outcome in Outcome}
 
 
-def trust_counts(map_: Map, after: int | None) -> NDArray[np.int64]:
+def trust_counts(store: Store, after: int | None) -> NDArray[np.int64]:
     """Return how many pixels have 0, 1, ... in the `trust_layer`, without the whole map in memory, (n,)."""
     most = 1 if after is None else after + 1
     counts = np.zeros(most + 1, dtype=np.int64)
-    for tile in map_.tiles:
+    for tile in store.tiles:
         # A number that a stranger made larger takes no more room.
-        found = np.minimum(map_.read(tile, trust_layer(after)).ravel(), most)
+        found = np.minimum(store.read(tile, trust_layer(after)).ravel(), most)
         counts += np.bincount(found, minlength=len(counts))
     return counts
-
-
-def size(tiles: Iterable[Tile]) -> int:
-    """Give the number of pixels of tiles."""
-    return sum((rows.stop - rows.start) * (columns.stop - columns.start) for rows, columns in tiles)
 
 
 def require_room(sweep: Sweep, folder: Path, *, maps: int, drawn: bool) -> None:

@@ -1,7 +1,7 @@
 """Pictures of maps, for a file and for a report."""
 
 import io
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
@@ -12,11 +12,17 @@ from numpy.typing import NDArray
 
 from cointoss.compare.basins import picture
 from cointoss.compare.basins.fractions import fractions
-from cointoss.compare.basins.picture_style import PictureStyle
+from cointoss.compare.basins.picture_style import Palette, PictureStyle
+from cointoss.compare.output.plots import axes_or_new
+from cointoss.compare.output.style import GREY
 from cointoss.compare.report.map_section import MapSection
 from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.describe import AWAY, measure, percent
+from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Sweep
+from cointoss.compare.sweep.layers import NOT_TOSSED
+from cointoss.compare.sweep.tossed_map import TossedMap
+from cointoss.models.palette import COLORS
 from cointoss.models.records import Array
 
 
@@ -95,6 +101,37 @@ def _title(sweep: Sweep) -> str:
     glyphs = get_font(findfont(FontProperties())).get_charmap()
     shown = "" if sweep.after is None else f": face at touch {sweep.after + 1}"
     return "".join(char if ord(char) in glyphs else "?" for char in sweep.title + shown)
+
+
+def plot_map(made: TossedMap, ax: Axes | None, layer: str, palette: str, *, boundaries: bool) -> Axes:
+    """Draw a map into axes; see `cointoss.compare.sweep.accessor.Tosses.plot`.
+
+    Raises:
+        SweepError: for a map that is not finished, and for a layer that it has not.
+    """
+    missing = np.count_nonzero(made.outcome == NOT_TOSSED)
+    if missing:
+        raise SweepError(
+            f"{made.name}: {missing} of {made.outcome.size} pixels are not tossed; "
+            "accepted: a whole map (cointoss basin --resume continues one)"
+        )
+    drawn = {name: made.layers[name] for name in ("outcome", "margin") if name in made.layers}
+    for name, value, accepted in (("layer", layer, drawn), ("palette", palette, list(Palette))):
+        if value not in accepted:
+            raise SweepError(f"{name}: {value!r}, accepted: {', '.join(accepted)}")
+    axes = axes_or_new(ax)
+    style = PictureStyle(palette=Palette(palette), boundaries=boundaries)
+    draw_layer(axes, drawn[layer], made.sweep, style, untrusted=made.untrusted)
+    return axes
+
+
+def plot_counts(counts: Mapping[str, int], ax: Axes | None) -> Axes:
+    """Draw how many tosses had each outcome, as bars."""
+    axes = axes_or_new(ax)
+    bars = axes.bar(list(counts), list(counts.values()), color=[COLORS.get(name, GREY) for name in counts])
+    axes.bar_label(bars)
+    axes.set(xlabel="outcome", ylabel="tosses")
+    return axes
 
 
 def draw_layer(

@@ -1,4 +1,4 @@
-"""A map on disk: a Zarr store that is filled tile by tile, by one process at a time."""
+"""Tosses on disk: a Zarr store that is filled tile by tile, by one process at a time."""
 
 import json
 import math
@@ -11,7 +11,7 @@ from functools import cache, cached_property
 from importlib.metadata import version
 from itertools import product
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple, NoReturn
 
 import numpy as np
 import zarr
@@ -22,96 +22,150 @@ from zarr.errors import ZarrUserWarning
 
 from cointoss.compare.output.files import UnwritableError, beside, naming, remove, written_whole
 from cointoss.compare.output.interruption import undoing
-from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.form import (
     FORMAT,
     MARGIN_ALONG,
     TRUST,
     foreign_entry,
     is_map,
-    read_form,
+    read_attributes,
+    require_arrays,
     require_chunk,
 )
-from cointoss.compare.sweep.grid import Sweep, Tile, tile_shape, tiles
-from cointoss.compare.sweep.layers import LAYERS, axis_attributes, holds_tosses, layers_of
-from cointoss.compare.sweep.pixels import Pixels
+from cointoss.compare.sweep.batch import Batch, attributes_of
+from cointoss.compare.sweep.grid import MOST_TILES, Sweep, numbers_in, tile_shape, tiles, tosses_in_tile
+from cointoss.compare.sweep.layers import LAYERS, OF_TOSSES, Layer, axis_attributes, holds_tosses, layers_of
+from cointoss.compare.sweep.pieces import How
+from cointoss.compare.sweep.pixels import Layers
 from cointoss.models.errors import ScenarioError
 from cointoss.models.reading import parse
 
 _WAYS_OUT = "accepted: a new name, or --overwrite"
+_READERS = ("zarr", "xarray")
+"""Versions on which no toss depends."""
+_CALLED = {
+    "engine": "engine",
+    "engine_settings": "engine's settings",
+    "after": "number of impacts (--after)",
+    MARGIN_ALONG: "quantity of its margins (--margin)",
+    TRUST: "set of arrays (--trust)",
+}
+"""What a person calls attributes."""
+
+
+class Coordinate(NamedTuple):
+    """The values of a field that varies, along dimensions of a store."""
+
+    dims: tuple[str, ...]
+    values: NDArray[Any]
+    attributes: dict[str, Any]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Map:
-    """A map on disk whose form is accepted; what does not decode to its size raises `FormError`."""
+class Layout:
+    """What a store is made of: its dimensions, arrays and coordinates, and what made it."""
+
+    sizes: dict[str, int]
+    """Of its dimensions, the last varying fastest."""
+    tile: tuple[int, ...]
+    """The lengths of a tile, which is a file of each array, along them."""
+    layers: dict[str, Layer]
+    coordinates: dict[str, Coordinate]
+    """By field."""
+    attributes: dict[str, Any]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Store:
+    """A store on disk whose form is accepted; what does not decode to its size raises `FormError`."""
 
     path: Path
     group: zarr.Group
 
     @classmethod
-    def at(cls, path: Path, mode: Literal["r", "r+"]) -> "Map":
-        """Open a map whose form is accepted, for reading alone or to be filled."""
+    def at(cls, path: Path, mode: Literal["r", "r+"]) -> "Store":
+        """Open a store whose form is accepted, for reading alone or to be filled."""
         return cls(path=path, group=zarr.open_group(path, mode=mode, zarr_format=3, use_consolidated=False))
 
     @property
-    def tiles(self) -> list[Tile]:
+    def shape(self) -> tuple[int, ...]:
+        """The lengths of its dimensions."""
+        return self._array("outcome").shape
+
+    @property
+    def tiles(self) -> list[tuple[slice, ...]]:
         """All tiles."""
-        outcome = self._array("outcome")
-        return list(tiles(_pair(outcome.shape), _pair(outcome.chunks)))
+        return list(tiles(self.shape, self._array("outcome").chunks))
 
     @property
     def is_empty(self) -> bool:
         """Whether no tile was tossed yet; only the names of what is on disk are read."""
         return self._array("outcome").nchunks_initialized == 0
 
-    def tossed(self, tile: Tile) -> NDArray[np.bool_]:
-        """Return which pixels of a tile are on disk; none of one that is damaged, (y, x)."""
+    def tossed(self, tile: tuple[slice, ...]) -> NDArray[np.bool_]:
+        """Return what of a tile is on disk, over the tile; nothing of one that is damaged."""
         none = np.zeros([part.stop - part.start for part in tile], dtype=bool)
         if not (self.path / next(self._files("outcome", tile))).exists():
             return none
         try:
-            parts = [holds_tosses(name, self.read(tile, name)) for name in LAYERS if name in self.group]
+            parts = [holds_tosses(name, self.read(tile, name)) for name in self._layers]
         except OSError:
             raise
         except Exception:  # its checksum is wrong, or it breaks off; each codec fails in its own way
             return none
         return np.logical_and.reduce(parts)
 
+    def missing(self, tile: tuple[slice, ...]) -> NDArray[np.intp]:
+        """Return the numbers of what of a tile is not on disk, in the order of a C array."""
+        return numbers_in(tile, self.shape)[~self.tossed(tile)]
+
     def read(self, part: tuple[slice, ...], name: str = "outcome") -> NDArray[Any]:
-        """Return a part of an array, such as a tile, (y, x)."""
+        """Return a part of an array, such as a tile."""
         self._require_chunks(name, part)
         return self._array(name)[part]
 
     def whole(self, name: str) -> NDArray[Any]:
-        """Return all values of an array, (y, x), or of an axis by its field, (n,)."""
+        """Return all values of an array, or of a coordinate by its field."""
         return self.read(tuple(slice(0, count) for count in self._array(name).shape), name)
 
-    def write(self, tile: Tile, pixels: Pixels) -> None:
+    def write(self, numbers: NDArray[np.intp], layers: Layers) -> None:
         """Keep what is known of a tile, or of a part of one.
 
-        Raises:
-            UnwritableError: naming the map and why, for every error of the system.
-        """
-        with naming(self.path):
-            for name in reversed(LAYERS):  # the outcome last: where it is, the tile is whole
-                if (values := getattr(pixels, name)) is not None:
-                    self._put(name, tile, values)
+        Args:
+            numbers: of the tosses, in one tile.
+            layers: by name, (n,) each.
 
-    def _put(self, name: str, part: Tile, values: NDArray[Any]) -> None:
+        Raises:
+            UnwritableError: naming the store and why, for every error of the system.
+        """
+        at = np.unravel_index(numbers, self.shape)
+        lengths = self._array("outcome").chunks
+        tile = tuple(
+            slice(one[0] // length * length, min((one[0] // length + 1) * length, size))
+            for one, length, size in zip(at, lengths, self.shape, strict=True)
+        )
+        inside = tuple(one - part.start for one, part in zip(at, tile, strict=True))
+        with naming(self.path):
+            # The outcome last: where it is, the tile is whole.
+            for name in sorted(layers, key=lambda name: name == "outcome"):
+                self._put(name, tile, inside, layers[name])
+
+    def _put(
+        self, name: str, tile: tuple[slice, ...], inside: tuple[Any, ...], values: NDArray[Any]
+    ) -> None:
         """Write a part of a tile; a file around it that is damaged holds nothing else."""
         array = self._array(name)
-        try:
-            self._require_chunks(name, part)  # zarr reads what is around the part
-            array[part.rows, part.columns] = values
-        except OSError:
-            raise
-        except Exception:  # see `tossed`
-            around = (
-                slice(side.start // length * length, (side.start // length + 1) * length)
-                for side, length in zip(part, array.chunks, strict=True)
-            )
-            array[tuple(around)] = array.fill_value
-            array[part.rows, part.columns] = values
+        shape = [part.stop - part.start for part in tile]
+        known = np.full(shape, array.fill_value, array.dtype)
+        if len(values) < math.prod(shape):
+            try:
+                known = self.read(tile, name)
+            except OSError:
+                raise
+            except Exception:  # see `tossed`
+                pass
+        known[inside] = values
+        array[tile] = known
 
     def _require_chunks(self, name: str, part: tuple[slice, ...]) -> None:
         """Refuse chunks of a part of an array that decode to another size than they should."""
@@ -121,15 +175,80 @@ class Map:
             require_chunk(self.path, file, size)
 
     def _files(self, name: str, part: tuple[slice, ...]) -> Iterator[Path]:
-        """Yield the files of the chunks of a part of an array, as they are named in the map."""
+        """Yield the files of the chunks of a part of an array, as they are named in the store."""
         spans = zip(part, self._array(name).chunks, strict=True)
         for place in product(*(range(one.start // side, -(-one.stop // side)) for one, side in spans)):
             yield Path(name, "c", *map(str, place))
 
     @cached_property
+    def _layers(self) -> list[str]:
+        return [name for name in LAYERS if name in self.group]
+
+    @cached_property
     def _array(self) -> Callable[[str], Any]:
         """Opens an array by its name, once."""
         return cache(self.group.__getitem__)
+
+
+def layout_of_map(sweep: Sweep, scenario_text: str) -> Layout:
+    """Return what a sweep's map is made of.
+
+    Args:
+        sweep: of the map.
+        scenario_text: the scenario's TOML.
+    """
+    return Layout(
+        sizes=sweep.batch.sizes,
+        tile=tile_shape(sweep),
+        layers=layers_of(sweep),
+        coordinates={
+            axis.field: Coordinate((dim,), axis.values, axis_attributes(axis))
+            for axis, dim in ((sweep.y, "y"), (sweep.x, "x"))
+        },
+        attributes={
+            "cointoss_map": FORMAT,
+            "name": sweep.name,
+            "scenario": scenario_text,
+            "engine": sweep.engine.value,
+            "engine_settings": sweep.settings.as_dict(),
+            "after": sweep.after,
+            **({} if sweep.margin is None else {MARGIN_ALONG: sweep.margin}),
+            **({TRUST: True} if sweep.trust else {}),
+            "versions": {**sweep.engine.versions, "zarr": version("zarr")},
+        },
+    )
+
+
+def layout_of_tosses(batch: Batch, how: How) -> Layout:
+    """Return what a store of a batch's tosses is made of."""
+    most = max(tosses_in_tile(how.engine, batch), len(batch) // MOST_TILES)
+    return Layout(
+        sizes=batch.sizes,
+        tile=_tile_of(batch.shape, most),
+        layers={name: OF_TOSSES[name] for name in how.names},
+        coordinates={
+            one.field: Coordinate(one.dims, one.values, attributes_of(one, batch.scenario))
+            for one in batch.varied
+        },
+        attributes={
+            "cointoss_tosses": FORMAT,
+            "scenario": batch.scenario.to_toml(),
+            "engine": how.engine.value,
+            "engine_settings": how.settings.as_dict(),
+            "after": None,
+            "errors": "keep" if how.keeps else "raise",
+            "versions": {**how.engine.versions, "zarr": version("zarr")},
+        },
+    )
+
+
+def _tile_of(shape: tuple[int, ...], most: int) -> tuple[int, ...]:
+    """Return the lengths of a tile of at most so many tosses, as long as it can be along the last dimensions."""
+    lengths: list[int] = []
+    for size in reversed(shape):
+        lengths.append(max(1, min(size, most)))
+        most //= lengths[-1]
+    return tuple(reversed(lengths))
 
 
 def require_place(path: Path, *, resume: bool, overwrite: bool) -> None:
@@ -165,8 +284,8 @@ def require_place(path: Path, *, resume: bool, overwrite: bool) -> None:
             raise UnwritableError(f"{path}: holds {foreign}, which is no part of a map; accepted: a new name")
 
 
-def require_same(path: Path, sweep: Sweep) -> None:
-    """Check that a map at a path, if there is one, is that of a sweep.
+def require_same(path: Path, layout: Layout) -> None:
+    """Check that a store at a path, if there is one, has a layout.
 
     Raises:
         UnwritableError: naming the path and what is not the same.
@@ -174,21 +293,20 @@ def require_same(path: Path, sweep: Sweep) -> None:
     with naming(path):
         target = Path(os.path.realpath(path))
         if is_map(target):
-            _same(path, target, "r", sweep)
+            _same(path, target, "r", layout)
 
 
 @contextmanager
-def opened(path: Path, sweep: Sweep, scenario_text: str, *, overwrite: bool) -> Iterator[Map]:
-    """Open the map of a sweep for this process alone: a new one, or what is there of it.
+def opened(path: Path, layout: Layout, *, overwrite: bool) -> Iterator[Store]:
+    """Open a store for this process alone: a new one, or what is there of it.
 
     Args:
-        path: of the map; checked by `require_place`.
-        sweep: what the map is made of.
-        scenario_text: the scenario's TOML.
-        overwrite: whether a map that is there is replaced.
+        path: of the store; checked by `require_place`.
+        layout: what it is made of.
+        overwrite: whether a store that is there is replaced.
 
     Raises:
-        UnwritableError: naming the path and why: another process is at it, or it is another sweep's map.
+        UnwritableError: naming the path and why: another process is at it, or it is another one.
     """
     target = Path(os.path.realpath(path))
     with ExitStack() as kept:
@@ -197,106 +315,93 @@ def opened(path: Path, sweep: Sweep, scenario_text: str, *, overwrite: bool) -> 
                 with _locked(path, target):
                     _remove(target)
             if not is_map(target):
-                _create(target, sweep, scenario_text)
+                _create(target, layout)
             kept.enter_context(_locked(path, target))
-            map_ = _same(path, target, "r+", sweep)
+            store = _same(path, target, "r+", layout)
             for left in target.rglob("*.partial"):  # by a process that was killed
                 left.unlink()
-        yield map_
+        yield store
 
 
-def _create(target: Path, sweep: Sweep, scenario_text: str) -> None:
-    """Make an empty map, whole or not at all; where one has come up meanwhile, leave it."""
+def _create(target: Path, layout: Layout) -> None:
+    """Make an empty store, whole or not at all; where one has come up meanwhile, leave it."""
     try:
         with written_whole(target) as aside:
-            _write_empty(aside, sweep, scenario_text)
+            _write_empty(aside, layout)
     except UnwritableError:
         if not is_map(target):
             raise
 
 
-def _write_empty(folder: Path, sweep: Sweep, scenario_text: str) -> None:
-    group = zarr.create_group(folder, zarr_format=3, attributes=_attributes(sweep, scenario_text))
-    for name, layer in layers_of(sweep).items():
+def _write_empty(folder: Path, layout: Layout) -> None:
+    group = zarr.create_group(folder, zarr_format=3, attributes=layout.attributes)
+    for name, layer in layout.layers.items():
         group.create_array(
             name,
-            shape=sweep.shape,
-            chunks=tile_shape(sweep),
+            shape=tuple(layout.sizes.values()),
+            chunks=layout.tile,
             dtype=layer.kind,
             fill_value=layer.fill_value,
-            dimension_names=("y", "x"),
+            dimension_names=list(layout.sizes),
             # A tile that breaks off must not pass for one.
             compressors=ZstdCodec(checksum=True),
-            attributes={**layer.attributes, "coordinates": f"{sweep.y.field} {sweep.x.field}"},
+            attributes={**layer.attributes, "coordinates": " ".join(layout.coordinates)},
         )
-    for axis, dimension in ((sweep.y, "y"), (sweep.x, "x")):
+    for field, one in layout.coordinates.items():
         group.create_array(
-            axis.field,
-            data=axis.values,
-            chunks=(axis.count,),
+            field,
+            data=one.values,
+            chunks=one.values.shape,
             compressors=ZstdCodec(checksum=True),
-            dimension_names=(dimension,),
-            attributes=axis_attributes(axis),
+            dimension_names=list(one.dims),
+            attributes=one.attributes,
         )
-    consolidate(group)
-
-
-def consolidate(group: zarr.Group) -> None:
-    """Write what describes a group's arrays into one file, from which xarray reads it without a warning."""
     # Not yet in the specification of Zarr 3, but xarray asks for it.
     with warnings.catch_warnings(action="ignore", category=ZarrUserWarning):
         zarr.consolidate_metadata(group.store)
 
 
-def _attributes(sweep: Sweep, scenario_text: str) -> dict[str, Any]:
-    return {
-        "cointoss_map": FORMAT,
-        "name": sweep.name,
-        "scenario": scenario_text,
-        "engine": sweep.engine.value,
-        "engine_settings": sweep.settings.as_dict(),
-        "after": sweep.after,
-        **({} if sweep.margin is None else {MARGIN_ALONG: sweep.margin}),
-        **({TRUST: True} if sweep.trust else {}),
-        "versions": {**sweep.engine.versions, "zarr": version("zarr")},
-    }
+def _same(path: Path, target: Path, mode: Literal["r", "r+"], layout: Layout) -> Store:
+    """Open a store of this layout.
 
-
-def _same(path: Path, target: Path, mode: Literal["r", "r+"], sweep: Sweep) -> Map:
-    """Open the map of a sweep.
-
-    One of another sweep or of other versions is refused: its pixels would be of two kinds.
+    One of another layout or of other versions is refused: its tosses would be of two kinds.
     """
     with _readable(path):
-        form, found = read_form(target), Map.at(target, mode)
-        values = {name: found.whole(name) for name in (form.x, form.y)}
-    attributes = form.attributes
-    stored = attributes["versions"]
-    made_by = {name: stored.get(name) for name in {**sweep.engine.versions, **stored} if name != "zarr"}
-    settings = attributes["engine_settings"]
+        stored = read_attributes(target)
+    due = layout.attributes
+    made_by, ours = (
+        {name: one for name, one in each["versions"].items() if name not in _READERS} for each in (stored, due)
+    )
     try:
-        same_scenario = parse(attributes["scenario"], str(path)) == sweep.scenario
+        same_scenario = parse(stored["scenario"], str(path)) == parse(due["scenario"], str(path))
     except ScenarioError:
         same_scenario = False
-
-    def is_axis(name: str, axis: Axis) -> bool:
-        return name == axis.field and np.array_equal(values[name], axis.values)
-
-    for what, same in (
-        ("scenario", same_scenario),
-        ("engine", attributes["engine"] == sweep.engine),
-        (f"engine's settings, {json.dumps(settings)}", settings == sweep.settings.as_dict()),
-        ("number of impacts (--after)", attributes["after"] == sweep.after),
-        ("quantity of its margins (--margin)", attributes.get(MARGIN_ALONG) == sweep.margin),
-        ("set of arrays (--trust)", (TRUST in attributes) == sweep.trust),
-        ("grid in x", is_axis(form.x, sweep.x)),
-        ("grid in y", is_axis(form.y, sweep.y)),
-        (f"set of versions, {json.dumps(made_by)}", made_by == sweep.engine.versions),
-        (f"size of its tiles, {form.tile}", form.tile == tile_shape(sweep)),
-    ):
-        if not same:
-            raise UnwritableError(f"{path}: is a map with another {what}; {_WAYS_OUT}")
+    others = (stored.keys() | due.keys()) - {"scenario", "versions", "name"}
+    unlike = next((name for name in [*_CALLED, *sorted(others)] if stored.get(name) != due.get(name)), None)
+    if not same_scenario:
+        _refuse_other(path, "scenario")
+    if unlike is not None:
+        value = f", {json.dumps(stored.get(unlike))}" if unlike == "engine_settings" else ""
+        _refuse_other(path, f"{_CALLED.get(unlike, unlike)}{value}")
+    with _readable(path):
+        missing = [field for field in layout.coordinates if not (target / field).is_dir()]
+        if not missing:
+            require_arrays(target, layout.sizes, layout.layers, layout.coordinates)
+            found = Store.at(target, mode)
+            unlike_grid = [
+                one.dims[0]
+                for field, one in layout.coordinates.items()
+                if not np.array_equal(found.whole(field), one.values)
+            ]
+    if missing or unlike_grid:
+        _refuse_other(path, f"grid in {layout.coordinates[missing[0]].dims[0] if missing else unlike_grid[0]}")
+    if made_by != ours:
+        _refuse_other(path, f"set of versions, {json.dumps(made_by)}")
     return replace(found, path=path)
+
+
+def _refuse_other(path: Path, what: str) -> NoReturn:
+    raise UnwritableError(f"{path}: is a store with another {what}; {_WAYS_OUT}")
 
 
 @contextmanager
@@ -339,8 +444,3 @@ def _remove(target: Path) -> None:
     aside = beside(target)
     with undoing(lambda: remove(aside)):
         target.rename(aside)
-
-
-def _pair(numbers: tuple[int, ...]) -> tuple[int, int]:
-    first, second = numbers
-    return first, second

@@ -1,22 +1,26 @@
 """Make a map in memory, from Python."""
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.axes import FORM, parse_axis
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.grid import Sweep, Tile
+from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.layers import layers_of
-from cointoss.compare.sweep.outcome_map import OutcomeMap
+from cointoss.compare.sweep.pieces import whole
 from cointoss.compare.sweep.pixels import check
 from cointoss.compare.sweep.reading import MOST_READ, is_whole
 from cointoss.compare.sweep.run import toss_here
+from cointoss.compare.sweep.tossed_map import TossedMap
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import stage
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 MOST_AFTER = 999_999
 """Impacts after which a face is shown, as of the command."""
@@ -31,7 +35,7 @@ def basin(
     after: int | None = None,
     margin: str | None = None,
     trust: bool = False,
-) -> OutcomeMap:
+) -> "xr.Dataset":
     """Toss a coin once for each pair of values of two fields, on all cores, and return the map.
 
     The command `cointoss basin` makes the same map tile by tile on disk, where a long one can be continued.
@@ -48,6 +52,11 @@ def basin(
         trust: also find which pixels the engine's own errors may have decided, in two to three times the
             time with `after`, else in two to seven; by the analytic engine only.
 
+    Returns:
+        `outcome` in words and `impacts`, and where asked for `margin`, and `trusted_impacts` or
+        `outcome_certain`, over y and x, whose coordinates are named by their fields. `ds.cointoss` draws,
+        shows and saves the map.
+
     Raises:
         ScenarioError: naming file, field, value and what is accepted.
         ValueError: naming the argument, its value and what is accepted.
@@ -58,14 +67,14 @@ def basin(
             raise SweepError(f"{name}: {text!r}, accepted: {accepted}")
     if not isinstance(trust, bool):
         raise SweepError(f"trust: {trust!r}, accepted: True or False")
-    found, tosser = scenario_of(scenario), Engine(engine)
+    described, tosser = scenario_of(scenario), Engine(engine)
     if after is not None and not (is_whole(after) and 0 <= after <= MOST_AFTER):
         raise SweepError(f"after: {after!r}, accepted: a whole number from 0 to {MOST_AFTER}")
     sweep = Sweep(
-        scenario=found,
+        scenario=described,
         engine=tosser,
-        x=parse_axis(x, found),
-        y=parse_axis(y, found),
+        x=parse_axis(x, described),
+        y=parse_axis(y, described),
         settings=tosser.package.MANY,
         after=None if after is None else int(after),
         margin=margin,
@@ -79,14 +88,15 @@ def basin(
             "cointoss basin makes larger maps on disk"
         )
     check(sweep)
-    arrays: dict[str, Any] = {
-        name: np.full(sweep.shape, layer.fill_value, layer.kind) for name, layer in layers_of(sweep).items()
+    layers = {
+        name: np.full(ny * nx, layer.fill_value, layer.kind) for name, layer in layers_of(sweep).items()
     }
     name, done = "map" if isinstance(scenario, Scenario) else f"map of {scenario}", 0
     with stage(name, "tosses", total=ny * nx) as progress:
-        for part, pixels in toss_here(sweep, [Tile(slice(0, ny), slice(0, nx))]):
-            for layer, array in arrays.items():
-                array[part.rows, part.columns] = getattr(pixels, layer)
-            done += pixels.outcome.size
+        for numbers, found in toss_here(sweep)(whole(ny * nx)):
+            for layer, array in layers.items():
+                array[numbers] = found[layer]
+            done += len(numbers)
             progress(done, ny * nx)
-    return OutcomeMap(name=name, sweep=sweep, **arrays)
+    arrays = {layer: array.reshape(sweep.shape) for layer, array in layers.items()}
+    return TossedMap(name=name, sweep=sweep, layers=arrays).dataset()

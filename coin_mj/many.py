@@ -1,0 +1,100 @@
+"""Many tosses in MuJoCo, on all cores."""
+
+import threading
+
+import numpy as np
+
+from cointoss.coin_mj.entries import toss_rows as toss_some
+from cointoss.coin_mj.model.machine import Machine, machine_of
+from cointoss.coin_mj.model.settings import MANY, Settings
+from cointoss.coin_mj.toss import require_supported, warn_of_approximation
+from cointoss.models.answers import ANSWER, NOT_TOSSED, Answers, Trust
+from cointoss.models.batch import PLACE, scenario_of_row
+from cointoss.models.errors import require_type
+from cointoss.models.kernel.arrays import Array
+from cointoss.models.records import UnsupportedError
+from cointoss.models.tiles import in_tiles
+
+TILE = 8
+"""Most tosses that a thread makes at a time."""
+_FLOOR = [i for field, i in PLACE.items() if field.startswith("floor.")]
+_OF_MACHINE = PLACE["release.position.x"]
+"""What is before it in a row, MuJoCo's model is made of."""
+
+
+def require_rows(
+    rows: Array, *, settings: Settings = MANY, law: object = None, trust: Trust | None = None
+) -> None:
+    """Refuse rows that this engine can't toss so.
+
+    Raises:
+        UnsupportedError: for floors that `toss` refuses, for a law of one's own, and for trust.
+
+    Warns:
+        ApproximationWarning: as `toss`.
+    """
+    if law is not None:
+        raise UnsupportedError(
+            'law: given, accepted: none with the engine mujoco; engine = "analytic" takes one'
+        )
+    if trust is not None:
+        raise UnsupportedError(f'trust = "{trust}": accepted by the MuJoCo engine: None')
+    for row in rows[np.unique(rows[:, _FLOOR], axis=0, return_index=True)[1]]:
+        described = scenario_of_row(row)
+        require_supported(described, settings=settings)
+        warn_of_approximation(described)
+
+
+def toss_rows(
+    rows: Array,
+    *,
+    settings: Settings = MANY,
+    trust: Trust | None = None,
+    law: object = None,
+    workers: int | None = None,
+    answers: Array | None = None,
+) -> Answers:
+    """Toss many scenarios by the event loop of `toss`.
+
+    Each toss is that of `toss` with the same settings, to the bit. By default they are coarser than those of
+    one toss: docs/MUJOCO.md says what error they give.
+
+    Args:
+        rows: of the scenarios, in the order of `models.rows.FIELDS`, (n, 46).
+        settings: how MuJoCo realises the floor, and how finely it steps.
+        trust: this engine finds it for one `toss` alone: None.
+        law: this engine has none of one's own: None.
+        workers: number of threads, by default one for each core.
+        answers: where the answers are written as they come, (n, 7), see `models.answers.ANSWER`; what an
+            interruption leaves undone is `NOT_TOSSED`.
+
+    Returns:
+        How each toss ended. The paths are not kept.
+
+    Raises:
+        UnsupportedError: see `require_rows`.
+    """
+    require_type("settings", settings, Settings, "coin_mj.Settings, such as coin_mj.MANY")
+    require_rows(rows, settings=settings, law=law, trust=trust)
+    found = np.empty((len(rows), len(ANSWER))) if answers is None else answers
+    found[:] = NOT_TOSSED
+    # NaN, which stands for what is left out, equals itself here.
+    machines = np.nan_to_num(rows[:, :_OF_MACHINE], nan=np.inf)
+    _, coins = np.unique(machines, axis=0, return_inverse=True)
+    order, of_thread = np.argsort(coins, kind="stable"), threading.local()
+
+    def machine(row: int) -> Machine:
+        """Return the coin of a row, made again where this thread tossed another one before."""
+        if getattr(of_thread, "coin", None) != coins[row]:
+            of_thread.coin, of_thread.machine = coins[row], machine_of(scenario_of_row(rows[row]), settings)
+        return of_thread.machine
+
+    def work(part: slice) -> None:
+        mine = order[part]
+        for some in np.split(mine, np.flatnonzero(np.diff(coins[mine])) + 1):
+            made, answered = machine(some[0]), found[some]
+            toss_some(made.coin, made.plastic, made.settings.budgets, rows[some], answered)
+            found[some] = answered
+
+    in_tiles(len(rows), TILE, work, workers)
+    return Answers.of_table(found)

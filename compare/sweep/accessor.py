@@ -1,0 +1,253 @@
+"""What a dataset of tosses can be asked: `ds.cointoss`, an accessor of xarray."""
+
+from collections.abc import Hashable
+from importlib import import_module
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from cointoss.compare.metrics.estimates import wilson
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.grid import numbers_in
+from cointoss.models.answers import COLUMNS, NOT_TOSSED, REFUSED
+from cointoss.models.reading import parse
+from cointoss.models.records import Outcome
+from cointoss.models.scenario import Scenario
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from cointoss.models.notebook import Frame
+
+WORDED = {name: column.words for name, column in COLUMNS.items() if column.words is not None}
+"""The variables that are words in memory and codes in files, with what their codes mean."""
+
+
+def words_of(name: str, codes: NDArray[Any]) -> NDArray[np.str_]:
+    """Return the codes of a variable in words, of NumPy's strings, of any shape; words as they are."""
+    if codes.dtype.kind in "UT":
+        return codes
+    known = WORDED[name]
+    first = min(known)
+    words = np.array([known.get(code, "") for code in range(first, max(known) + 1)])
+    return words[codes.astype(np.intp) - first]
+
+
+def codes_of(name: str, words: NDArray[Any]) -> NDArray[np.int8]:
+    """Return the words of a variable as codes, of any shape; codes as they are."""
+    if words.dtype.kind not in "UT":
+        return words.astype(np.int8)
+    known = {word: code for code, word in WORDED[name].items()}
+    each, inverse = np.unique(words, return_inverse=True)
+    return np.array([known[word] for word in each.tolist()], dtype=np.int8)[inverse].reshape(words.shape)
+
+
+def in_words(dataset: xr.Dataset) -> xr.Dataset:
+    """Return a dataset whose codes are words."""
+    return _mapped(dataset, words_of, flagged=False)
+
+
+def in_codes(dataset: xr.Dataset) -> xr.Dataset:
+    """Return a dataset whose words are codes of int8, which CF's attributes `flag_values` explain."""
+    return _mapped(dataset, codes_of, flagged=True)
+
+
+def _mapped(dataset: xr.Dataset, change: Any, *, flagged: bool) -> xr.Dataset:
+    new = {}
+    for name in WORDED:
+        if name in dataset:
+            attributes = COLUMNS[name].attributes
+            kept = attributes if flagged else {key: attributes[key] for key in ("long_name",)}
+            new[name] = (dataset[name].dims, change(name, dataset[name].values), kept)
+    if (certain := dataset.get("outcome_certain")) is not None and not flagged:
+        new["outcome_certain"] = certain.copy(data=certain.values == 1)
+    return dataset.assign(new)
+
+
+@xr.register_dataset_accessor("cointoss")
+class Tosses:
+    """Counts, shares, tables, pictures and pages of a dataset that `cointoss.toss_many` made."""
+
+    def __init__(self, dataset: xr.Dataset) -> None:
+        """Keep the dataset."""
+        self._dataset = dataset
+
+    @property
+    def scenario(self) -> Scenario:
+        """The scenario with the values of all fields that do not vary."""
+        return parse(self._dataset.attrs["scenario"], "attribute scenario")
+
+    @property
+    def codes(self) -> NDArray[np.int8]:
+        """The outcomes by the codes of `Outcome`; below 0 where there is none."""
+        if "outcome" not in self._dataset:
+            raise SweepError("dataset: no outcome, accepted: a dataset of tosses, as of cointoss.toss_many")
+        return codes_of("outcome", self._dataset["outcome"].values)
+
+    @property
+    def words(self) -> xr.Dataset:
+        """The dataset with words in place of codes, as of a store; in memory."""
+        return in_words(self._dataset)
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many tosses had each outcome that there was; those not tossed and refused ones, too."""
+        codes, numbers = np.unique(self.codes, return_counts=True)
+        return dict(zip(words_of("outcome", codes).tolist(), numbers.tolist(), strict=True))
+
+    def shares(self, *along: Hashable) -> xr.Dataset:
+        """Return the share of each outcome, with its 99 % interval (Wilson), along some dimensions.
+
+            ds.cointoss.shares("floor.restitution").share.sel(outcome="heads")
+
+        Args:
+            along: dimensions that are kept; all tosses along the others are counted together.
+
+        Returns:
+            `count`, `share`, `low` and `high` over these dimensions and `outcome`. Tosses that were not made,
+            and what is no scenario, are not counted.
+
+        Raises:
+            SweepError: for a dimension that there is none of.
+        """
+        dims = self._dataset["outcome"].dims
+        for dim in along:
+            if dim not in dims:
+                raise SweepError(f"along: {dim!r}, accepted: {', '.join(map(str, dims))}")
+        codes = xr.DataArray(self.codes, dims=dims)
+        over = [dim for dim in dims if dim not in along]
+        counts = xr.concat([(codes == one).sum(over) for one in Outcome], "outcome").transpose(*along, "outcome")
+        kept = {name: one for name, one in self._dataset.coords.items() if set(one.dims) <= set(along)}
+        words = list(Outcome.by_value().values())
+        return shares_of(counts.values, (*along, "outcome"), {**kept, "outcome": words}, self._dataset.attrs)
+
+    def table(self) -> "pd.DataFrame":
+        """Return a table of pandas, a row for each toss, in words, with units in `attrs["units"]`."""
+        frame = in_words(self._dataset).to_dataframe().reset_index()
+        frame.attrs["units"] = {
+            str(name): one.attrs["units"] for name, one in self._dataset.variables.items() if one.attrs.get("units")
+        }
+        return frame
+
+    @property
+    def untrusted(self) -> NDArray[np.bool_] | None:
+        """The pixels of a map that the engine's own errors may have decided; None where that is not known.
+
+        The face at touch n + 1 can be trusted where n + 1 impacts can, but no outcome of a toss that ended
+        before. A final outcome can be trusted where it is certain.
+        """
+        from cointoss.compare.sweep.tossed_map import map_of
+
+        return map_of(self._dataset).untrusted
+
+    def plot(
+        self,
+        ax: Any = None,
+        *,
+        layer: str = "outcome",
+        palette: str = "safe",
+        boundaries: bool = False,
+    ) -> Any:
+        """Draw the outcomes over two fields as a map, over one as shares, over none as bars.
+
+        A map is hatched where the engine's own errors may have decided.
+
+        Args:
+            ax: matplotlib's Axes where to draw, by default in a new figure of pyplot.
+            layer: of a map, "outcome" or "margin".
+            palette: of a map, "safe" for gold and blue, "paper" for black and white.
+            boundaries: whether the pixels of a map at a boundary are coloured as such.
+
+        Returns:
+            The axes.
+
+        Raises:
+            SweepError: for a map that is not finished, and for a layer that it has not.
+        """
+        from cointoss.compare.sweep import show
+        from cointoss.compare.sweep.tossed_map import map_of
+
+        if len(self._dataset["outcome"].dims) == 2:
+            return show.plot_map(map_of(self._dataset), ax, layer, palette, boundaries=boundaries)
+        return show.plot_counts(self.counts, ax)
+
+    def page(self) -> "Frame":
+        """Return what a notebook shows as the page of `cointoss explore --static`: pixels can be clicked.
+
+        Both engines toss a grid of the pixels first. The analytic engine tosses any other pixel in the
+        page, where the package carries it for a browser; of a large map every second, third, ... is shown.
+
+        Returns:
+            A frame, whose `page` is the HTML of a page that needs no other file and no network.
+
+        Raises:
+            SweepError: for tosses that are not over two fields.
+        """
+        # The explorer stands above the maps.
+        explore = import_module("cointoss.compare.explorer.static").explore
+        from cointoss.compare.sweep.tossed_map import map_of
+
+        return explore(map_of(self._dataset))
+
+    def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> Path:
+        """Write a map as `cointoss basin` does: `read_map`, `cointoss explore` and `--resume` take it.
+
+        Args:
+            path: of its folder, a new name that ends in .zarr.
+            overwrite: whether a map that is there is replaced.
+
+        Returns:
+            The path.
+
+        Raises:
+            OSError: naming the path and why.
+            SweepError: for a map of which only every n-th pixel was read, and for what is no map.
+        """
+        from cointoss.compare.sweep import store
+        from cointoss.compare.sweep.tossed_map import map_of
+
+        made, folder = map_of(self._dataset), Path(path)
+        if made.stride > 1:
+            raise SweepError(f"{made.name}: one pixel of every {made.stride} is here; accepted: a whole map")
+        store.require_place(folder, resume=False, overwrite=overwrite)
+        layout = store.layout_of_map(made.sweep, made.sweep.scenario.to_toml())
+        with store.opened(folder, layout, overwrite=overwrite) as kept:
+            for tile in kept.tiles:
+                numbers = numbers_in(tile, made.sweep.shape).ravel()
+                kept.write(numbers, {name: array[tile].ravel() for name, array in made.layers.items()})
+        return folder
+
+    def __repr__(self) -> str:
+        """Return how many tosses there are, and how many of each outcome."""
+        told = ", ".join(f"{count:,d} {name}" for name, count in self.counts.items())
+        return f"<{self._dataset['outcome'].size:,d} tosses: {told}>"
+
+
+def shares_of(
+    counts: NDArray[np.int64], dims: tuple[Hashable, ...], coordinates: Any, attributes: Any
+) -> xr.Dataset:
+    """Return a dataset of shares and their 99 % intervals.
+
+    Args:
+        counts: of each outcome, (..., 6).
+        dims: of the counts.
+        coordinates: of these.
+        attributes: of the dataset.
+    """
+    values, low, high = wilson(counts, counts.sum(axis=-1, keepdims=True))
+    about = {
+        "count": (counts, "number of tosses"),
+        "share": (values, "share of the tosses"),
+        "low": (low, "low end of its 99 % interval"),
+        "high": (high, "high end of its 99 % interval"),
+    }
+    variables = {name: (dims, array, {"long_name": text}) for name, (array, text) in about.items()}
+    return xr.Dataset(variables, coordinates, attributes)
+
+
+MISSING = (NOT_TOSSED, REFUSED)
+"""Codes of tosses that have no outcome."""

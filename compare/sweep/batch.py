@@ -1,0 +1,323 @@
+"""A batch: a scenario some of whose fields vary, each along some dimensions."""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cointoss.compare.sweep.axes import NUMBERS, axis_of, named, number, unit_of, word_of
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.models.batch import refused, rows_of, scenario_of_row
+from cointoss.models.errors import ScenarioError, shown
+from cointoss.models.fields import COMPONENTS
+from cointoss.models.labelled import meanings_of
+from cointoss.models.names import SPIN
+from cointoss.models.parts import Part
+from cointoss.models.reading import ScenarioSource, scenario_of
+from cointoss.models.records import Array
+from cointoss.models.rows import FIELDS, WORDED
+from cointoss.models.scenario import Scenario
+
+TOSS = "toss"
+"""The dimension of arrays of one axis that have no other name for it."""
+MOST_ROWS = 10**12
+TOGETHER = 1 << 16
+"""Rows that are checked together."""
+_PARTS = ("coin", "air", "floor", "release", "ending")
+_KNOWN = (*NUMBERS, *(field for field in FIELDS if field not in NUMBERS), *COMPONENTS, *_PARTS)
+"""All that may vary or be set: numbers, words, lists of numbers, and whole parts of a scenario."""
+_ENDS_SUFFICE = (
+    "gravity",
+    "coin.mass",
+    "air.normal",
+    "air.tangential",
+    "floor.",
+    "release.position.",
+    "release.velocity.",
+    "release.angular_velocity.",
+    "release.spin",
+    "ending.",
+)
+"""Fields in each of which all conditions on a scenario are monotone or convex."""
+_ACCEPTED = (
+    'accepted: a number or a text with its unit, a range such as "20:60:400" or (20, 60, 400), an array that '
+    "broadcasts with the others, or a DataArray"
+)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Varied:
+    """A field that varies over a batch."""
+
+    field: str
+    dims: tuple[str, ...]
+    values: NDArray[Any]
+    """Numbers in SI, or the integers of words, over `dims`; read-only."""
+
+    @property
+    def words(self) -> dict[int, str] | None:
+        """What its integers mean; None for numbers."""
+        return WORDED[self.field].by_value() if self.field in WORDED else None
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Batch:
+    """A scenario, and the fields of it that vary; its tosses are numbered in the order of a C array."""
+
+    scenario: Scenario
+    """With the values of all fields that do not vary."""
+    varied: tuple[Varied, ...]
+    sizes: dict[str, int]
+    """Of the dimensions, the last varying fastest."""
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The lengths of the dimensions."""
+        return tuple(self.sizes.values())
+
+    def __len__(self) -> int:
+        """Return the number of tosses."""
+        return math.prod(self.shape)
+
+    @cached_property
+    def _columns(self) -> tuple[Varied, ...]:
+        """What varies, in fields of a row."""
+        return tuple(column for one in self.varied for column in _in_a_row(one, self.scenario))
+
+    @property
+    def fields(self) -> list[str]:
+        """The fields of a row that vary."""
+        return [column.field for column in self._columns]
+
+    def rows(self, tosses: NDArray[np.intp]) -> Array:
+        """Return some tosses, by their numbers, as rows, (n, 46)."""
+        at = dict(zip(self.sizes, np.unravel_index(tosses, self.shape), strict=True)) if self.sizes else {}
+        changed = {one.field: one.values[tuple(at[dim] for dim in one.dims)] for one in self._columns}
+        return rows_of(self.scenario, len(tosses), changed)
+
+    def scenario_at(self, toss: int) -> Scenario:
+        """Return the scenario of a toss, by its number.
+
+        Raises:
+            ScenarioError: naming field, value and what is accepted, and the toss.
+        """
+        try:
+            return scenario_of_row(self.rows(np.array([toss]))[0])
+        except ScenarioError as error:
+            raise ScenarioError(f"{error}{self._place(toss)}") from None
+
+    def _place(self, toss: int) -> str:
+        """Return which toss it is, for a person."""
+        if not self.sizes:
+            return ""
+        at = dict(zip(self.sizes, np.unravel_index(toss, self.shape), strict=True))
+        values = [(one, one.values[tuple(at[dim] for dim in one.dims)]) for one in self.varied[:3]]
+        told = [f"{one.field} = {one.words[int(x)] if one.words else f'{x:g}'}" for one, x in values]
+        where = ", ".join(f"{dim} {i}" for dim, i in at.items() if dim not in [one.field for one in self.varied])
+        return f" (at {', '.join(filter(None, [where, *told]))})"
+
+    def tried(self) -> Iterator[NDArray[np.intp]]:
+        """Yield the numbers of tosses of which all are scenarios where these are, `TOGETHER` at a time.
+
+        Of an axis along which the conditions are monotone or convex the two ends suffice.
+        """
+        kept = [self._tried_along(dim) for dim in self.sizes]
+        count = math.prod(map(len, kept))
+        for first in range(0, count, TOGETHER):
+            numbers = np.arange(first, min(first + TOGETHER, count))
+            at = np.unravel_index(numbers, [len(one) for one in kept]) if kept else ()
+            chosen = tuple(one[i] for one, i in zip(kept, at, strict=True))
+            yield np.ravel_multi_index(chosen, self.shape) if kept else np.zeros(1, dtype=np.intp)
+
+    def _tried_along(self, dim: str) -> NDArray[np.intp]:
+        along = [one for one in self.varied if dim in one.dims]
+        (one, *others), n = along or [None], self.sizes[dim]
+        if one is None or others or len(one.dims) > 1 or one.field in WORDED or n < 2:
+            return np.arange(n)
+        if not one.field.startswith(_ENDS_SUFFICE) or not np.isfinite(one.values).all():
+            return np.arange(n)
+        return np.unique([np.argmin(one.values), np.argmax(one.values)])
+
+    def check(self) -> None:
+        """Refuse a batch with a toss that is no scenario.
+
+        Raises:
+            ScenarioError: for the first one, naming field, value and what is accepted, and the toss.
+        """
+        for tosses in self.tried():
+            wrong = refused(self.rows(tosses), self.fields)
+            if wrong.any():
+                self.scenario_at(int(tosses[np.argmax(wrong)]))  # says why
+                raise AssertionError("a row that is refused makes a scenario")
+
+    def largest(self) -> Scenario:
+        """Return the scenario where what varies is farthest from 0, as far as that goes together."""
+        at = dict.fromkeys(self.sizes, 0)
+        for one in reversed(self.varied):
+            if one.field not in WORDED and one.values.size:
+                farthest = np.unravel_index(int(np.argmax(np.abs(one.values))), one.values.shape)
+                at |= dict(zip(one.dims, map(int, farthest), strict=True))
+        return self.scenario_at(int(np.ravel_multi_index(tuple(at.values()), self.shape)) if at else 0)
+
+
+def batch_of(scenario: ScenarioSource, vary: Mapping[str, Any] | None = None) -> Batch:
+    """Return the batch of a scenario in which some fields vary, or are others.
+
+    Args:
+        scenario: a `Scenario`, the path of its file, or the name of one that comes with the package.
+        vary: by field: a number, a text with a unit, or a word, for all tosses; a range START:STOP:N, as text
+            or tuple, along a dimension of its own, named by the field; an array, which broadcasts with the
+            other arrays as in NumPy; or a DataArray of xarray, whose dimensions have names. A field may be
+            named in part, as "restitution", a list of components as a whole, as "release.position".
+
+    Raises:
+        ScenarioError: for a scenario that can't be used.
+        SweepError: naming the field, what was given and what is accepted.
+    """
+    described = scenario_of(scenario)
+    if not isinstance(vary, Mapping | None):
+        raise SweepError(f'vary: {shown(vary)}, accepted: a dict such as {{"floor.restitution": "0.4:0.9:6"}}')
+    given: dict[str, Any] = {}
+    for name, value in (vary or {}).items():
+        for field, part in _components(named(name, _KNOWN), value):
+            _require_once(field, given)
+            given[field] = part
+    fixed = {field: value for field, value in given.items() if _is_one(field, value)}
+    for field, value in fixed.items():
+        described = described.replace(field, value)
+    return _batch(described, {field: value for field, value in given.items() if field not in fixed})
+
+
+def _batch(described: Scenario, given: Mapping[str, Any]) -> Batch:
+    varied: list[Varied] = []
+    arrays: dict[str, NDArray[Any]] = {}
+    for field, value in given.items():
+        if _is_range(value):
+            ends = value.split(":") if isinstance(value, str) else value
+            values = axis_of(field, ends, described).values
+            varied.append(Varied(field=field, dims=(field,), values=values))
+        elif hasattr(value, "dims"):
+            dims = tuple(map(str, value.dims))
+            varied.append(Varied(field=field, dims=dims, values=_numbers(field, value.values, described)))
+        else:
+            arrays[field] = _numbers(field, value, described)
+            varied.append(Varied(field=field, dims=(), values=arrays[field]))
+    together = _together(arrays)
+    varied = [_named_by(one, together) if one.field in arrays else one for one in varied]
+    sizes: dict[str, int] = {}
+    for one in varied:
+        for dim, size in zip(one.dims, one.values.shape, strict=True):
+            if sizes.setdefault(dim, size) != size:
+                raise SweepError(f"{one.field}: {size} along {dim}, accepted: {sizes[dim]}, as the others have")
+            if not size:
+                raise SweepError(f"{one.field}: empty, accepted: one value or more")
+    if math.prod(sizes.values()) > MOST_ROWS:
+        raise SweepError(f"vary: {math.prod(sizes.values()):g} tosses, accepted: at most {MOST_ROWS:g}")
+    for one in varied:
+        one.values.setflags(write=False)
+    return Batch(scenario=described, varied=tuple(varied), sizes=sizes)
+
+
+def _components(field: str, value: Any) -> Iterator[tuple[str, Any]]:
+    """Yield the components of a list of numbers that varies as a whole; another field as it is."""
+    shape = () if isinstance(value, str) or hasattr(value, "dims") else np.shape(value)
+    if field in COMPONENTS and len(shape) > 1:
+        names = COMPONENTS[field]
+        if shape[-1] != len(names):
+            raise SweepError(f"{field}: shape {shape}, accepted: (n, {len(names)})")
+        for i, name in enumerate(names):
+            yield f"{field}.{name}", np.asarray(value)[..., i]
+    elif field in COMPONENTS and hasattr(value, "dims"):
+        raise SweepError(f"{field}: a DataArray, accepted: one for each of {', '.join(COMPONENTS[field])}")
+    else:
+        yield field, value
+
+
+def _require_once(field: str, given: Mapping[str, Any]) -> None:
+    """Refuse a field that is given twice, by two names or as a part of what is given."""
+    spin = "release.angular_velocity"
+    for other in given:
+        first, second = (spin if one == SPIN else one for one in (field, other))
+        attitudes = {first.rpartition(".")[0] or first, second.rpartition(".")[0] or second}
+        inside = first == second or first.startswith(f"{second}.") or second.startswith(f"{first}.")
+        if field == other or inside:
+            raise SweepError(f"{field}: given beside {other}, accepted: each field once")
+        if attitudes == {"release.angles", "release.quaternion"}:
+            raise SweepError(f"{field}: given beside {other}, accepted: angles or a quaternion")
+
+
+def _is_one(field: str, value: Any) -> bool:
+    """Return whether a value is the same for all tosses."""
+    if isinstance(value, Part) or field in _PARTS or field in COMPONENTS:
+        return True
+    return not _is_range(value) and not hasattr(value, "dims") and (isinstance(value, str) or np.ndim(value) == 0)
+
+
+def _is_range(value: Any) -> bool:
+    return isinstance(value, tuple) and len(value) == 3 or isinstance(value, str) and value.count(":") == 2
+
+
+def _numbers(field: str, value: Any, described: Scenario) -> NDArray[Any]:
+    """Return numbers in SI, or the integers of words, of an array or a list."""
+    try:
+        array = np.asarray(value)
+    except ValueError:  # lists of different lengths
+        raise SweepError(f"{field} = {shown(value)}: {_ACCEPTED}") from None
+    if field in WORDED:
+        kind = WORDED[field]
+        try:
+            return np.array([kind(one).value for one in array.ravel().tolist()]).reshape(array.shape)
+        except ValueError as error:
+            raise SweepError(f"{field}: {error}") from None
+    if array.dtype.kind in "US":
+        unit = unit_of(field, described) if field in NUMBERS else "kg*m**2"
+        flat = [number(field, one, unit) for one in array.ravel().tolist()]
+        return np.array(flat, dtype=float).reshape(array.shape)
+    if array.dtype.kind not in "iuf":
+        raise SweepError(f"{field} = {shown(value)}: {_ACCEPTED}")
+    return np.array(array, dtype=float)
+
+
+def _together(arrays: Mapping[str, NDArray[Any]]) -> dict[str, int]:
+    """Return the dimensions, and their lengths, over which arrays without names broadcast.
+
+    Raises:
+        SweepError: where they do not.
+    """
+    try:
+        shape = np.broadcast_shapes(*(array.shape for array in arrays.values()))
+    except ValueError:
+        told = ", ".join(f"{field} {array.shape}" for field, array in arrays.items())
+        raise SweepError(f"{told}: shapes that do not broadcast, accepted: those that do in NumPy") from None
+    return {TOSS: shape[0]} if len(shape) == 1 else {f"dim_{i}": size for i, size in enumerate(shape)}
+
+
+def _named_by(one: Varied, together: dict[str, int]) -> Varied:
+    """Return an array with the names of its dimensions, without those along which it is broadcast."""
+    own = list(together.items())[len(together) - one.values.ndim :]
+    kept = [i for i, (_, size) in enumerate(own) if one.values.shape[i] == size]
+    values = one.values.reshape([one.values.shape[i] for i in kept])
+    return Varied(field=one.field, dims=tuple(own[i][0] for i in kept), values=values)
+
+
+def _in_a_row(one: Varied, described: Scenario) -> Iterator[Varied]:
+    """Yield what varies in fields of a row: a spin as components of the angular velocity."""
+    if one.field != SPIN:
+        yield one
+        return
+    described.replace(SPIN, 1.0)  # says why, of a coin without an axis
+    w = np.array(described.release.angular_velocity)
+    for name, part in zip(COMPONENTS["release.angular_velocity"], w / math.hypot(*w), strict=True):
+        yield Varied(field=f"release.angular_velocity.{name}", dims=one.dims, values=part * one.values)
+
+
+def attributes_of(one: Varied, described: Scenario) -> dict[str, Any]:
+    """Return the attributes of a coordinate, from which plots take its label, and what its integers mean."""
+    about: dict[str, Any] = {"long_name": word_of(one.field)}
+    if one.words is not None:
+        return about | meanings_of(one.words)
+    return about | ({"units": unit_of(one.field, described)} if one.field in NUMBERS else {})

@@ -1,0 +1,207 @@
+"""The verb: toss a batch of scenarios, and return how they ended as one dataset."""
+
+import warnings
+from collections.abc import Iterable, Iterator, Mapping
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cointoss.compare.engines import Engine
+from cointoss.compare.sweep.batch import Batch, batch_of
+from cointoss.compare.sweep.dataset import dataset_of
+from cointoss.compare.sweep.errors import SweepError, require_whole
+from cointoss.compare.sweep.pieces import How, pieces, require_supported
+from cointoss.models.answers import COLUMNS, NOT_TOSSED, Trust
+from cointoss.models.errors import require_type
+from cointoss.models.reading import ScenarioSource
+from cointoss.models.records import UnsupportedError
+from cointoss.models.stages import stage
+from cointoss.models.unused import warn_of_unused_fields
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from cointoss.analytic import OwnLaw
+
+MOST_IN_MEMORY = 50_000_000
+"""Tosses whose answers are kept in memory, with their words 300 bytes each."""
+MOST_WORKERS = 4096
+TRUSTS, ERRORS = (None, "impacts", "certain"), ("raise", "keep")
+
+
+def toss_many(
+    scenario: ScenarioSource,
+    vary: Mapping[str, Any] | None = None,
+    *,
+    engine: Engine | str = "analytic",
+    trust: Trust | None = None,
+    settings: Any = None,
+    law: "OwnLaw | None" = None,
+    workers: int | None = None,
+    errors: Literal["raise", "keep"] = "raise",
+    progress: bool | None = None,
+    out: str | PathLike[str] | None = None,
+    resume: bool = False,
+    overwrite: bool = False,
+) -> "xr.Dataset":
+    """Toss a batch of scenarios, and return how each ended.
+
+        ds = cointoss.toss_many("table", {"restitution": "0.4:0.8:5", "height": ("20 cm", "60 cm", 400)})
+        float((ds.outcome == "heads").mean()), ds.cointoss.shares("floor.restitution")
+
+    Each toss is that of `cointoss.toss` with the same settings, to the bit, whatever the number of workers.
+    Ctrl-C returns what is tossed by then, with a warning: the rest is "not_tossed".
+
+    Args:
+        scenario: a `Scenario`, the path of its file, or the name of one that comes with the package.
+        vary: by field, what it is: a number, a text with a unit or a word for all tosses; a range
+            "START:STOP:N" or (START, STOP, N), both ends included, along a dimension of its own that is named
+            by the field; an array or a list, which broadcasts with the other arrays as in NumPy, one of one
+            axis along the dimension `toss`; or a DataArray, whose dimensions have names. A field's name may
+            be a part that no other has, such as "restitution"; "height" and "spin" are C's height, and the
+            size of ω about the scenario's own axis. `Hand.releases` draws the fields of a release.
+        engine: "analytic" or "mujoco".
+        trust: "impacts" also finds how many leading impacts of each toss can be trusted, in two to three
+            times the time; "certain" finds that, and whether the engine's own errors can't change its
+            outcome, in two to seven; by the analytic engine only.
+        settings: of the engine, by default its own for many tosses.
+        law: a contact law of one's own, in place of the scenario's, for the analytic engine.
+        workers: number of threads, by default one for each core.
+        errors: what becomes of values that make no scenario: "raise" refuses the first such toss before any
+            is made; "keep" makes all others, and gives these the outcome "refused".
+        progress: whether how far it is is shown; None shows it in a terminal or a notebook.
+        out: a Zarr store, whose name ends in .zarr, into which the answers go as they come: for more of them
+            than memory holds, and to go on after an end.
+        resume: whether to go on with a store that is there.
+        overwrite: whether to replace it.
+
+    Returns:
+        `outcome`, `ending` and `last_face` in words, `impacts`, `end_time` [s], and where asked for
+        `trusted_impacts` and `outcome_certain`, over the dimensions of what varies, whose values are the
+        coordinates. `ds.cointoss` counts, draws and saves. With `out` the dataset is the store's, which is
+        read as it is asked for, and has codes in place of words: `ds.cointoss` knows both.
+
+    Raises:
+        ScenarioError: for a scenario that can't be used, naming file or toss, field, value and what is
+            accepted.
+        ValueError: naming the argument, its value and what is accepted.
+        UnsupportedError: for a scenario that the engine can't toss.
+
+    Warns:
+        UnusedFieldWarning: for a field that nothing uses.
+        ApproximationWarning: for what MuJoCo tosses by something near to it.
+    """
+    batch = batch_of(scenario, vary)
+    how = how_of(engine, trust=trust, settings=settings, law=law, workers=workers, errors=errors)
+    if out is not None:
+        return _into_store(batch, how, Path(out), progress, resume=resume, overwrite=overwrite)
+    if len(batch) > MOST_IN_MEMORY:
+        raise SweepError(
+            f"vary: {len(batch):g} tosses, accepted: at most {MOST_IN_MEMORY:g} in memory; out = NAME.zarr "
+            "takes more"
+        )
+    check(batch, how)
+    answers = {
+        name: np.full(len(batch), COLUMNS[name].missing, COLUMNS[name].kind) for name in how.names
+    }
+    done = 0
+    with stage(f"tossing by {how.engine}", "tosses", total=len(batch), shown=progress) as tell:
+        try:
+            for tosses, found in pieces(batch, how):
+                for name, array in answers.items():
+                    array[tosses] = getattr(found, name)
+                done += len(tosses)
+                tell(done, len(batch))
+        except KeyboardInterrupt:
+            _warn_of_interruption(int(np.sum(answers["outcome"] != NOT_TOSSED)), len(batch))
+    return dataset_of(batch, how, {name: array.reshape(batch.shape) for name, array in answers.items()})
+
+
+def _into_store(
+    batch: Batch, how: How, path: Path, progress: bool | None, *, resume: bool, overwrite: bool
+) -> "xr.Dataset":
+    """Toss a batch into a store, and return its dataset; the arguments are those of `toss_many`."""
+    import xarray
+
+    from cointoss.compare.sweep import accessor as _  # registers `Dataset.cointoss`
+    from cointoss.compare.sweep import store
+    from cointoss.compare.sweep.run import fill
+
+    if how.law is not None:
+        raise UnsupportedError("law: given, accepted: none in a store, whose scenario would not name it")
+    if not batch.sizes:
+        raise SweepError("vary: nothing varies, accepted: one field or more for a store")
+    store.require_place(path, resume=resume, overwrite=overwrite)
+    check(batch, how)
+
+    def toss(parts: Iterable[NDArray[np.intp]]) -> Iterator[tuple[NDArray[np.intp], dict[str, Any]]]:
+        for tosses, found in pieces(batch, how, parts):
+            yield tosses, {name: getattr(found, name) for name in how.names}
+
+    with store.opened(path, store.layout_of_tosses(batch, how), overwrite=overwrite) as kept:
+        try:
+            fill(kept, toss, shown=progress)
+        except KeyboardInterrupt:
+            left = sum(kept.missing(tile).size for tile in kept.tiles)
+            _warn_of_interruption(len(batch) - left, len(batch))
+    return xarray.open_zarr(path, chunks=None)
+
+
+def _warn_of_interruption(made: int, count: int) -> None:
+    warnings.warn(
+        f"interrupted: {made:,} of {count:,} tosses were made; the others are not_tossed", stacklevel=3
+    )
+
+
+def how_of(
+    engine: Engine | str,
+    *,
+    trust: Any = None,
+    settings: Any = None,
+    law: Any = None,
+    workers: Any = None,
+    errors: Any = "raise",
+) -> How:
+    """Return how a batch is tossed; the arguments are those of `toss_many`.
+
+    Raises:
+        SweepError: naming the argument, its value and what is accepted.
+        TypeError: for settings of another engine.
+    """
+    for name, value, accepted in (("trust", trust, TRUSTS), ("errors", errors, ERRORS)):
+        if value not in accepted:
+            raise SweepError(f"{name}: {value!r}, accepted: {', '.join(map(repr, accepted))}")
+    if workers is not None:
+        require_whole("workers", workers, 1, MOST_WORKERS)
+    chosen = Engine(engine)
+    usual = chosen.package.MANY
+    if settings is not None:
+        kind = type(usual)
+        require_type("settings", settings, kind, f"{kind.__name__} of the engine {chosen}")
+    return How(
+        engine=chosen,
+        settings=usual if settings is None else settings,
+        trust=trust,
+        law=law,
+        workers=workers,
+        keeps=errors == "keep",
+    )
+
+
+def check(batch: Batch, how: How) -> None:
+    """Refuse a batch with a toss that is no scenario, or that its engine can't make.
+
+    Raises:
+        ScenarioError, UnsupportedError: naming field, value, and what is accepted.
+
+    Warns:
+        UnusedFieldWarning: for a field that nothing uses.
+    """
+    if not how.keeps:
+        batch.check()
+        largest = batch.largest()
+        warn_of_unused_fields(largest.floor, largest.air)
+    require_supported(batch, how)

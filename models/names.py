@@ -1,0 +1,49 @@
+"""The names under which a person may speak of a scenario's fields."""
+
+import difflib
+from collections.abc import Collection
+
+from cointoss.models.errors import MOST_NAMED
+from cointoss.models.fields import WORDS
+
+SPIN = "release.spin"
+"""The size of ω about the scenario's own axis of rotation [rad/s]: it stands for the components of ω."""
+_ALIASES = {"height": "release.position.z", "spin": SPIN}
+
+
+def full_name(name: str, known: Collection[str]) -> str:
+    """Return the field of a name: the name itself, the one field that ends with it, or what it is called.
+
+        full_name("restitution", UNITS), full_name("position.z", UNITS), full_name("height", UNITS)
+
+    Args:
+        name: of a field, or a part of it.
+        known: the fields.
+
+    Raises:
+        LookupError: for another name; the message says which are accepted.
+    """
+    if name in known:
+        return name
+    if _ALIASES.get(name) in known:
+        return _ALIASES[name]
+    ends = [field for field in known if field.endswith(f".{name}") or WORDS.get(field) == name]
+    if len(ends) == 1:
+        return ends[0]
+    raise LookupError(_accepted(name, list(known), ends))
+
+
+def _accepted(name: str, known: list[str], ends: list[str]) -> str:
+    """Return the fields that a wrong name may mean: those called so, its components, or its neighbours."""
+    tables = list(dict.fromkeys(field.partition(".")[0] for field in known if "." in field))
+    table = name.partition(".")[0]
+    of_table = [field for field in known if table in tables and field.startswith(f"{table}.")]
+    components = [field for field in known if field.startswith(f"{name}.")]
+    last = {field.rpartition(".")[2]: field for field in known}
+    near = difflib.get_close_matches(name, of_table or known, n=1)
+    near = near or [last.get(word, _ALIASES.get(word, "")) for word in
+                    difflib.get_close_matches(name, [*last, *_ALIASES], n=1)]
+    found = ends or components or near
+    others = of_table if 0 < len(of_table) <= MOST_NAMED else [f"numbers of {', '.join(tables)}, and gravity"]
+    hint = f" (did you mean {near[0]}?)" if near and not ends else ""
+    return ", ".join(dict.fromkeys([*found, *others])) + hint
