@@ -1,5 +1,6 @@
 """The public names of this project, each brought from its home when it is first used; nothing lives here."""
 
+from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -108,6 +109,18 @@ if not (Path(__file__).parent / "models").is_dir():
             f"{Path(__file__).parent}: without its folders {', '.join(_PACKAGES)}; "
             "accepted: these in it, or beside it (get the project again, or install it by pip)"
         )
+
+
+def _brought(home: str, name: str) -> Callable[..., Any]:
+    """Return what calls a function of a module, which is imported at the first call."""
+    return lambda *given, **named: getattr(import_module(home), name)(*given, **named)
+
+
+# Here and not in `__getattr__`, so that a toss has its views whichever module of the package made it.
+_views = import_module("cointoss.models.views").views
+_views.plot_toss = _brought("cointoss.compare.output.plots", "plot_toss")
+_views.play_toss = _brought("cointoss.compare.web.play.frame", "play")
+_views.plot_outcomes = _brought("cointoss.compare.output.plots", "plot_outcomes")
 
 
 def __getattr__(name: str) -> Any:

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cointoss.models import notebook
-from cointoss.models.drawing import player, plots
 from cointoss.models.entries import joint_of_states, lowest_points
 from cointoss.models.interruptible import interruptible
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.labelled import column, dataset, freeze, table
 from cointoss.models.scenario import Scenario
+from cointoss.models.views import views
 from cointoss.models.words import Word
 
 if TYPE_CHECKING:
@@ -488,7 +488,7 @@ class Toss:
         Returns:
             The axes.
         """
-        return plots().plot_toss(self, ax, **line)
+        return views.plot_toss(self, ax, **line)
 
     def play(self, other: "Toss | None" = None) -> notebook.Frame:
         """Return what a notebook shows as the coin in 3D with its clock, its sequence and its energy.
@@ -502,7 +502,7 @@ class Toss:
         Raises:
             TypeError: for another that is no toss.
         """
-        return player().play(self, other)
+        return views.play_toss(self, other)
 
     def sample(self, times: ArrayLike) -> States:
         """Return the coin's states at `times`.

@@ -1,0 +1,19 @@
+"""What shows records: records draw nothing themselves, and the package's front names here what does."""
+
+from collections.abc import Callable
+from typing import Any
+
+
+class Views:
+    """The functions that show records; `cointoss/__init__.py` sets each when the package is imported."""
+
+    plot_toss: Callable[..., Any]
+    """Plots a toss in matplotlib's Axes and returns them."""
+    play_toss: Callable[..., Any]
+    """Returns the frame of a notebook that plays a toss, and beside it another or None."""
+    plot_outcomes: Callable[..., Any]
+    """Plots how many tosses had each outcome in matplotlib's Axes and returns them."""
+
+
+views = Views()
+"""The views of this process."""
