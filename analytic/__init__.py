@@ -2,11 +2,11 @@
 
 from cointoss.analytic.impact.own_law import OwnLaw
 from cointoss.analytic.many import require_rows, toss_rows
-from cointoss.analytic.settings import FINE, MANY, Settings
+from cointoss.analytic.settings import FINE, MANY, AnalyticSettings
 from cointoss.analytic.toss import require_supported, toss
 from cointoss.models.kernel.vectors import solve
 
-__all__ = ["FINE", "MANY", "OwnLaw", "Settings", "require_rows", "require_supported", "solve", "toss", "toss_rows"]
+__all__ = ["FINE", "MANY", "OwnLaw", "AnalyticSettings", "require_rows", "require_supported", "solve", "toss", "toss_rows"]
 
 if __name__ == "analytic":  # by its bare name, in a checkout
     from cointoss.bare_names import open_as_part

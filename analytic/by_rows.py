@@ -5,7 +5,7 @@ import numpy as np
 from cointoss.analytic.contact.automaton import Mode, contact_at
 from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.sampling import floor_force, sample_contact
-from cointoss.analytic.events import Verdict, started_of, toss_coin
+from cointoss.analytic.events import TossEnd, started_of, toss_coin
 from cointoss.analytic.flight.flying import sample
 from cointoss.analytic.flight.state_vector import STATE_SIZE, position_of, spin_of, velocity_of
 from cointoss.analytic.horizon.certainty import certainty_of
@@ -106,9 +106,9 @@ def _answer(body, rules, limits, wanted, impacts, y, answer):
     keep_all = wanted != NO_TRUST
     n, impacts, pieces, outcome, ending, end_time = toss_coin(body, rules, limits, y, impacts, keep_all)
     if keep_all:
-        _write_trust(body, rules, impacts[:n], pieces, Verdict(outcome, ending), wanted, answer)
+        _write_trust(body, rules, impacts[:n], pieces, TossEnd(outcome, ending), wanted, answer)
     # The outcome last: where it is, the answer is whole.
-    _write_end(n, impacts, Verdict(outcome, ending), end_time, answer)
+    _write_end(n, impacts, TossEnd(outcome, ending), end_time, answer)
     return impacts
 
 
@@ -152,8 +152,8 @@ def _toss_one(body, row, answer, impacts, pieces, sizes):
     write_release(row, y)
     room = np.zeros(FIRST_ROOM, IMPACT_ROW)
     n, rows, found, outcome, ending, end_time = toss_coin(body, rules, _LIMITS, y, room, True)
-    _write_end(n, rows, Verdict(outcome, ending), end_time, answer)
-    _write_trust(body, rules, rows[:n], found, Verdict(outcome, ending), CERTAIN, answer)
+    _write_end(n, rows, TossEnd(outcome, ending), end_time, answer)
+    _write_trust(body, rules, rows[:n], found, TossEnd(outcome, ending), CERTAIN, answer)
     sizes[0], sizes[1] = n, len(found)
     for i in range(min(n, len(impacts))):
         row = rows[i]

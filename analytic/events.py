@@ -5,10 +5,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from cointoss.analytic.contact.automaton import Event, Mode, contact_at, margin_event, mode_after
-from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.edge.guards import comes_upright, stands_for_good
 from cointoss.analytic.contact.floor_laws import friction_in_contact, supports_contact
-from cointoss.analytic.contact.integrator import Step, contact_work, step_contact
+from cointoss.analytic.contact.integrator import ContactStep, contact_work, step_contact
 from cointoss.analytic.contact.periodic import record_tilt, repeats, start_tilt_history
 from cointoss.analytic.contact.resets import (
     begin_contact,
@@ -67,7 +67,7 @@ class Spent(NamedTuple):
     """From the first sustained contact on; an event counts as `_EVENT`."""
 
 
-class Verdict(NamedTuple):
+class TossEnd(NamedTuple):
     """How a toss ends, or that it goes on: `Outcome.UNDECIDED` and `Ending.NONE`."""
 
     outcome: Outcome
@@ -80,13 +80,13 @@ class Passage(NamedTuple):
     event: Event
     spent: Spent
     """Up to the event."""
-    verdict: Verdict
+    verdict: TossEnd
     """Of an event that ends the toss."""
     flown: Flown
     """Of a flight up to a touch, or `NOT_FLOWN`."""
 
 
-GOES_ON = Verdict(Outcome.UNDECIDED, Ending.NONE)
+GOES_ON = TossEnd(Outcome.UNDECIDED, Ending.NONE)
 NOT_FLOWN = Flown(0.0, False, 0, 0, np.inf)
 _STEPS, _GRAZE = 2 + STATE_SIZE, 3 + STATE_SIZE
 """Columns of the table of modes for the flights, after the time, the `Mode` and the state."""
@@ -162,7 +162,7 @@ def toss_coin(
         row = rows[spent.impacts % len(rows)]
         ending = reset(setup, before, passage, y, row)
         if ending != Ending.NONE:
-            verdict = Verdict(Outcome.UNDECIDED, ending)
+            verdict = TossEnd(Outcome.UNDECIDED, ending)
         elif passage.event == Event.IMPACT or passage.event == Event.FALLS_FLAT:
             impacts = spent.impacts + (1 if passage.event == Event.IMPACT else 0)
             spent = Spent(spent.time, impacts, spent.steps)
@@ -176,10 +176,10 @@ def toss_coin(
 
 
 @compiled
-def classified(setup: Setup, y: Array, time: float) -> Verdict:
+def classified(setup: Setup, y: Array, time: float) -> TossEnd:
     """Return the `classify_ending` of the state y, (13,), at this time [s]."""
     outcome, ending = classify_ending(setup.body, setup.rules, state_of(y), time, setup.history)
-    return Verdict(outcome, ending)
+    return TossEnd(outcome, ending)
 
 
 @compiled
@@ -253,14 +253,14 @@ def fly_to_event(setup: Setup, y: Array, spent: Spent) -> Passage:
     spent = Spent(spent.time, spent.impacts, spent.steps + 1)
     verdict = classified(setup, y, spent.time)
     if verdict.ending == Ending.NONE and not supports_contact(rules.law):
-        verdict = Verdict(verdict.outcome, Ending.CHATTER)
+        verdict = TossEnd(verdict.outcome, Ending.CHATTER)
     return Passage(Event.CHATTERS if verdict.ending == Ending.NONE else Event.ENDS, spent, verdict, flown)
 
 
 @compiled
 def ends(spent: Spent, outcome: Outcome, ending: Ending) -> Passage:
     """Return the `Passage` to the end of the toss."""
-    return Passage(Event.ENDS, spent, Verdict(outcome, ending), NOT_FLOWN)
+    return Passage(Event.ENDS, spent, TossEnd(outcome, ending), NOT_FLOWN)
 
 
 @compiled
@@ -295,7 +295,7 @@ def hold_to_event(setup: Setup, mode: int, y: Array, spent: Spent) -> Passage:
         dt = step.next_dt
         in_mode += 1
         if step.event == Event.NO_SOLUTION:
-            return Passage(step.event, spent, Verdict(Outcome.UNDECIDED, Ending.NO_SOLUTION), NOT_FLOWN)
+            return Passage(step.event, spent, TossEnd(Outcome.UNDECIDED, Ending.NO_SOLUTION), NOT_FLOWN)
         spent = Spent(spent.time + step.elapsed, spent.impacts, spent.steps + cost_of(body, step))
         if step.event == Event.FALLS_FLAT:
             return Passage(step.event, spent, GOES_ON, NOT_FLOWN)
@@ -319,11 +319,11 @@ def hold_to_event(setup: Setup, mode: int, y: Array, spent: Spent) -> Passage:
         if step.is_over:
             event = margin_event(contact, y) if step.event == Event.NONE else step.event
             return Passage(event, spent, GOES_ON, NOT_FLOWN)
-    return out_of_budget(contact, y, spent, Verdict(Outcome.UNDECIDED, Ending.MAX_TIME))
+    return out_of_budget(contact, y, spent, TossEnd(Outcome.UNDECIDED, Ending.MAX_TIME))
 
 
 @compiled
-def cost_of(body: Body, step: Step) -> int:
+def cost_of(body: Body, step: ContactStep) -> int:
     """Return what a step counts against the budget: more where the mode ends again in no time."""
     is_short = step.elapsed < _NO_TIME * (body.radius / body.gravity) ** 0.5
     if step.is_over and step.event == Event.NONE and is_short:
@@ -332,14 +332,14 @@ def cost_of(body: Body, step: Step) -> int:
 
 
 @compiled
-def steps_spent(setup: Setup, y: Array) -> Verdict:
-    """Return the `Verdict` on a toss whose steps are spent in the state y, (13,)."""
+def steps_spent(setup: Setup, y: Array) -> TossEnd:
+    """Return the `TossEnd` of a toss whose steps are spent in the state y, (13,)."""
     outcome, ending = out_of_steps(setup.body, setup.rules, state_of(y), setup.history)
-    return Verdict(outcome, ending)
+    return TossEnd(outcome, ending)
 
 
 @compiled
-def out_of_budget(contact: Contact, y: Array, spent: Spent, verdict: Verdict) -> Passage:
+def out_of_budget(contact: SustainedContact, y: Array, spent: Spent, verdict: TossEnd) -> Passage:
     """Return how a toss ends in contact as a budget is spent.
 
     Args:
@@ -349,5 +349,5 @@ def out_of_budget(contact: Contact, y: Array, spent: Spent, verdict: Verdict) ->
         verdict: on a coin that does not roll on its edge.
     """
     if rolls_upright(contact, y):
-        verdict = Verdict(Outcome.EDGE, Ending.ROLLING)
+        verdict = TossEnd(Outcome.EDGE, Ending.ROLLING)
     return Passage(Event.ENDS, spent, verdict, NOT_FLOWN)

@@ -6,7 +6,7 @@ import numpy as np
 from cointoss.analytic.by_rows import CERTAIN, NO_TRUST, TRUST
 from cointoss.analytic.entries import toss_rows as toss_some
 from cointoss.analytic.impact.own_law import OwnLaw, require_floor
-from cointoss.analytic.settings import MANY, Settings, contact_limits
+from cointoss.analytic.settings import MANY, AnalyticSettings, contact_limits
 from cointoss.models.answers import ANSWER, NOT_TOSSED, Answers, Trust
 from cointoss.models.batch import PLACE, scenario_of_row
 from cointoss.models.body import NO_CODE
@@ -23,7 +23,7 @@ _WANTED = {None: NO_TRUST, "impacts": TRUST, "certain": CERTAIN}
 
 
 def require_rows(
-    rows: Array, *, settings: Settings = MANY, law: OwnLaw | None = None, trust: Trust | None = None
+    rows: Array, *, settings: AnalyticSettings = MANY, law: OwnLaw | None = None, trust: Trust | None = None
 ) -> None:
     """Refuse rows that this engine can't toss so.
 
@@ -31,7 +31,7 @@ def require_rows(
         ScenarioError: for more impacts than can be kept, where trust is asked for.
         UnsupportedError: for a floor that a law of one's own can't be used with.
     """
-    require_type("settings", settings, Settings, "analytic.Settings, such as analytic.MANY")
+    require_type("settings", settings, AnalyticSettings, "analytic.AnalyticSettings, such as analytic.MANY")
     if law is not None:
         require_type("law", law, OwnLaw, "a cointoss.OwnLaw; a named law is the scenario's floor.contact")
         for row in rows[np.unique(rows[:, _FLOOR], axis=0, return_index=True)[1]]:
@@ -45,7 +45,7 @@ def require_rows(
 def toss_rows(
     rows: Array,
     *,
-    settings: Settings = MANY,
+    settings: AnalyticSettings = MANY,
     trust: Trust | None = None,
     law: OwnLaw | None = None,
     workers: int | None = None,

@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.entries import closest_other, find_horizon, toss_coin
 from cointoss.analytic.entries import event_tangent as find_event_tangent
-from cointoss.analytic.events import Started, Verdict, started_of
+from cointoss.analytic.events import Started, TossEnd, started_of
 from cointoss.analytic.flight.state_vector import STATE_SIZE
 from cointoss.analytic.horizon.certainty import Certainty
 from cointoss.analytic.horizon.horizon import ErrorsMade, Horizon
-from cointoss.analytic.settings import FINE, Settings, contact_limits
+from cointoss.analytic.settings import FINE, AnalyticSettings, contact_limits
 from cointoss.models.body import Body, Rules
 from cointoss.models.impact_row import FIRST_ROOM
 from cointoss.models.records import IMPACT_ROW, Array, Ending, OtherOutcome, Outcome
@@ -31,9 +31,9 @@ class EventLog(NamedTuple):
     end_time: float
 
     @property
-    def verdict(self) -> Verdict:
+    def verdict(self) -> TossEnd:
         """The outcome and the ending."""
-        return Verdict(self.outcome, self.ending)
+        return TossEnd(self.outcome, self.ending)
 
     @property
     def start_times(self) -> Array:
@@ -51,7 +51,7 @@ class EventLog(NamedTuple):
         return self.started.modes
 
 
-def run(body: Body, rules: Rules, start: Array, settings: Settings = FINE) -> EventLog:
+def run(body: Body, rules: Rules, start: Array, settings: AnalyticSettings = FINE) -> EventLog:
     """Toss the coin in state `start`, (13,), until the toss is decided or a budget is spent."""
     room = np.zeros(FIRST_ROOM, IMPACT_ROW)
     n, rows, pieces, outcome, ending, end_time = toss_coin(

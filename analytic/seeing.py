@@ -35,7 +35,7 @@ class Sightings(NamedTuple):
     """How many the toss makes, (n,); -1 for a release that no scenario has."""
 
 
-class Asked(NamedTuple):
+class SightingRequest(NamedTuple):
     """What is asked of each toss."""
 
     restitution: Row
@@ -50,7 +50,7 @@ class Asked(NamedTuple):
 
 @compiled
 def see_each(
-    body: Body, rules: Rules, limits: ContactLimits, starts: Table, asked: Asked, found: Sightings
+    body: Body, rules: Rules, limits: ContactLimits, starts: Table, asked: SightingRequest, found: Sightings
 ) -> None:
     """Toss the coin from each state, (n, 13), and write what is asked into what is found.
 

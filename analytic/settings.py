@@ -11,7 +11,7 @@ FINEST, COARSEST = 1e-14, 1e-6
 
 
 @dataclass(frozen=True, kw_only=True)
-class Settings:
+class AnalyticSettings:
     """What the tosses of this engine depend on beside their scenario."""
 
     tolerance: float = field(default=STEP_ERROR, init=False)
@@ -48,10 +48,10 @@ class ContactLimits(NamedTuple):
     tolerance: float
 
 
-def contact_limits(settings: Settings) -> ContactLimits:
+def contact_limits(settings: AnalyticSettings) -> ContactLimits:
     """Return the settings of sustained contact."""
     return ContactLimits(settings.contact_steps, settings.contact_tolerance)
 
 
-FINE = MANY = Settings()
+FINE = MANY = AnalyticSettings()
 """The settings of one toss, and of many tosses: here the same."""

@@ -5,15 +5,21 @@ from numpy.typing import ArrayLike
 
 from cointoss.analytic.entries import see_each
 from cointoss.analytic.flight.state_vector import STATE_SIZE
-from cointoss.analytic.seeing import Asked, Sightings
-from cointoss.analytic.settings import FINE, Settings, contact_limits
+from cointoss.analytic.seeing import SightingRequest, Sightings
+from cointoss.analytic.settings import FINE, AnalyticSettings, contact_limits
 from cointoss.models.body import Body, Rules
 from cointoss.models.interruptible import interruptible
 from cointoss.models.records import Array
 
 
 def sightings(
-    body: Body, rules: Rules, states: Array, asked: Asked, *, most: int, settings: Settings = FINE
+    body: Body,
+    rules: Rules,
+    states: Array,
+    asked: SightingRequest,
+    *,
+    most: int,
+    settings: AnalyticSettings = FINE,
 ) -> Sightings:
     """Return what tosses show, each as `toss` makes it.
 
@@ -36,9 +42,9 @@ def sightings(
 
 def asked_of(
     n: int, *, restitution: ArrayLike, friction: ArrayLike, max_time: ArrayLike, times: Array
-) -> Asked:
+) -> SightingRequest:
     """Return what is asked of n tosses, of all alike where a number is given."""
     chi, mu, longest = (
         np.ascontiguousarray(np.broadcast_to(x, n), float) for x in (restitution, friction, max_time)
     )
-    return Asked(chi, mu, longest, np.ascontiguousarray(times, float))
+    return SightingRequest(chi, mu, longest, np.ascontiguousarray(times, float))

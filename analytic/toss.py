@@ -14,7 +14,7 @@ from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, posit
 from cointoss.analytic.horizon.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR
 from cointoss.analytic.impact.own_law import OwnLaw, contact_in, residuals, rules_by
 from cointoss.analytic.runs import EventLog, horizon_of, other_outcome, run
-from cointoss.analytic.settings import FINE, Settings
+from cointoss.analytic.settings import FINE, AnalyticSettings
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.barriers import barrier, energy
 from cointoss.models.body import Body, Rules, in_vacuum, is_ideal, never_adds_energy
@@ -82,11 +82,11 @@ def state_at_release(release: Release) -> Array:
     return np.array([*release.position, *release.velocity, *release.attitude, *release.angular_velocity])
 
 
-def require_supported(scenario: Scenario, *, settings: Settings) -> None:
+def require_supported(scenario: Scenario, *, settings: AnalyticSettings) -> None:
     """Refuse nothing: this engine tosses every scenario."""
 
 
-def toss(scenario: ScenarioSource, *, settings: Settings = FINE, law: OwnLaw | None = None) -> Toss:
+def toss(scenario: ScenarioSource, *, settings: AnalyticSettings = FINE, law: OwnLaw | None = None) -> Toss:
     """Toss a coin by the analytic engine.
 
     Free flight by eqs (21)-(22) of Strzalko et al. 2008 in Euler parameters, air drag by eqs (49)-(74),
@@ -110,14 +110,14 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE, law: OwnLaw | N
         ScenarioError: for a file or a name that can't be used, and for more impacts than can be kept.
         UnsupportedError: for a floor that a law of one's own can't be used with.
     """
-    require_type("settings", settings, Settings, "analytic.Settings, such as analytic.FINE")
+    require_type("settings", settings, AnalyticSettings, "analytic.AnalyticSettings, such as analytic.FINE")
     described = scenario_of(scenario)
     rules = keeping_all(rules_by(law, described), described)
     with stage("tossing by the analytic engine"):
         return interruptible(lambda: _toss(described, rules, settings, law))
 
 
-def _toss(scenario: Scenario, rules: Rules, settings: Settings, law: OwnLaw | None) -> Toss:
+def _toss(scenario: Scenario, rules: Rules, settings: AnalyticSettings, law: OwnLaw | None) -> Toss:
     body, start = scenario.body, state_at_release(scenario.release)
     answer = run(body, rules, start, settings)
     impacts, end = Impacts.from_rows(answer.rows), answer.start_states[-1]

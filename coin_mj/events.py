@@ -10,7 +10,7 @@ from cointoss.coin_mj.model.state import state_of
 from cointoss.coin_mj.steps.flight import FlightExit, fly
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap
 from cointoss.coin_mj.steps.impact import TouchResult, resolve_impact
-from cointoss.coin_mj.steps.knots import Step, add_knot, nothing_recorded
+from cointoss.coin_mj.steps.knots import StepKind, add_knot, nothing_recorded
 from cointoss.coin_mj.steps.sustained_contact import NO_LOSS, ContactExit, follow_contact, slow_speed
 from cointoss.models.body import Body, Rules, is_linear
 from cointoss.models.ending import classify_ending, face_outcome, unless_caught
@@ -52,7 +52,7 @@ def toss_coin(
     time, n, history = 0.0, 0, energy_history(NO_LOSS)
     weight = 1 if is_linear(coin.body.air) else AIR_STEPS
     steps_left, flight_steps_left = budgets.contact_steps // weight, budgets.flight_steps // weight
-    path = add_knot(coin, time, Step.FLIGHT, nothing_recorded(keep_all))
+    path = add_knot(coin, time, StepKind.FLIGHT, nothing_recorded(keep_all))
     contacts, c = np.empty((FIRST_ROOM if keep_all else 0, 2)), 0
     outcome, ending = Outcome.UNDECIDED, Ending.NONE
     lands = False
@@ -95,7 +95,7 @@ def toss_coin(
                 c += 1
             lands = left_by == ContactExit.RIM_LANDS
             steps_left -= 1
-    path = add_knot(coin, time, Step.FLIGHT, path)
+    path = add_knot(coin, time, StepKind.FLIGHT, path)
     outcome, ending = unless_caught(rules, outcome, ending)
     return n, rows, path.table[: path.size], contacts[:c], outcome, ending, time
 

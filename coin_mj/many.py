@@ -6,7 +6,7 @@ import numpy as np
 
 from cointoss.coin_mj.entries import toss_rows as toss_some
 from cointoss.coin_mj.model.machine import Machine, machine_of
-from cointoss.coin_mj.model.settings import MANY, Settings
+from cointoss.coin_mj.model.settings import MANY, MujocoSettings
 from cointoss.coin_mj.toss import require_supported, warn_of_approximation
 from cointoss.models.answers import ANSWER, NOT_TOSSED, Answers, Trust
 from cointoss.models.batch import PLACE, scenario_of_row
@@ -23,7 +23,7 @@ _OF_MACHINE = PLACE["release.position.x"]
 
 
 def require_rows(
-    rows: Array, *, settings: Settings = MANY, law: object = None, trust: Trust | None = None
+    rows: Array, *, settings: MujocoSettings = MANY, law: object = None, trust: Trust | None = None
 ) -> None:
     """Refuse rows that this engine can't toss so.
 
@@ -48,7 +48,7 @@ def require_rows(
 def toss_rows(
     rows: Array,
     *,
-    settings: Settings = MANY,
+    settings: MujocoSettings = MANY,
     trust: Trust | None = None,
     law: object = None,
     workers: int | None = None,
@@ -74,7 +74,7 @@ def toss_rows(
     Raises:
         UnsupportedError: see `require_rows`.
     """
-    require_type("settings", settings, Settings, "coin_mj.Settings, such as coin_mj.MANY")
+    require_type("settings", settings, MujocoSettings, "coin_mj.MujocoSettings, such as coin_mj.MANY")
     require_rows(rows, settings=settings, law=law, trust=trust)
     found = np.empty((len(rows), len(ANSWER))) if answers is None else answers
     found[:] = NOT_TOSSED

@@ -6,7 +6,7 @@ import numpy as np
 
 from cointoss.coin_mj.entries import knot_forces, sample_contacts, sample_path
 from cointoss.coin_mj.model.machine import Machine
-from cointoss.coin_mj.steps.knots import Step
+from cointoss.coin_mj.steps.knots import StepKind
 from cointoss.models.records import Array, States
 
 TIME, STEP, MOTION = 0, 1, slice(2, 15)
@@ -24,7 +24,7 @@ class Knots:
 
     machine: Machine
     knots: Array
-    """Time [s], the `Step` that starts there, qpos and qvel, (n, 15)."""
+    """Time [s], the `StepKind` that starts there, qpos and qvel, (n, 15)."""
     restitution: float
     """χ of the floor."""
 
@@ -45,8 +45,8 @@ class Knots:
         steps = self.knots[:, STEP]
         first = np.searchsorted(self.knots[:, TIME], times, side="right") - 1
         # At its very end a contact still holds the coin.
-        first = np.where(steps[first] == Step.CONTACT, first, first - 1)
-        second = np.where(steps[first + 1] == Step.CONTACT, first + 1, first)
+        first = np.where(steps[first] == StepKind.CONTACT, first, first - 1)
+        second = np.where(steps[first + 1] == StepKind.CONTACT, first + 1, first)
         numbers, places = np.unique(np.stack([first, second]), return_inverse=True)
         forces = knot_forces(self.machine.coin, self.restitution, self.knots, numbers.astype(np.int32))
         at_first, at_second = forces[places.reshape(2, -1)]

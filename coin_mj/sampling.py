@@ -5,7 +5,7 @@ import numpy as np
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
 from cointoss.coin_mj.model.state import motion_of, set_motion
 from cointoss.coin_mj.steps.free_step import free_step
-from cointoss.coin_mj.steps.knots import Step
+from cointoss.coin_mj.steps.knots import StepKind
 from cointoss.coin_mj.steps.runge_kutta import normalise, write_rate
 from cointoss.coin_mj.steps.sustained_contact import floor_force
 from cointoss.models.body import Body
@@ -27,7 +27,7 @@ def sample_path(coin: MujocoCoin, knots: Table, before: Counts, times: Row) -> T
     motions = np.empty((len(times), 13))
     for i in range(len(times)):
         knot, time = knots[before[i]], times[i]
-        if time > knot[0] and knot[1] == Step.FLIGHT.value:
+        if time > knot[0] and knot[1] == StepKind.FLIGHT.value:
             set_motion(coin, knot[2:])
             free_step(coin, time - knot[0])
             copy_into(motions[i], motion_of(coin))
@@ -54,7 +54,7 @@ def write_between(knot: Array, after: Array, time: float, motion: Array) -> None
     part = (time - knot[0]) / length
     for i in range(13):
         motion[i] = start[i] + part * (end[i] - start[i])
-    if knot[1] == Step.CONTACT.value:
+    if knot[1] == StepKind.CONTACT.value:
         rates, still = np.empty((2, 13)), np.zeros(6)
         write_rate(start, still, rates[0])
         write_rate(end, still, rates[1])
@@ -71,7 +71,7 @@ def sample_contacts(body: Body, knots: Table) -> tuple[Row, Table]:
     times, motions = np.empty(3 * len(knots)), np.empty((3 * len(knots), 13))
     n = 0
     for i in range(len(knots) - 1):
-        if knots[i, 1] != Step.CONTACT.value:
+        if knots[i, 1] != StepKind.CONTACT.value:
             continue
         start, end = knots[i, 0], knots[i + 1, 0]
         times[n], times[n + 1], times[n + 2] = start, (start + end) / 2, end
@@ -97,7 +97,7 @@ def knot_forces(coin: MujocoCoin, chi: float, knots: Table, numbers: Counts) -> 
     forces = np.zeros((len(numbers), 3))
     for i in range(len(numbers)):
         knot = knots[numbers[i]]
-        if knot[1] == Step.CONTACT.value:
+        if knot[1] == StepKind.CONTACT.value:
             set_motion(coin, knot[2:])
             copy_into(forces[i], floor_force(coin, chi, knots[numbers[i] + 1, 0] - knot[0]))
     return forces

@@ -13,7 +13,7 @@ from cointoss.coin_mj.entries import air_force, toss_coin
 from cointoss.coin_mj.model.air import PowerLaw
 from cointoss.coin_mj.model.machine import Machine, machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
-from cointoss.coin_mj.model.settings import FINE, ROUGH, Friction, Realisation, Settings
+from cointoss.coin_mj.model.settings import FINE, ROUGH, Friction, MujocoSettings, Realisation
 from cointoss.coin_mj.path import Knots
 from cointoss.coin_mj.trust import lawful_impacts, shared_impacts
 from cointoss.models.body import Body, Rules
@@ -76,7 +76,7 @@ def run(machine: Machine, rules: Rules) -> MujocoRun:
     return MujocoRun(rows, knots, contacts, Outcome(outcome), Ending(ending), end_time)
 
 
-def require_supported(scenario: Scenario, *, settings: Settings) -> None:
+def require_supported(scenario: Scenario, *, settings: MujocoSettings) -> None:
     """Refuse what this engine doesn't realise.
 
     Raises:
@@ -101,7 +101,7 @@ def require_supported(scenario: Scenario, *, settings: Settings) -> None:
             )
 
 
-def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
+def toss(scenario: ScenarioSource, *, settings: MujocoSettings = FINE) -> Toss:
     """Toss a coin in MuJoCo.
 
     A spring's contact lasts about π/√stiffness, in which the coin turns a little: the impulse differs from
@@ -126,7 +126,7 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     Warns:
         ApproximationWarning: for a perfectly rough floor, which is one of friction `ROUGH`.
     """
-    require_type("settings", settings, Settings, "coin_mj.Settings, such as coin_mj.FINE")
+    require_type("settings", settings, MujocoSettings, "coin_mj.MujocoSettings, such as coin_mj.FINE")
     described = scenario_of(scenario)
     require_supported(described, settings=settings)
     rules = keeping_all(described.rules, described)
@@ -135,7 +135,7 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
         return interruptible(lambda: _toss(described, rules, settings))
 
 
-def _toss(scenario: Scenario, rules: Rules, settings: Settings) -> Toss:
+def _toss(scenario: Scenario, rules: Rules, settings: MujocoSettings) -> Toss:
     machine = machine_of(scenario, settings)
     answer = run(machine, rules)
     impacts = Impacts.from_rows(answer.rows)
@@ -186,7 +186,11 @@ def warn_of_approximation(scenario: Scenario) -> None:
 
 
 def impacts_of(
-    scenario: Scenario, *, settings: Settings = FINE, thickness: float | None = None, softer: float = 1.0
+    scenario: Scenario,
+    *,
+    settings: MujocoSettings = FINE,
+    thickness: float | None = None,
+    softer: float = 1.0,
 ) -> Impacts:
     """Toss a coin for its impacts alone: no path, no certificate, no horizon of trust.
 
@@ -194,7 +198,7 @@ def impacts_of(
         scenario: what to toss.
         settings: how MuJoCo realises the floor.
         thickness: of the coin's shape, by default `shape_thickness` [m].
-        softer: by which the contacts are softened, see `Settings.softened`.
+        softer: by which the contacts are softened, see `MujocoSettings.softened`.
     """
     machine = machine_of(scenario, settings, thickness, softer)
     return Impacts.from_rows(interruptible(lambda: run(machine, scenario.rules)).rows)
@@ -244,7 +248,9 @@ def _force_and_moment(body: Body, v: Vector, w: Vector) -> tuple[Vector, Vector]
     return f, subtract(m_B, cross(c, f))
 
 
-def _trust(scenario: Scenario, settings: Settings, impacts: Impacts, contacts: Array) -> tuple[int, TrustEnd]:
+def _trust(
+    scenario: Scenario, settings: MujocoSettings, impacts: Impacts, contacts: Array
+) -> tuple[int, TrustEnd]:
     """Count the leading impacts that meet the law, and that coins further from the hard limit share.
 
     Their contacts are softened by `SOFTER`; where a thin coin's shape is made up it is ten times as thick.

@@ -86,7 +86,7 @@ def toss(
     Args:
         scenario: what to toss; or a file's path, or a name such as "fig24a".
         engine: "analytic" or "mujoco".
-        settings: of that engine, `analytic.Settings` or `coin_mj.Settings`; by default those of one toss.
+        settings: `analytic.AnalyticSettings` or `coin_mj.MujocoSettings`; by default those of one toss.
         law: a contact law of one's own, in place of the scenario's, for the engine "analytic".
 
     Raises:

@@ -106,7 +106,7 @@ ACCEPTED = {
 """The field that each fault names, and what is accepted there: `limit` is a number, `contact` the law."""
 
 
-class Found(NamedTuple):
+class FoundFault(NamedTuple):
     """A fault, or `Fault.NONE`."""
 
     fault: Fault
@@ -114,21 +114,21 @@ class Found(NamedTuple):
     """The number in its sentence of `ACCEPTED`."""
 
 
-_NOTHING = Found(Fault.NONE, 0.0)
+_NOTHING = FoundFault(Fault.NONE, 0.0)
 
 
 @compiled
-def fault_of_center(cylinder: Cylinder, center: Vector) -> Found:
+def fault_of_center(cylinder: Cylinder, center: Vector) -> FoundFault:
     """Return what is wrong with the place of C, from B, body frame [m]."""
     if not math.hypot(center[0], center[1]) < cylinder.radius:
-        return Found(Fault.CENTER_BESIDE, cylinder.radius)
+        return FoundFault(Fault.CENTER_BESIDE, cylinder.radius)
     if not abs(center[2]) <= cylinder.thickness / 2:
-        return Found(Fault.CENTER_ABOVE, cylinder.thickness / 2)
+        return FoundFault(Fault.CENTER_ABOVE, cylinder.thickness / 2)
     return _NOTHING
 
 
 @compiled
-def fault_of_inertia(cylinder: Cylinder, J: Matrix, is_given: bool) -> Found:
+def fault_of_inertia(cylinder: Cylinder, J: Matrix, is_given: bool) -> FoundFault:
     """Return what is wrong with an inertia about C, body frame [kg m²].
 
     Args:
@@ -138,46 +138,46 @@ def fault_of_inertia(cylinder: Cylinder, J: Matrix, is_given: bool) -> Found:
     """
     if not is_given:
         if not is_positive_definite(J):
-            return Found(Fault.CENTER_TOO_FAR, cylinder.radius / 2)
-        return _NOTHING if obeys_triangle_inequality(J) else Found(Fault.CENTER_NO_TRIANGLE, 0.0)
+            return FoundFault(Fault.CENTER_TOO_FAR, cylinder.radius / 2)
+        return _NOTHING if obeys_triangle_inequality(J) else FoundFault(Fault.CENTER_NO_TRIANGLE, 0.0)
     largest = 0.0
     for row in J:
         largest = max(largest, abs(row[0]), abs(row[1]), abs(row[2]))
     apart = max(abs(J[0][1] - J[1][0]), abs(J[0][2] - J[2][0]), abs(J[1][2] - J[2][1]))
     if not apart <= _SYMMETRY * largest:
-        return Found(Fault.NOT_SYMMETRIC, 0.0)
+        return FoundFault(Fault.NOT_SYMMETRIC, 0.0)
     if not is_positive_definite(J):
-        return Found(Fault.NOT_POSITIVE, 0.0)
+        return FoundFault(Fault.NOT_POSITIVE, 0.0)
     if not obeys_triangle_inequality(J):
-        return Found(Fault.NO_TRIANGLE, 0.0)
+        return FoundFault(Fault.NO_TRIANGLE, 0.0)
     unit, (low, _, high) = cylinder.mass * cylinder.radius * cylinder.radius, principal_moments(J)
     if not (low / unit >= _LEAST_MOMENT and high / unit <= _LARGEST_MOMENT):
-        return Found(Fault.MOMENTS, unit)
+        return FoundFault(Fault.MOMENTS, unit)
     return _NOTHING
 
 
 @compiled
-def fault_of_floor(law: ContactLaw, kind: RestitutionKind, rolling: float, pivoting: float) -> Found:
+def fault_of_floor(law: ContactLaw, kind: RestitutionKind, rolling: float, pivoting: float) -> FoundFault:
     """Return what is wrong with a floor's kind of restitution and its resistances [m]."""
     if kind == RestitutionKind.ENERGETIC and law != ContactLaw.COULOMB:
-        return Found(Fault.KIND, 0.0)
+        return FoundFault(Fault.KIND, 0.0)
     is_followed = law == ContactLaw.SMOOTH or law == ContactLaw.COULOMB or law == ContactLaw.PERFECTLY_ROUGH
     if rolling > 0 and not is_followed:
-        return Found(Fault.ROLLING_LAW, 0.0)
+        return FoundFault(Fault.ROLLING_LAW, 0.0)
     if pivoting > 0 and not is_followed:
-        return Found(Fault.PIVOTING_LAW, 0.0)
+        return FoundFault(Fault.PIVOTING_LAW, 0.0)
     return _NOTHING
 
 
 @compiled
-def fault_of_quaternion(e: Quaternion) -> Found:
+def fault_of_quaternion(e: Quaternion) -> FoundFault:
     """Return what is wrong with the Euler parameters of a release."""
     size = norm_of(e)
-    return _NOTHING if abs(size - 1) <= NORM_ERROR else Found(Fault.NORM, size)
+    return _NOTHING if abs(size - 1) <= NORM_ERROR else FoundFault(Fault.NORM, size)
 
 
 @compiled
-def fault_of_release(body: Body, state: State) -> Found:
+def fault_of_release(body: Body, state: State) -> FoundFault:
     """Return what is wrong with a release: the coin in the floor, or too fast to follow.
 
     Args:
@@ -187,18 +187,18 @@ def fault_of_release(body: Body, state: State) -> Found:
     z, w = state.position[2], state.spin
     clearance = gap(body, z, state.R[2])
     if clearance < -_BELOW * body.radius:
-        return Found(Fault.BELOW_FLOOR, z - clearance)
+        return FoundFault(Fault.BELOW_FLOOR, z - clearance)
     rate = (body.gravity / body.radius) ** 0.5
     if not norm(w) <= FASTEST_SPIN * rate:
-        return Found(Fault.SPIN, FASTEST_SPIN * rate)
+        return FoundFault(Fault.SPIN, FASTEST_SPIN * rate)
     fall = (2 * max(z, 0.0) / body.gravity) ** 0.5
     if not damping_rate(body, state.velocity, w, fall) <= FASTEST_DRAG * rate:
-        return Found(Fault.DRAG, 0.0)
+        return FoundFault(Fault.DRAG, 0.0)
     return _NOTHING
 
 
 @compiled
-def fault_of_toss(body: Body, rules: Rules, state: State) -> Found:
+def fault_of_toss(body: Body, rules: Rules, state: State) -> FoundFault:
     """Return what is wrong with a coin, its floor and its release together.
 
     Args:
@@ -207,7 +207,7 @@ def fault_of_toss(body: Body, rules: Rules, state: State) -> Found:
         state: at the release.
     """
     if not is_finite(body):
-        return Found(Fault.NOT_FINITE, 0.0)
+        return FoundFault(Fault.NOT_FINITE, 0.0)
     found = fault_of_release(body, state)
     if found.fault != Fault.NONE:
         return found
@@ -215,9 +215,9 @@ def fault_of_toss(body: Body, rules: Rules, state: State) -> Found:
     # Up to there K + q ẑᵀ is positive definite: see analytic/contact/resistance.py.
     most = 2 * (body.inertia_smallest / body.mass) ** 0.5
     if (rolling > 0 or pivoting > 0) and not math.hypot(rolling, pivoting) < most:
-        return Found(Fault.ROLLING if rolling >= pivoting else Fault.PIVOTING, most)
+        return FoundFault(Fault.ROLLING if rolling >= pivoting else Fault.PIVOTING, most)
     reach = highest_on_floor(body)
-    return _NOTHING if rules.caught > reach else Found(Fault.CAUGHT, reach)
+    return _NOTHING if rules.caught > reach else FoundFault(Fault.CAUGHT, reach)
 
 
 @compiled

@@ -22,7 +22,7 @@ from cointoss.models.errors import FieldError, ScenarioError, describe
 from cointoss.models.faults import (
     ACCEPTED,
     Fault,
-    Found,
+    FoundFault,
     fault_of_center,
     fault_of_floor,
     fault_of_inertia,
@@ -129,13 +129,13 @@ class Part(BaseModel):
         return super().model_copy(deep=deep)
 
 
-def _require_none(found: Found) -> None:
+def _require_none(found: FoundFault) -> None:
     """Refuse a value that is checked, for what was found wrong with it."""
     if found.fault != Fault.NONE:
         raise ValueError(ACCEPTED[found.fault][1].format(limit=found.limit))
 
 
-def refuse(found: Found, part: Part, **words: str) -> None:
+def refuse(found: FoundFault, part: Part, **words: str) -> None:
     """Refuse a part of a scenario, or a scenario, for what was found wrong with it.
 
     Args:

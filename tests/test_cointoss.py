@@ -60,7 +60,7 @@ def test_a_bare_name_in_a_checkout_gives_the_same_objects():
         "from compare.sweep.axes import parse_axis\nimport coin_mj.model.settings as settings\n"
         "from cointoss import coin_mj\n"
         "assert analytic is cointoss.analytic and models.records is sys.modules['cointoss.models.records']\n"
-        "assert models.records.Toss is cointoss.Toss and settings.Settings is coin_mj.Settings\n"
+        "assert models.records.Toss is cointoss.Toss and settings.MujocoSettings is coin_mj.MujocoSettings\n"
         "assert parse_axis.__module__ == 'cointoss.compare.sweep.axes'\n"
         "assert models.records.__spec__.name == models.records.__name__ == 'cointoss.models.records'\n"
         "bare = ('models', 'analytic', 'coin_mj', 'compare')\n"
@@ -122,18 +122,20 @@ def test_an_unknown_name_is_answered_with_the_names_there_are():
 def test_either_engine_tosses_by_its_name():
     few = cointoss.load("fig24a").replace("ending.max_impacts", 1)
     assert [cointoss.toss(few).engine, cointoss.toss(few, "mujoco").engine] == ["analytic", "mujoco"]
-    finer = cointoss.toss(few, engine="mujoco", settings=cointoss.coin_mj.Settings(stiffness=1e13))
+    finer = cointoss.toss(few, engine="mujoco", settings=cointoss.coin_mj.MujocoSettings(stiffness=1e13))
     assert ("contact stiffness", 1e13) in [(one.name, one.value) for one in finer.certificate]
     with pytest.raises(ValueError, match=r"^engine: 'paper', accepted: analytic, mujoco$"):
         cointoss.toss(few, "paper")
 
 
-@pytest.mark.parametrize("engine", ["analytic", "coin_mj"])
+@pytest.mark.parametrize(
+    ("engine", "name"), [("analytic", "AnalyticSettings"), ("coin_mj", "MujocoSettings")]
+)
 @pytest.mark.parametrize("wrong", [3, None, {"steps": 2}], ids=str)
-def test_settings_of_another_type_are_refused(engine, wrong):
+def test_settings_of_another_type_are_refused(engine, name, wrong):
     package, releases = getattr(cointoss, engine), cointoss.Releases.of("fig24a", 1)
     for toss in (package.toss, lambda one, **more: package.toss_many(one, releases, **more)):
-        with pytest.raises(TypeError, match=f"^settings: of type .*, accepted: {engine}.Settings, such as"):
+        with pytest.raises(TypeError, match=f"^settings: of type .*, accepted: {engine}.{name}, such as"):
             toss("fig24a", settings=wrong)
     with pytest.raises(TypeError, match=r"^releases: of type list, accepted: Releases, as of Releases.of"):
         package.toss_many("fig24a", [0, 0, 1])
@@ -160,6 +162,18 @@ def test_the_package_runs_the_command(tmp_path):
     for module in ("cointoss", "cointoss.compare.cli"):
         done = python("-m", module, "--version", folder=tmp_path)
         assert (done.returncode, done.stdout) == (0, f"cointoss, version {version(DISTRIBUTION)}\n")
+
+
+@pytest.mark.parametrize("home", ["cointoss", "cointoss.analytic"])
+def test_a_toss_has_its_views_whichever_module_made_it_and_only_a_plot_brings_matplotlib(home):
+    script = (
+        f"import sys; from {home} import toss; made = toss('fig24a'); print('matplotlib' in sys.modules)\n"
+        "print(len(made.plot().get_lines()) > 1, 'matplotlib' in sys.modules, made.play().title)"
+    )
+    done = python("-c", script, MPLBACKEND="agg")
+    before, after = done.stdout.splitlines()
+    assert before == "False"
+    assert after.startswith("True True toss of 2 g")
 
 
 @pytest.mark.parametrize("name", ["analytic", "Scenario"])

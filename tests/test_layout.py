@@ -1,6 +1,7 @@
-"""Tests share what is in tests/helpers, leave no process behind, and have no limit for a busy machine."""
+"""The folders of the product and of its tests keep to their rules, as their sources show."""
 
 import ast
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,8 @@ PACKAGES = [
     for path in (TESTS.parent / name).rglob("*.py")
 ]
 SHARED = (TESTS / "helpers", TESTS / "benchmarks")
+STILL_SHARED = ("Part", "Setting", "Tile")
+"""Names that two classes of the product still share."""
 
 
 def imported(source: str) -> set[str]:
@@ -102,3 +105,53 @@ def test_a_limit_by_the_clock_is_seen(line):
 def test_a_busy_machine_meets_no_limit(pytestconfig):
     assert [path for path in SOURCES if hasty(path.read_text(encoding="utf-8"))] == []
     assert float(pytestconfig.getini("faulthandler_timeout")) >= 3 * HANGS
+
+
+def reaches_by_name(source: str) -> list[int]:
+    """Return the lines that import a module of the package by its name, past import-linter."""
+    calls = [node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Call)]
+    importing = [one for one in calls if ast.unparse(one.func).endswith(("import_module", "__import__"))]
+    return [
+        call.lineno
+        for call in importing
+        if any(
+            isinstance(part, ast.Constant) and str(part.value).partition(".")[0] == "cointoss"
+            for given in (*call.args, *(one.value for one in call.keywords))
+            for part in ast.walk(given)
+        )
+    ]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "import_module('cointoss.compare.output.plots')",
+        "importlib.import_module(name='cointoss.compare')",
+        "a = __import__('cointoss.compare')",
+        "import_module(f'cointoss.{name}').explore()",
+        "import_module('cointoss.' + name)",
+    ],
+)
+def test_an_import_by_name_is_seen(line):
+    assert reaches_by_name(line) == [1]
+
+
+def test_neither_the_models_nor_an_engine_imports_a_module_of_the_package_by_its_name():
+    lower = [path for path in PACKAGES if path.relative_to(TESTS.parent).parts[0] != "compare"]
+    assert len(lower) > 100
+    assert [path for path in lower if reaches_by_name(path.read_text(encoding="utf-8"))] == []
+
+
+def shared_names(sources: list[str]) -> set[str]:
+    """Return the names that two or more classes of some modules have."""
+    nodes = [node for source in sources for node in ast.walk(ast.parse(source))]
+    counts = Counter(node.name for node in nodes if isinstance(node, ast.ClassDef))
+    return {name for name, count in counts.items() if count > 1}
+
+
+def test_a_name_that_two_classes_share_is_seen():
+    assert shared_names(["class A: pass\nclass B: pass", "def f():\n    class A: pass"]) == {"A"}
+
+
+def test_each_class_of_the_product_has_a_name_of_its_own():
+    assert shared_names([path.read_text(encoding="utf-8") for path in PACKAGES]) == {*STILL_SHARED}

@@ -10,7 +10,7 @@ from enum import IntEnum
 import numpy as np
 
 from cointoss.analytic.contact import incipient_slip, sliding, sticking, upright
-from cointoss.analytic.contact.contact import BOTH_RIMS, Contact, lower_rim_of
+from cointoss.analytic.contact.contact import BOTH_RIMS, SustainedContact, lower_rim_of
 from cointoss.analytic.contact.one_rim import contact_in_flight
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.models.body import Body
@@ -107,13 +107,13 @@ def mode_after(mode: int, event: Event) -> int:
 
 
 @compiled
-def contact_at(body: Body, friction: FloorFriction, mode: int, y: Array) -> Contact:
-    """Return the `Contact` of a coin in the state y, (13,), in this mode of contact."""
-    return Contact(body, friction, mode, BOTH_RIMS if mode == Mode.UPRIGHT else lower_rim_of(y))
+def contact_at(body: Body, friction: FloorFriction, mode: int, y: Array) -> SustainedContact:
+    """Return the `SustainedContact` of a coin in the state y, (13,), in this mode of contact."""
+    return SustainedContact(body, friction, mode, BOTH_RIMS if mode == Mode.UPRIGHT else lower_rim_of(y))
 
 
 @compiled
-def flow(contact: Contact, y: Array, dy: Array) -> float:
+def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
     """Write the rate of change of the state y of a coin in contact into dy; both (13,).
 
     Returns:
@@ -123,7 +123,7 @@ def flow(contact: Contact, y: Array, dy: Array) -> float:
 
 
 @inlined
-def inlined_flow(contact: Contact, y: Array, dy: Array) -> float:
+def inlined_flow(contact: SustainedContact, y: Array, dy: Array) -> float:
     """As `flow`, for what every step of a contact does: a call copies all numbers of the coin."""
     if contact.mode == Mode.STICKING:
         return sticking.flow(contact, y, dy)
@@ -135,7 +135,7 @@ def inlined_flow(contact: Contact, y: Array, dy: Array) -> float:
 
 
 @compiled
-def project(contact: Contact, y: Array) -> None:
+def project(contact: SustainedContact, y: Array) -> None:
     """Bring the points in contact to the floor, and their velocities to what the mode allows.
 
     The velocities by an impulse there, without resistance. A reset, and the last part of a step.
@@ -151,7 +151,7 @@ def project(contact: Contact, y: Array) -> None:
 
 
 @compiled
-def margin_event(contact: Contact, y: Array) -> Event:
+def margin_event(contact: SustainedContact, y: Array) -> Event:
     """Return the event of a mode whose margin is zero where nothing lands, or of a coin that is `TOUCHING`.
 
     A guard. Which mode comes next is asked in the order of what rules the others out: a coin that lifts off

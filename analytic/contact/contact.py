@@ -11,10 +11,10 @@ from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import Array
 
 BOTH_RIMS = 0.0
-"""The `Contact.rim` of an upright coin."""
+"""The `SustainedContact.rim` of an upright coin."""
 
 
-class Contact(NamedTuple):
+class SustainedContact(NamedTuple):
     """What the functions that follow a sustained contact share, made once for each step."""
 
     body: Body

@@ -3,7 +3,7 @@
 Friction turns such a slip at once into the direction in which it grows: see `starting_slip`.
 """
 
-from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.floor_force import (
     growing_slip,
     holding_force,
@@ -22,7 +22,7 @@ from cointoss.models.records import Array
 
 
 @inlined
-def flow(contact: Contact, y: Array, dy: Array) -> float:
+def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
     """Write the rate of change of the state y into dy, and return the margin; see `automaton.flow`."""
     A, mu = free_flow(contact, y, dy), contact.friction.sliding
     K, b = A.delassus, A.free_acceleration
@@ -31,7 +31,7 @@ def flow(contact: Contact, y: Array, dy: Array) -> float:
 
 
 @compiled
-def project(contact: Contact, y: Array) -> None:
+def project(contact: SustainedContact, y: Array) -> None:
     """Leave A slip only in the direction in which it grows; see `automaton.project`."""
     body, A = contact.body, put_on_floor(contact, y)
     B = contact_in_flight(contact, y)

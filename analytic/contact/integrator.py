@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cointoss.analytic.contact.automaton import Event, Mode, flow, inlined_flow, project
-from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.landing import landing, time_to_landing
 from cointoss.analytic.contact.rim_contact import tilt_time
 from cointoss.analytic.contact.sliding import slip_time
@@ -45,7 +45,7 @@ END_ROW = STAGES
 _NEW_ROW, _LENGTH_ROW, _ROWS = STAGES + 1, STAGES + 2, STAGES + 3
 
 
-class Step(NamedTuple):
+class ContactStep(NamedTuple):
     """A step of a contact that was made."""
 
     elapsed: float
@@ -59,7 +59,7 @@ class Step(NamedTuple):
 
 
 @compiled
-def contact_work(contact: Contact, y: Array) -> Array:
+def contact_work(contact: SustainedContact, y: Array) -> Array:
     """Return the work space of a contact that starts in the state y, (13,).
 
     Its first row holds the rate of change at y, (15, 13).
@@ -71,7 +71,7 @@ def contact_work(contact: Contact, y: Array) -> Array:
 
 
 @compiled
-def step_of_length(contact: Contact, y: Array, dt: float, stages: Array, y_new: Array) -> float:
+def step_of_length(contact: SustainedContact, y: Array, dt: float, stages: Array, y_new: Array) -> float:
     """Advance the state by one step in contact, and project it onto the floor.
 
     Args:
@@ -95,7 +95,7 @@ def step_of_length(contact: Contact, y: Array, dt: float, stages: Array, y_new: 
 
 
 @compiled
-def short_step(contact: Contact, y: Array, slope: Array, dt: float, y_new: Array) -> None:
+def short_step(contact: SustainedContact, y: Array, slope: Array, dt: float, y_new: Array) -> None:
     """Advance the state by a step so short that one of order 4 does, and project it onto the floor.
 
     The classical Runge-Kutta method. Args as `step_of_length`'s, but that `slope`, (13,), is the rate of
@@ -115,7 +115,7 @@ def short_step(contact: Contact, y: Array, slope: Array, dt: float, y_new: Array
 
 
 @compiled
-def first_length(contact: Contact, y: Array, dy: Array) -> float:
+def first_length(contact: SustainedContact, y: Array, dy: Array) -> float:
     """Return the length of a mode's first step to try [s], infinite where nothing is known of it.
 
     The lowest point of a rim runs round it, and friction turns with the slip: a step is short against the
@@ -136,7 +136,7 @@ def first_length(contact: Contact, y: Array, dy: Array) -> float:
 
 @compiled
 def accepted_step(
-    contact: Contact, y: Array, dt: float, tolerance: float, stages: Array, y_new: Array
+    contact: SustainedContact, y: Array, dt: float, tolerance: float, stages: Array, y_new: Array
 ) -> tuple[float, float, float]:
     """Advance the state by a contact step whose error is within the tolerance, at most dt long.
 
@@ -175,7 +175,9 @@ def accepted_step(
 
 
 @compiled
-def step_contact(contact: Contact, y: Array, dt: float, tolerance: float, stages: Array) -> Step:
+def step_contact(
+    contact: SustainedContact, y: Array, dt: float, tolerance: float, stages: Array
+) -> ContactStep:
     """Advance the state by one step in contact, or to the end of the mode.
 
     Args:
@@ -188,27 +190,33 @@ def step_contact(contact: Contact, y: Array, dt: float, tolerance: float, stages
     y_new = stages[_NEW_ROW]
     high, dt, left = accepted_step(contact, y, dt, tolerance, stages, y_new)
     if high == 0:
-        return Step(high, dt, True, Event.NO_SOLUTION)
+        return ContactStep(high, dt, True, Event.NO_SOLUTION)
     if left > 0:
         copy_into(y, y_new)
         copy_into(stages[0], stages[END_ROW])
-        return Step(high, dt, False, Event.NONE)
+        return ContactStep(high, dt, False, Event.NONE)
     before = np.empty(STATE_SIZE)
     low, high = _bracket_end(contact, y, high, left, stages, before, y_new)
     event = landing(contact, y_new)
     if event == Event.NONE:
         copy_into(y, y_new)
-        return Step(high, dt, True, event)
+        return ContactStep(high, dt, True, event)
     # The other rim point is still to land: its velocity is that before the crossing.
     copy_into(y, before)
     if event == Event.FACE_LANDS and low == 0:
         event = Event.FALLS_FLAT
-    return Step(low, dt, True, event)
+    return ContactStep(low, dt, True, event)
 
 
 @compiled
 def _bracket_end(
-    contact: Contact, y: Array, longest: float, at_end: float, stages: Array, before: Array, after: Array
+    contact: SustainedContact,
+    y: Array,
+    longest: float,
+    at_end: float,
+    stages: Array,
+    before: Array,
+    after: Array,
 ) -> tuple[float, float]:
     """Bracket the end of a contact in a step, to the part `_END` of it.
 
@@ -254,7 +262,7 @@ def _bracket_end(
 
 @compiled
 def _end_on_cubic(
-    contact: Contact,
+    contact: SustainedContact,
     y: Array,
     dt: float,
     at_start: float,

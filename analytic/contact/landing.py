@@ -3,7 +3,7 @@
 import numpy as np
 
 from cointoss.analytic.contact.automaton import Event
-from cointoss.analytic.contact.contact import BOTH_RIMS, Contact
+from cointoss.analytic.contact.contact import BOTH_RIMS, SustainedContact
 from cointoss.analytic.flight.state_vector import attitude_of, spin_of
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.geometry import FACE_SINE, tilt_sine_of
@@ -13,7 +13,7 @@ from cointoss.models.records import Array
 
 
 @compiled
-def landing(contact: Contact, y: Array) -> Event:
+def landing(contact: SustainedContact, y: Array) -> Event:
     """Return which part of the coin lands in the state y, (13,), just past the end of a mode, or `NONE`."""
     if contact.rim == BOTH_RIMS:
         return Event.NONE
@@ -24,7 +24,7 @@ def landing(contact: Contact, y: Array) -> Event:
 
 
 @compiled
-def time_to_landing(contact: Contact, y: Array, dy: Array) -> float:
+def time_to_landing(contact: SustainedContact, y: Array, dy: Array) -> float:
     """Return when the other rim would land if n_z were a parabola [s], infinite where it would not.
 
     Args:

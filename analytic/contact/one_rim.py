@@ -1,6 +1,6 @@
 """Contact at one rim point A: what sliding, incipient slip and sticking have in common."""
 
-from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.resistance import FRICTIONLESS
 from cointoss.analytic.contact.rim_contact import (
     RimContact,
@@ -28,7 +28,7 @@ from cointoss.models.records import Array
 
 
 @inlined
-def free_flow(contact: Contact, y: Array, dy: Array) -> RimContact:
+def free_flow(contact: SustainedContact, y: Array, dy: Array) -> RimContact:
     """Write the rate of change of the state y in free flight into dy, both (13,), and return A there."""
     flight = flight_of(contact.body, y)
     write_rate(contact.body, flight, dy)
@@ -36,20 +36,20 @@ def free_flow(contact: Contact, y: Array, dy: Array) -> RimContact:
 
 
 @inlined
-def add_force(contact: Contact, A: RimContact, F: Vector, dy: Array) -> float:
+def add_force(contact: SustainedContact, A: RimContact, F: Vector, dy: Array) -> float:
     """Add what the floor's force F at A gives to dy, (13,), and return the `contact_margin`."""
     accelerate(contact.body, A, F, dy)
     return contact_margin(contact.body, A.R[2], F[2], contact.rim)
 
 
 @compiled
-def contact_in_flight(contact: Contact, y: Array) -> RimContact:
+def contact_in_flight(contact: SustainedContact, y: Array) -> RimContact:
     """Return A in the state y, (13,), with the floor's resistance."""
     return rim_contact_in_flight(contact.body, contact.friction, flight_of(contact.body, y), contact.rim)
 
 
 @inlined
-def put_on_floor(contact: Contact, y: Array) -> RimMotion:
+def put_on_floor(contact: SustainedContact, y: Array) -> RimMotion:
     """Bring A to the floor, and return it without resistance, in the body frame; y: state, (13,)."""
     A = rim_motion(contact.body, FRICTIONLESS, flight_of(contact.body, y), contact.rim)
     set_height(y, -dot(A.up, A.arm))
@@ -57,7 +57,7 @@ def put_on_floor(contact: Contact, y: Array) -> RimMotion:
 
 
 @inlined
-def strike(contact: Contact, A: RimMotion, S: Vector, y: Array) -> None:
+def strike(contact: SustainedContact, A: RimMotion, S: Vector, y: Array) -> None:
     """Let an impulse S act at A, without resistance, body frame, (3,) [N s]; y: state, (13,); changed."""
     gained = apply(rotation_matrix(attitude_of(y)), S)
     set_velocity(y, add_quotient(velocity_of(y), gained, contact.body.mass))

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cointoss.analytic.contact.automaton import Mode
-from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.resistance import has_resistance
 from cointoss.analytic.flight.state_vector import attitude_of, spin_of
 from cointoss.models.attitude import rotation_matrix
@@ -31,7 +31,7 @@ class TiltHistory(NamedTuple):
 
 
 @compiled
-def start_tilt_history(contact: Contact) -> TiltHistory:
+def start_tilt_history(contact: SustainedContact) -> TiltHistory:
     """Return the `TiltHistory` of a contact that starts.
 
     An ideal coin in vacuum that slides without friction, or rolls without slip, has one degree of freedom,

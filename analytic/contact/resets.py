@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 from cointoss.analytic.contact import upright
 from cointoss.analytic.contact.automaton import Mode, project
-from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.one_rim import contact_in_flight
 from cointoss.analytic.contact.periodic import tilt_rate
 from cointoss.analytic.contact.resistance import FloorFriction
@@ -144,7 +144,7 @@ def tilt_onto_rim(body: Body, y: Array) -> None:
 
 
 @compiled
-def stop_slip(contact: Contact, following: int, y: Array) -> None:
+def stop_slip(contact: SustainedContact, following: int, y: Array) -> None:
     """Stop the slip of A, or turn it into incipient slip.
 
     Args:
@@ -159,11 +159,11 @@ def stop_slip(contact: Contact, following: int, y: Array) -> None:
         slow, v_A = SLOW * (body.gravity * body.radius) ** 0.5, A.velocity
         S = coulomb(A.delassus, (v_A[0], v_A[1], -1e-6 * slow), 0.0, mu, RestitutionKind.KINEMATIC)
         accelerate(body, A, S, y)
-    project(Contact(body, contact.friction, following, contact.rim), y)
+    project(SustainedContact(body, contact.friction, following, contact.rim), y)
 
 
 @compiled
-def stand_up(contact: Contact, y: Array) -> None:
+def stand_up(contact: SustainedContact, y: Array) -> None:
     """Put a coin near its edge onto both rims; one that stuck takes the slow slip that holds it there.
 
     Args:

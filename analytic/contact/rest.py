@@ -1,7 +1,7 @@
 """A coin whose roll the floor's resistance stops: whether it rests on its edge, or rolls on there."""
 
 from cointoss.analytic.contact.automaton import Mode
-from cointoss.analytic.contact.contact import Contact, lower_rim_of
+from cointoss.analytic.contact.contact import SustainedContact, lower_rim_of
 from cointoss.analytic.contact.edge.standing import on_edge, stands
 from cointoss.analytic.contact.resistance import has_resistance
 from cointoss.analytic.contact.rim_contact import rim_contact
@@ -13,7 +13,7 @@ from cointoss.models.rest import is_held, slow_spin
 
 
 @compiled
-def rests(contact: Contact, y: Array) -> bool:
+def rests(contact: SustainedContact, y: Array) -> bool:
     """Return whether resistance to rolling holds a coin in contact in the state y, (13,); see `is_held`."""
     body, friction = contact.body, contact.friction
     if not friction.rolling > 0 or norm(spin_of(y)) > slow_spin(body):
@@ -24,6 +24,6 @@ def rests(contact: Contact, y: Array) -> bool:
 
 
 @compiled
-def rolls_upright(contact: Contact, y: Array) -> bool:
+def rolls_upright(contact: SustainedContact, y: Array) -> bool:
     """Return whether a coin rolls upright against resistance, and would be turned back on either rim."""
     return has_resistance(contact.friction) and on_edge(contact.body, y) and stands(contact, y)

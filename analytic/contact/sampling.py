@@ -3,7 +3,7 @@
 import numpy as np
 
 from cointoss.analytic.contact.automaton import flow
-from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.integrator import END_ROW, accepted_step, contact_work, step_of_length
 from cointoss.analytic.flight.equations_of_motion import derivative
 from cointoss.analytic.flight.state_vector import STATE_SIZE, velocity_of
@@ -15,7 +15,7 @@ from cointoss.models.records import Array
 
 @compiled
 def sample_contact(
-    contact: Contact, start: Array, start_time: float, times: Array, tolerance: float, states: Array
+    contact: SustainedContact, start: Array, start_time: float, times: Array, tolerance: float, states: Array
 ) -> None:
     """Write the states of one contact at `times` into `states`.
 
@@ -41,7 +41,7 @@ def sample_contact(
 
 
 @compiled
-def floor_force(contact: Contact, y: Array) -> Vector:
+def floor_force(contact: SustainedContact, y: Array) -> Vector:
     """Return the floor's force, of both rims where a coin is upright, space frame, (3,) [N].
 
     It is what the rate of change in contact has more than that of free flight.

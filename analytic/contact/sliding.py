@@ -3,7 +3,7 @@
 import numpy as np
 
 from cointoss.analytic.contact import smooth
-from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.floor_force import horizontal_size, slip_direction
 from cointoss.analytic.contact.one_rim import put_on_floor, strike
 from cointoss.analytic.contact.resistance import FRICTIONLESS, is_smooth
@@ -30,7 +30,7 @@ _LEAST_SQUARE = 1e-300
 
 
 @inlined
-def flow(contact: Contact, y: Array, dy: Array) -> float:
+def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
     """Write the rate of change of the state y into dy, and return the margin; see `automaton.flow`.
 
     Beside what ends every contact, sliding ends when slip is slow, or when friction would press a point down
@@ -42,7 +42,7 @@ def flow(contact: Contact, y: Array, dy: Array) -> float:
 
 
 @inlined
-def flow_with_friction(contact: Contact, y: Array, dy: Array) -> float:
+def flow_with_friction(contact: SustainedContact, y: Array, dy: Array) -> float:
     """As `flow`, whatever μ; it is 0 on a floor that resists rolling or pivoting alone."""
     body, friction, mu = contact.body, contact.friction, contact.friction.sliding
     flight = flight_of(body, y)
@@ -83,7 +83,7 @@ def rise_gained(body: Body, A: RimMotion, F: Vector, spin: Vector) -> float:
 
 
 @compiled
-def slip_time(contact: Contact, y: Array, dy: Array) -> float:
+def slip_time(contact: SustainedContact, y: Array, dy: Array) -> float:
     """Return the time in which A's slip would stop or double as it changes now [s].
 
     Args:
@@ -101,7 +101,7 @@ def slip_time(contact: Contact, y: Array, dy: Array) -> float:
 
 
 @compiled
-def project(contact: Contact, y: Array) -> None:
+def project(contact: SustainedContact, y: Array) -> None:
     """Bring A to the floor, and stop v_Az by an impulse with its friction; see `automaton.project`."""
     if is_smooth(contact.friction):
         smooth.project(contact, y)
@@ -110,7 +110,7 @@ def project(contact: Contact, y: Array) -> None:
 
 
 @compiled
-def project_with_friction(contact: Contact, y: Array) -> None:
+def project_with_friction(contact: SustainedContact, y: Array) -> None:
     """As `project`, whatever the coefficient of friction."""
     body, A = contact.body, put_on_floor(contact, y)
     along = normal_with_friction(A, contact.friction.sliding)
@@ -119,13 +119,13 @@ def project_with_friction(contact: Contact, y: Array) -> None:
 
 
 @compiled
-def begins(contact: Contact, A: RimContact, is_sliding: bool) -> bool:
+def begins(contact: SustainedContact, A: RimContact, is_sliding: bool) -> bool:
     """Return whether a contact goes on by sliding: A `slips`, and does not jam; or the floor is smooth."""
     return contact.friction.sliding == 0 or (slips(contact, A, is_sliding) and not jams(contact, A))
 
 
 @compiled
-def slips(contact: Contact, A: RimContact, is_sliding: bool) -> bool:
+def slips(contact: SustainedContact, A: RimContact, is_sliding: bool) -> bool:
     """Return whether A slips faster than `SLOW`; or faster than half of it, where it was sliding so far."""
     slow = SLOW * (contact.body.gravity * contact.body.radius) ** 0.5
     # A mode that ends at its bound must not go on for rounding.
@@ -134,7 +134,7 @@ def slips(contact: Contact, A: RimContact, is_sliding: bool) -> bool:
 
 
 @compiled
-def jams(contact: Contact, A: RimContact) -> bool:
+def jams(contact: SustainedContact, A: RimContact) -> bool:
     """Return whether sliding presses the coin into the floor, however large the force (Painlevé)."""
     mu = contact.friction.sliding
     s = slip_direction(A.velocity, mu)

@@ -3,7 +3,7 @@
 What `cointoss.analytic.contact.sliding` does without friction: nothing but A's vertical motion is left.
 """
 
-from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.resistance import FRICTIONLESS
 from cointoss.analytic.contact.rim_contact import contact_margin, rim_motion, rim_point
 from cointoss.analytic.flight.equations_of_motion import flight_of, write_rate
@@ -22,7 +22,7 @@ from cointoss.models.records import Array
 
 
 @inlined
-def flow(contact: Contact, y: Array, dy: Array) -> float:
+def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
     """Write the rate of change of the state y into dy, and return the margin; see `automaton.flow`."""
     body = contact.body
     flight = flight_of(body, y)
@@ -34,7 +34,7 @@ def flow(contact: Contact, y: Array, dy: Array) -> float:
 
 
 @compiled
-def project(contact: Contact, y: Array) -> None:
+def project(contact: SustainedContact, y: Array) -> None:
     """Bring A to the floor, and stop its fall or rise by an impulse there; see `automaton.project`."""
     body = contact.body
     state = state_of(y)

@@ -1,6 +1,6 @@
 """Sticking: the rim point A does not slip; the coin rolls or pivots on it."""
 
-from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.floor_force import friction_holds, holding_force
 from cointoss.analytic.contact.one_rim import put_on_floor, strike
 from cointoss.analytic.contact.resistance import FRICTIONLESS
@@ -22,7 +22,7 @@ from cointoss.models.records import Array
 
 
 @inlined
-def flow(contact: Contact, y: Array, dy: Array) -> float:
+def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
     """Write the rate of change of the state y into dy, and return the margin; see `automaton.flow`."""
     body, friction = contact.body, contact.friction
     flight = flight_of(body, y)
@@ -34,7 +34,7 @@ def flow(contact: Contact, y: Array, dy: Array) -> float:
 
 
 @compiled
-def project(contact: Contact, y: Array) -> None:
+def project(contact: SustainedContact, y: Array) -> None:
     """Bring A to the floor, and stop it by an impulse; see `automaton.project`."""
     A = put_on_floor(contact, y)
     strike(contact, A, holding_force(delassus_matrix(contact.body, FRICTIONLESS, A), A.velocity), y)
@@ -51,6 +51,6 @@ def margin(body: Body, up: Vector, F: Vector, mu: float) -> float:
 
 
 @compiled
-def begins(contact: Contact, A: RimContact) -> bool:
+def begins(contact: SustainedContact, A: RimContact) -> bool:
     """Return whether a contact whose slip is slow, or stopped, goes on by sticking: friction holds A."""
     return friction_holds(contact.friction.sliding, holding_force(A.delassus, A.free_acceleration))

@@ -6,7 +6,7 @@ friction on slow slip grows in proportion to it.
 
 from typing import NamedTuple
 
-from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.floor_force import friction_holds, holding_force, horizontal_size
 from cointoss.analytic.contact.resistance import FRICTIONLESS, FloorFriction, has_resistance
 from cointoss.analytic.contact.rim_contact import (
@@ -49,7 +49,7 @@ class RimForces(NamedTuple):
 
 
 @inlined
-def flow(contact: Contact, y: Array, dy: Array) -> float:
+def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
     """Write the rate of change of the state y into dy, and return the margin; see `automaton.flow`.
 
     Friction acts on each rim against that rim's slip. The mode ends where the floor would have to pull.
@@ -67,7 +67,7 @@ def flow(contact: Contact, y: Array, dy: Array) -> float:
 
 
 @compiled
-def project(contact: Contact, y: Array) -> None:
+def project(contact: SustainedContact, y: Array) -> None:
     """Turn a coin near its edge onto it, and stop both rims on the floor; see `automaton.project`."""
     body = contact.body
     tilt(y, rotation_matrix(attitude_of(y))[2][2])
@@ -102,7 +102,7 @@ def margin(body: Body, friction: FloorFriction, y: Array) -> float:
 
 
 @compiled
-def start_slow_slip(contact: Contact, y: Array) -> None:
+def start_slow_slip(contact: SustainedContact, y: Array) -> None:
     """Set the rim that stuck before the other landed into the slow slip whose friction holds it there.
 
     Without it that rim would have no friction at first, and the other might lift at once. Where no friction
@@ -130,7 +130,7 @@ def start_slow_slip(contact: Contact, y: Array) -> None:
 
 @compiled
 def _gripping(
-    contact: Contact, held: RimContact, other: RimContact, along: Vector, motion: Vector, fall: float
+    contact: SustainedContact, held: RimContact, other: RimContact, along: Vector, motion: Vector, fall: float
 ) -> tuple[Vector, float]:
     """Return what takes all motion from one rim's lowest point, and the vertical one from the other's.
 

@@ -12,7 +12,7 @@ from cointoss.analytic.flight.fall import (
     slowing_of,
     time_of,
 )
-from cointoss.analytic.flight.first_touch import Bounds, Found, bounds_of, first_touch, lowest_dip
+from cointoss.analytic.flight.first_touch import Bounds, PieceResult, bounds_of, first_touch, lowest_dip
 from cointoss.analytic.flight.state_vector import position_of, state_of, velocity_of
 from cointoss.analytic.flight.touch_search import Flown, smallest_flight
 from cointoss.analytic.flight.turning import Turning, turn, turning_of
@@ -31,19 +31,19 @@ def fly_closed(body: Body, y: Array, longest: float, with_graze: bool) -> Flown:
         result, flown, made, more = _search(body, y, inside, longest - time)
         time, evaluations, pieces = time + flown, evaluations + made, pieces + more
         state = state_of(y)
-        starts_on_floor = result == Found.TOUCH and time == 0
+        starts_on_floor = result == PieceResult.TOUCH and time == 0
         if starts_on_floor and evaluate_gap(body, state).speed >= -smallest_flight(body, state).speed:
             # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch.
-            result = Found.GRAZE
-        if result != Found.GRAZE:
+            result = PieceResult.GRAZE
+        if result != PieceResult.GRAZE:
             graze = closed_graze(body, start, time) if with_graze else np.inf
-            return Flown(time, result == Found.TOUCH, evaluations, pieces, graze)
+            return Flown(time, result == PieceResult.TOUCH, evaluations, pieces, graze)
         # It flies on from there, where it hardly sinks for a while.
         inside = smallest_flight(body, state).time
 
 
 @compiled
-def _search(body: Body, y: Array, inside: float, longest: float) -> tuple[Found, float, int, int]:
+def _search(body: Body, y: Array, inside: float, longest: float) -> tuple[PieceResult, float, int, int]:
     """Fly to a touch, to a graze or to the end; y becomes the state there.
 
     Args:
@@ -53,7 +53,7 @@ def _search(body: Body, y: Array, inside: float, longest: float) -> tuple[Found,
         longest: the longest flight wanted [s].
 
     Returns:
-        What is `Found`, when [s], and the numbers of gap evaluations and of pieces.
+        What is `PieceResult`, when [s], and the numbers of gap evaluations and of pieces.
     """
     if in_vacuum(body):
         turning, heights = turning_of(body, state_of(y)), _parabola(body, y)
@@ -63,8 +63,8 @@ def _search(body: Body, y: Array, inside: float, longest: float) -> tuple[Found,
         turn(turning, y, t, 1.0, y)
         return result, t, evaluations, 1
     series = np.empty((4, ORDER + 1))
-    time, result, evaluations, pieces = 0.0, Found.NOTHING, 0, 0
-    while time < longest and result == Found.NOTHING:
+    time, result, evaluations, pieces = 0.0, PieceResult.NOTHING, 0, 0
+    while time < longest and result == PieceResult.NOTHING:
         turning = turning_of(body, state_of(y))
         piece = expand(body, turning, y, clock(slowing_of(body), longest - time), series)
         heights, bounds = series[3, : piece.order + 1], bounds_in_air(body, turning, piece, velocity_of(y))

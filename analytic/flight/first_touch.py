@@ -28,7 +28,7 @@ Polynomial = tuple[float, float, float] | Array
 """Coefficients, that of t⁰ first."""
 
 
-class Found(IntEnum):
+class PieceResult(IntEnum):
     """What the search of a piece of a flight finds."""
 
     NOTHING = 0
@@ -204,7 +204,7 @@ def falls_through(ahead: TouchBound) -> bool:
 @compiled
 def first_touch(
     body: Body, turning: Turning, heights: Polynomial, inside: float, length: float, bounds: Bounds
-) -> tuple[Found, float, int]:
+) -> tuple[PieceResult, float, int]:
     """Search a piece of a flight for the first touch.
 
     Args:
@@ -216,7 +216,7 @@ def first_touch(
         bounds: on it.
 
     Returns:
-        What is `Found`, when [s], and the number of gap evaluations.
+        What is `PieceResult`, when [s], and the number of gap evaluations.
     """
     hop, evaluations = (2 * SINK * body.radius / body.gravity) ** 0.5, 0
     while inside < length:
@@ -231,14 +231,14 @@ def first_touch(
         # Also where time itself has no finer step than the coin still has to fall.
         touches = height <= CLOSED_TOUCH * body.radius and (speed <= 0 or ahead < hop)
         if touches or inside + ahead == inside:
-            return Found.TOUCH if speed < 0 else Found.GRAZE, inside, evaluations
+            return PieceResult.TOUCH if speed < 0 else PieceResult.GRAZE, inside, evaluations
         if falls_through(to_come):
             touch, more = _sure_touch(body, turning, heights, inside, now, to_come)
             evaluations += more
             if touch > inside:
-                return Found.TOUCH, touch, evaluations
+                return PieceResult.TOUCH, touch, evaluations
         inside += ahead
-    return Found.NOTHING, length, evaluations
+    return PieceResult.NOTHING, length, evaluations
 
 
 @compiled

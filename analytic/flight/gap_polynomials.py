@@ -35,7 +35,7 @@ class GapPolynomials(NamedTuple):
     """By how much rounding changes F at most [m²]."""
 
 
-class Window(NamedTuple):
+class TimeWindow(NamedTuple):
     """A time of interest within a step."""
 
     start: float
@@ -91,7 +91,7 @@ def gap_polynomials(
 
 
 @compiled
-def time_surely_clear(body: Body, polynomials: GapPolynomials, sink: float, window: Window) -> float:
+def time_surely_clear(body: Body, polynomials: GapPolynomials, sink: float, window: TimeWindow) -> float:
     """Return a time from the window's start on during which a coin above the floor surely stays there.
 
     Args:

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cointoss.analytic.flight.equations_of_motion import Flight, flight_in
-from cointoss.analytic.flight.gap_polynomials import DEGREE, Window, gap_polynomials, time_surely_clear
+from cointoss.analytic.flight.gap_polynomials import DEGREE, TimeWindow, gap_polynomials, time_surely_clear
 from cointoss.analytic.flight.integrated_flight import (
     finish_step,
     first_step,
@@ -164,7 +164,7 @@ def seen(lowest: Lowest, height: float, speed: float) -> Lowest:
 
 
 @compiled
-def seen_between(body: Body, y: Array, within: Window, order: int, work: Array, lowest: Lowest) -> Lowest:
+def seen_between(body: Body, y: Array, within: TimeWindow, order: int, work: Array, lowest: Lowest) -> Lowest:
     """Return the `Lowest` after a part of a step in which the coin surely does not touch.
 
     Args:
@@ -232,10 +232,10 @@ def fly_by_steps(body: Body, y: Array, longest: float, with_graze: bool) -> Flow
                 polynomials = gap_polynomials(body, work, order, made, coefficients)
                 sink = sink_of_squares(body, near.R[2]) if lifts_off else 0.0
                 patience *= 1 if lifts_off else 2
-                window = Window(inside, made - inside, ahead)
+                window = TimeWindow(inside, made - inside, ahead)
                 surely = time_surely_clear(body, polynomials, sink, window)
                 if with_graze and surely > ahead:
-                    skipped = Window(inside, min(surely, made - inside), ahead)
+                    skipped = TimeWindow(inside, min(surely, made - inside), ahead)
                     lowest = seen_between(body, y, skipped, order, work, lowest)
                 ahead = max(ahead, surely)
             touching_speed = 0.0

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.analytic.contact.automaton import Mode
-from cointoss.analytic.events import Started, Verdict, toss_coin
+from cointoss.analytic.events import Started, TossEnd, toss_coin
 from cointoss.analytic.flight.state_vector import STATE_SIZE, normalise, spin_of, velocity_of
 from cointoss.analytic.horizon.horizon import Horizon
 from cointoss.analytic.numerics.tolerances import CONTACT_STEP_ERROR
@@ -45,7 +45,7 @@ _SIGNS = _draw.choice([-1.0, 1.0], (PAIRS, _ERRORS))
 _LEAST = LEAST * _draw.normal(size=(PAIRS, STATE_SIZE - _FIRST))
 
 
-class Start(NamedTuple):
+class NeighbourStart(NamedTuple):
     """Where the neighbours of a toss start beside it."""
 
     impact: int
@@ -69,8 +69,8 @@ class Certainty(NamedTuple):
 
 
 @compiled
-def start_of(rules: Rules, rows: NDArray[Any], started: Started, horizon: Horizon) -> Start:
-    """Return the `Start` of the neighbours of a toss; for the arguments see `certainty_of`.
+def start_of(rules: Rules, rows: NDArray[Any], started: Started, horizon: Horizon) -> NeighbourStart:
+    """Return the `NeighbourStart` of the neighbours of a toss; for the arguments see `certainty_of`.
 
     Symmetry keeps a flat coin flat without any error, but the least tilt ends that: the neighbours of such a
     landing start before it.
@@ -84,7 +84,7 @@ def start_of(rules: Rules, rows: NDArray[Any], started: Started, horizon: Horizo
             first = i
             break
     left = with_budgets(rules, rules.max_impacts - first, rules.max_time - started.times[first])
-    return Start(first, started.states[first], left)
+    return NeighbourStart(first, started.states[first], left)
 
 
 @compiled
@@ -99,7 +99,7 @@ def _scales(body: Body, y: Array) -> Array:
 
 
 @compiled
-def neighbour(body: Body, start: Start, horizon: Horizon, pair: int, size: float) -> Array:
+def neighbour(body: Body, start: NeighbourStart, horizon: Horizon, pair: int, size: float) -> Array:
     """Return the state in which a neighbour starts, (13,).
 
     Args:
@@ -129,7 +129,7 @@ def end_of(body: Body, rules: Rules, y: Array) -> tuple[NDArray[Any], Outcome, E
 
 @compiled
 def certainty_of(
-    body: Body, rules: Rules, rows: ImpactRows, started: Started, verdict: Verdict, horizon: Horizon
+    body: Body, rules: Rules, rows: ImpactRows, started: Started, verdict: TossEnd, horizon: Horizon
 ) -> Certainty:
     """Return whether all neighbours of a toss end as it does; not if it is undecided, or a transient.
 

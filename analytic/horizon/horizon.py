@@ -24,7 +24,7 @@ from cointoss.analytic.flight.state_vector import (
 )
 from cointoss.analytic.flight.turning import turns_in_closed_form
 from cointoss.analytic.horizon.flight_tangent import COARSE, flight_tangent, longest_step
-from cointoss.analytic.horizon.touch_derivatives import Touch, touch_derivatives
+from cointoss.analytic.horizon.touch_derivatives import TouchDerivatives, touch_derivatives
 from cointoss.analytic.numerics.householder import reflect_to_triangle
 from cointoss.analytic.numerics.tolerances import TIME_STEP, TOUCH
 from cointoss.models.attitude import rotation_matrix
@@ -225,7 +225,7 @@ def _write_made(
 
 
 @compiled
-def _delay_errors(touch: Touch, early: float, errors: Array) -> float:
+def _delay_errors(touch: TouchDerivatives, early: float, errors: Array) -> float:
     """Carry the errors from the touch's undisturbed time to its own.
 
     Args:
@@ -254,7 +254,7 @@ def _delay_errors(touch: Touch, early: float, errors: Array) -> float:
 
 
 @compiled
-def _strike_errors(touch: Touch, errors: Array) -> None:
+def _strike_errors(touch: TouchDerivatives, errors: Array) -> None:
     """Carry all errors through the impact."""
     before = np.empty(_TIME)
     for row in errors:
@@ -299,7 +299,7 @@ def _sinking(body: Body, errors: Array) -> float:
 
 
 @compiled
-def _holds(rules: Rules, row: Any, touch: Touch, errors: Array) -> bool:
+def _holds(rules: Rules, row: Any, touch: TouchDerivatives, errors: Array) -> bool:
     """Return whether an impact keeps its time, face, place and impulse within the errors.
 
     Args:

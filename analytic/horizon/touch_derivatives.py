@@ -43,7 +43,7 @@ _PARAMETERS = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0),
 _AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
-class Touch(NamedTuple):
+class TouchDerivatives(NamedTuple):
     """Derivatives with respect to the state before an impact, with the coin held at the touch."""
 
     closing: float
@@ -63,7 +63,7 @@ class Touch(NamedTuple):
 
 
 @compiled
-def touch_derivatives(body: Body, rules: Rules, y: Array) -> Touch:
+def touch_derivatives(body: Body, rules: Rules, y: Array) -> TouchDerivatives:
     """Return the derivatives of a touch and of its impact, the Euler parameters kept at norm 1.
 
     Those of the impact by a law of one's own are infinite where the law is not smooth.
@@ -86,7 +86,7 @@ def touch_derivatives(body: Body, rules: Rules, y: Array) -> Touch:
         tilt_sine_of(state.R[2]) <= FLAT_SINE,
     ):
         slopes[_IMPULSE:] = np.inf
-    return Touch(
+    return TouchDerivatives(
         v_A[2],
         rate,
         slopes[0],

@@ -38,7 +38,7 @@ _ACCEPTED = {
 }
 
 
-class Contact(NamedTuple):
+class LawArguments(NamedTuple):
     """What a law is asked at an impact."""
 
     K: Matrix
@@ -127,7 +127,7 @@ class OwnLaw:
         """The function's."""
         return getattr(self.function, "__name__", "law")
 
-    def breach(self, contact: Contact) -> str:
+    def breach(self, contact: LawArguments) -> str:
         """Return what the law must not do and does at a contact, in words; empty where it does nothing."""
         S = call_at(self.code.address, *contact)
         breach = Breach(breach_of(self.code, contact.K, contact.velocity, S))
@@ -147,7 +147,7 @@ class OwnLaw:
         return f"{does}{_at(contact)}; accepted: {_ACCEPTED[breach]}{meant}"
 
 
-def contact_of(body: Body, R: Array, point: Array | None, v_A: Array, chi: float, mu: float) -> Contact:
+def contact_of(body: Body, R: Array, point: Array | None, v_A: Array, chi: float, mu: float) -> LawArguments:
     """Return what a law is asked of a coin that touches the floor.
 
     Args:
@@ -165,10 +165,10 @@ def contact_of(body: Body, R: Array, point: Array | None, v_A: Array, chi: float
         K -= arm @ R @ np.array(body.inertia_inverse) @ R.T @ arm
         tau = R @ np.array([-point[1], point[0], 0.0]) / body.radius
     a, b, c = K.tolist()
-    return Contact((tuple(a), tuple(b), tuple(c)), tuple(v_A.tolist()), vector(tau), chi, mu)
+    return LawArguments((tuple(a), tuple(b), tuple(c)), tuple(v_A.tolist()), vector(tau), chi, mu)
 
 
-def contact_in(body: Body, rules: Rules, R: Matrix, v: Array, w: Array) -> Contact:
+def contact_in(body: Body, rules: Rules, R: Matrix, v: Array, w: Array) -> LawArguments:
     """Return what a law is asked of a coin that touches the floor.
 
     Args:
@@ -250,10 +250,10 @@ def _require_between(name: str, value: object, least: float, most: float) -> Non
 
 def _takes_five(function: FunctionType) -> bool:
     kinds = [one.kind for one in signature(function).parameters.values()]
-    return len(kinds) == len(Contact._fields) and {*kinds} <= _POSITIONAL
+    return len(kinds) == len(LawArguments._fields) and {*kinds} <= _POSITIONAL
 
 
-def _require_vector(law: OwnLaw, contact: Contact) -> Array:
+def _require_vector(law: OwnLaw, contact: LawArguments) -> Array:
     """Return S of the function as it is written, refused unless it is a tuple of three numbers."""
     try:
         S = law.function(*contact)
@@ -279,7 +279,7 @@ def _difference(S: Array, compiled: Vector, agrees: float) -> str:
     )
 
 
-def _at(contact: Contact) -> str:
+def _at(contact: LawArguments) -> str:
     """Return a contact in words."""
     K = ", ".join(_shown(row) for row in contact.K)
     v_A, tau = _shown(contact.velocity), _shown(np.round(contact.tau, 3))
@@ -306,12 +306,12 @@ _SPEEDS = ((0.0, 0.0, 1.0), (1.0, 0.0, 1.0), (0.0, -1.0, 1.0), (-0.6, 0.8, 0.05)
 
 
 @cache
-def _contacts() -> tuple[Contact, ...]:
+def _contacts() -> tuple[LawArguments, ...]:
     """Return the contacts at which every law is tried."""
     return tuple(_draw_contacts())
 
 
-def _draw_contacts() -> Iterator[Contact]:
+def _draw_contacts() -> Iterator[LawArguments]:
     rng, chis, mus = np.random.default_rng(2008), cycle((1.0, 0.5, 0.0, 0.8)), cycle((0.3, 0.0, 1.0))
     for tilt, coin, _ in product(_TILTS, _COINS, range(3)):
         body = Scenario(

@@ -8,7 +8,7 @@ from math import isfinite
 
 import mujoco
 
-from cointoss.coin_mj.bounces.contact import Contact
+from cointoss.coin_mj.bounces.contact import ContactSettings
 from cointoss.models.errors import FieldError
 
 MODEL = """<mujoco>
@@ -32,7 +32,7 @@ ACCEPTED = (
 
 
 @dataclass(frozen=True)
-class Body:
+class FlatBody:
     """A body that comes down flat, by its type and size in a <geom>."""
 
     kind: str
@@ -49,7 +49,7 @@ class Body:
         """Half of the body's thickness where it is thinnest [m]."""
         return self.size[0] if self.kind == "capsule" else min(self.size)
 
-    def model(self, contact: Contact, height: float) -> str:
+    def model(self, contact: ContactSettings, height: float) -> str:
         """Return the model of the body that starts at a height over a plane [m]."""
         return MODEL.format(
             option=contact.option,
@@ -59,7 +59,7 @@ class Body:
             contact=contact.geom,
         )
 
-    def compiled(self, contact: Contact, height: float) -> mujoco.MjModel:
+    def compiled(self, contact: ContactSettings, height: float) -> mujoco.MjModel:
         """Return that model, compiled."""
         return mujoco.MjModel.from_xml_string(self.model(contact, height))
 
@@ -68,10 +68,10 @@ class Body:
         return " ".join([self.kind, *(f"{number:g}" for number in self.size)])
 
 
-BALL = Body("sphere", (0.01,))
+BALL = FlatBody("sphere", (0.01,))
 
 
-def body_of(text: str) -> Body:
+def body_of(text: str) -> FlatBody:
     """Return the body that a text such as "box 0.1 0.1 0.002" describes.
 
     Raises:
@@ -85,4 +85,4 @@ def body_of(text: str) -> Body:
     fits = len(size) == SIZES.get(kind, -1) and all(isfinite(n) and 1e-6 <= n <= 1e3 for n in size)
     if not fits:
         raise FieldError("body", text, ACCEPTED)
-    return Body(kind, size)
+    return FlatBody(kind, size)

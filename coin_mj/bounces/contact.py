@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from cointoss.coin_mj.model.settings import Realisation, Settings, rebound_of
+from cointoss.coin_mj.model.settings import MujocoSettings, Realisation, rebound_of
 
 HARDEST = "0.9999 0.9999 0.001 0.5 2"
 """The largest impedance MuJoCo takes, as solimp."""
@@ -22,7 +22,7 @@ SOFTEST = 0.1
 
 
 @dataclass(frozen=True, kw_only=True)
-class Contact:
+class ContactSettings:
     """Settings of a contact and of the simulation that steps it."""
 
     solref: tuple[float, float]
@@ -62,7 +62,7 @@ def text_of(solref: tuple[float, float]) -> str:
 
 def one_step_solref(restitution: float, dt: float) -> tuple[float, float]:
     """Return the solref that makes an impact within one step: "0 -(1 + e)/dt"."""
-    return _solref_of(restitution, Settings(contact=Realisation.ONE_STEP, step=dt))
+    return _solref_of(restitution, MujocoSettings(contact=Realisation.ONE_STEP, step=dt))
 
 
 def resting_solref(restitution: float, dt: float) -> tuple[float, float]:
@@ -77,7 +77,7 @@ def resting_solref(restitution: float, dt: float) -> tuple[float, float]:
 
 def spring_solref(restitution: float, dt: float, steps: int) -> tuple[float, float]:
     """Return the solref of a damped spring that is resolved by so many steps: k = (π/(n dt))², d = 2 ζ √k."""
-    return _solref_of(restitution, Settings(stiffness=(math.pi / (steps * dt)) ** 2))
+    return _solref_of(restitution, MujocoSettings(stiffness=(math.pi / (steps * dt)) ** 2))
 
 
 def spring_solimp(restitution: float, steps: int) -> str:
@@ -90,7 +90,7 @@ def spring_solimp(restitution: float, steps: int) -> str:
     return f"{impedance} {impedance} 0.001 0.5 2"
 
 
-def _solref_of(restitution: float, settings: Settings) -> tuple[float, float]:
+def _solref_of(restitution: float, settings: MujocoSettings) -> tuple[float, float]:
     rebound = rebound_of(restitution, settings)
     return -rebound.stiffness, -rebound.damping
 

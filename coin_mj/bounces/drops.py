@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from cointoss.coin_mj.bounces.bodies import BALL, Body
-from cointoss.coin_mj.bounces.contact import HARDEST, Contact
+from cointoss.coin_mj.bounces.bodies import BALL, FlatBody
+from cointoss.coin_mj.bounces.contact import HARDEST, ContactSettings
 from cointoss.coin_mj.bounces.unlogged import unlogged
 from cointoss.models.records import Array
 
@@ -40,7 +40,7 @@ class Drops:
     """The greatest [m]."""
 
 
-def drops_of(contact: Contact, body: Body = BALL, gravity: float = 0.0) -> Drops:
+def drops_of(contact: ContactSettings, body: FlatBody = BALL, gravity: float = 0.0) -> Drops:
     """Let a body come down flat on a plane with plain `mj_step`, which touches at `SPEED` within three steps.
 
     Args:
@@ -58,11 +58,13 @@ def restitutions_of_a_ball(
     solref: tuple[float, float], dt: float, integrator: str, solimp: str = HARDEST
 ) -> Array:
     """Return the restitutions of a ball at the `PHASES` of its touch, as `drops_of` does, (`PHASES`,)."""
-    contact = Contact(solref=solref, timestep=dt, integrator=integrator, solimp=solimp)
+    contact = ContactSettings(solref=solref, timestep=dt, integrator=integrator, solimp=solimp)
     return drops_of(contact).restitutions
 
 
-def _drop(contact: Contact, body: Body, gravity: float, phase: float) -> tuple[float, float, float]:
+def _drop(
+    contact: ContactSettings, body: FlatBody, gravity: float, phase: float
+) -> tuple[float, float, float]:
     """Return the restitution, the duration of the contact [s] and the depth [m] of one touch."""
     flight = contact.timestep * (2 + phase)
     model = body.compiled(contact, body.height + (SPEED - gravity * flight / 2) * flight)

@@ -11,7 +11,7 @@ from numbers import Real
 import mujoco
 
 from cointoss.coin_mj.bounces.bodies import BALL
-from cointoss.coin_mj.bounces.contact import DEFAULT, INTEGRATORS, Contact, text_of
+from cointoss.coin_mj.bounces.contact import DEFAULT, INTEGRATORS, ContactSettings, text_of
 from cointoss.coin_mj.bounces.drops import GRAVITY, SPEED, drops_of
 from cointoss.coin_mj.bounces.recipe import require, require_numbers, require_timestep
 from cointoss.coin_mj.bounces.rest import Rest, rest_of
@@ -95,7 +95,7 @@ def solref_of(
     require_numbers(timestep=timestep)
     require_timestep(timestep)
     require("integrator", integrator, integrator in INTEGRATORS, ", ".join(INTEGRATORS))
-    given = Contact(
+    given = ContactSettings(
         solref=_solref("solref", solref), timestep=timestep, integrator=integrator, solimp=_solimp(solimp)
     )
     contact = given if other is None else _mixed(given, _solref("other", other))
@@ -138,7 +138,7 @@ def _solimp(text: str) -> str:
     return " ".join([*words, *DEFAULT.split()[len(words) :]])
 
 
-def _mixed(contact: Contact, other: tuple[float, float]) -> Contact:
+def _mixed(contact: ContactSettings, other: tuple[float, float]) -> ContactSettings:
     """Return the settings that MuJoCo makes of those of two geoms of equal priority."""
     xml = _PAIR.format(one=contact.geom, two=f'solref="{text_of(other)}"')
     model = mujoco.MjModel.from_xml_string(xml)
@@ -152,7 +152,7 @@ def _mixed(contact: Contact, other: tuple[float, float]) -> Contact:
     )
 
 
-def formula_of(contact: Contact) -> Formula | None:
+def formula_of(contact: ContactSettings) -> Formula | None:
     """Return what theory says of settings.
 
     A contact pushes with the acceleration -d (b v + k x), d the impedance. Where b dt reaches 1 it ends
@@ -204,7 +204,7 @@ def _impedance(solimp: str, depth: float) -> float:
     return shallow + part * (deep - shallow)
 
 
-def _spring_of(contact: Contact) -> tuple[float, float]:
+def _spring_of(contact: ContactSettings) -> tuple[float, float]:
     """Return the stiffness [1/s²] and the damping [1/s] with the impedance that a deep contact has.
 
     MuJoCo raises a time constant below two steps to two steps (the flag refsafe).

@@ -37,7 +37,7 @@ SHARE = 0.1
 """Of a speed, by which it may differ at the touch from the speed asked for and from that a step beside it."""
 
 
-class Outcome(StrEnum):
+class PairOutcome(StrEnum):
     """What two geoms do that come together."""
 
     REBOUNDS = "rebound"
@@ -78,9 +78,9 @@ class PairBounce:
     before, (n, `PHASES`). 0 where they stay; NaN where they neither rebound nor stay."""
     with_gravity: Array
     """The same under the model's gravity."""
-    outcomes: tuple[tuple[Outcome, ...], ...]
+    outcomes: tuple[tuple[PairOutcome, ...], ...]
     """Of each touch without gravity, (n, `PHASES`)."""
-    outcomes_with_gravity: tuple[tuple[Outcome, ...], ...]
+    outcomes_with_gravity: tuple[tuple[PairOutcome, ...], ...]
     """Of each touch under the model's gravity, (n, `PHASES`)."""
     energy_kept: Array
     """Share of the model's kinetic energy that is left after the contact, without gravity, (n, `PHASES`);
@@ -96,7 +96,7 @@ class PairBounce:
 class _Touch(NamedTuple):
     """What came of one touch."""
 
-    outcome: Outcome
+    outcome: PairOutcome
     restitution: float
     kept: float
     duration: float
@@ -186,7 +186,7 @@ def _column(touches: list[list[_Touch]], name: str) -> Array:
     return np.array([[getattr(touch, name) for touch in row] for row in touches])
 
 
-def _outcomes(touches: list[list[_Touch]]) -> tuple[tuple[Outcome, ...], ...]:
+def _outcomes(touches: list[list[_Touch]]) -> tuple[tuple[PairOutcome, ...], ...]:
     return tuple(tuple(touch.outcome for touch in row) for row in touches)
 
 
@@ -194,12 +194,12 @@ def _touch(pair: Pair, speed: float, phase: float) -> _Touch:
     """Return what comes of one touch."""
     pair.set_apart(speed, AHEAD + phase)
     came = _come(pair, speed)
-    if isinstance(came, Outcome):
+    if isinstance(came, PairOutcome):
         return _nothing(came)
     return _part(pair, came)
 
 
-def _nothing(outcome: Outcome) -> _Touch:
+def _nothing(outcome: PairOutcome) -> _Touch:
     """Return a touch of which nothing was measured."""
     return _Touch(outcome, math.nan, math.nan, math.nan, math.nan)
 
@@ -214,7 +214,7 @@ class _Come(NamedTuple):
     """Kinetic, a step before [J]."""
 
 
-def _come(pair: Pair, speed: float) -> _Come | Outcome:
+def _come(pair: Pair, speed: float) -> _Come | PairOutcome:
     """Step until both geoms touch, at about a speed [m/s]; return the touch, or why there is none."""
     model, data = pair.model, pair.data
     apart, has_flown = copy.copy(data), False
@@ -224,22 +224,22 @@ def _come(pair: Pair, speed: float) -> _Come | Outcome:
         if touches:
             break
         if pair.has_passed():
-            return Outcome.PASSES
+            return PairOutcome.PASSES
         mujoco.mj_copyData(apart, model, data)
         has_flown = True
         mujoco.mj_step(model, data)
     else:
-        return Outcome.UNSTABLE if _is_unstable(pair) else Outcome.MISSES
+        return PairOutcome.UNSTABLE if _is_unstable(pair) else PairOutcome.MISSES
     if not has_flown:
-        return Outcome.OTHER_SPEED
+        return PairOutcome.OTHER_SPEED
     points = _Points(pair, list(touches.values()))
     if (points.normals @ pair.normal).mean() < 0:
-        return Outcome.PASSES
+        return PairOutcome.PASSES
     found = -points.speed_at_touch(apart)
     if math.isnan(found):
-        return Outcome.CHANGES
+        return PairOutcome.CHANGES
     if abs(found - speed) > SHARE * speed + _weight(pair) * model.opt.timestep:
-        return Outcome.OTHER_SPEED
+        return PairOutcome.OTHER_SPEED
     return _Come(points, found, _kinetic_energy(model, apart))
 
 
@@ -249,9 +249,9 @@ def _part(pair: Pair, came: _Come) -> _Touch:
     depth, pushing, free, slow, kept = 0.0, 0, 0, 0, math.nan
     last = deep = middle = math.nan
 
-    def ended(outcome: Outcome, restitution: float = math.nan) -> _Touch:
+    def ended(outcome: PairOutcome, restitution: float = math.nan) -> _Touch:
         if _is_unstable(pair):
-            return _nothing(Outcome.UNSTABLE)
+            return _nothing(PairOutcome.UNSTABLE)
         return _Touch(outcome, restitution, kept, pushing * dt, depth)
 
     for step in range(LONGEST):
@@ -269,17 +269,17 @@ def _part(pair: Pair, came: _Come) -> _Touch:
         if free <= 1 and not _weight(pair):
             kept = _kinetic_energy(model, data) / came.energy
         if slow == LYING:
-            return ended(Outcome.STAYS, 0.0)
+            return ended(PairOutcome.STAYS, 0.0)
         if pushing and free and gap > -dt * came.points.speed(data) and (gap > 0 or not _weight(pair)):
             left = came.points.speed_at_touch(data)
-            return ended(Outcome.CHANGES if math.isnan(left) else Outcome.REBOUNDS, left / came.speed)
+            return ended(PairOutcome.CHANGES if math.isnan(left) else PairOutcome.REBOUNDS, left / came.speed)
         if free > 1 and not touches and gap < last:
-            return ended(Outcome.PASSES if gap < 0 else Outcome.CHANGES)
+            return ended(PairOutcome.PASSES if gap < 0 else PairOutcome.CHANGES)
         last = gap
         mujoco.mj_step(model, data)
     # What trembles on, or creeps, stays.
     stays = abs(deep - middle) < SLOW * came.speed * dt * LONGEST / 2
-    return ended(Outcome.STAYS, 0.0) if stays else ended(Outcome.LASTS)
+    return ended(PairOutcome.STAYS, 0.0) if stays else ended(PairOutcome.LASTS)
 
 
 def _is_unstable(pair: Pair) -> bool:

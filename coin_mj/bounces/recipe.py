@@ -8,10 +8,10 @@ from numbers import Integral, Real
 import numpy as np
 
 from cointoss.coin_mj.bounces.backends import Backend
-from cointoss.coin_mj.bounces.bodies import BALL, Body, body_of
+from cointoss.coin_mj.bounces.bodies import BALL, FlatBody, body_of
 from cointoss.coin_mj.bounces.contact import (
     HARDEST,
-    Contact,
+    ContactSettings,
     one_step_solref,
     resting_solref,
     spring_solimp,
@@ -106,9 +106,9 @@ class Bounce:
         return (1 - float(self.solimp.split()[0])) * GRAVITY / damping if damping else math.inf
 
     @property
-    def contact(self) -> Contact:
+    def contact(self) -> ContactSettings:
         """The settings alone."""
-        return Contact(
+        return ContactSettings(
             solref=self.solref,
             timestep=self.timestep,
             integrator=self.integrator,
@@ -185,13 +185,13 @@ def solref(
     )
 
 
-def recipe_of(restitution: float, timestep: float, steps: int | None = None) -> Contact:
+def recipe_of(restitution: float, timestep: float, steps: int | None = None) -> ContactSettings:
     """Return the settings for a restitution: of one step, or of a spring of so many."""
     if steps is None:
-        return Contact(
+        return ContactSettings(
             solref=resting_solref(restitution, timestep), timestep=timestep, integrator="implicitfast"
         )
-    return Contact(
+    return ContactSettings(
         solref=spring_solref(restitution, timestep, steps),
         timestep=timestep,
         integrator="RK4",
@@ -199,9 +199,9 @@ def recipe_of(restitution: float, timestep: float, steps: int | None = None) -> 
     )
 
 
-def exact_of(bounce: Bounce) -> Contact:
+def exact_of(bounce: Bounce) -> ContactSettings:
     """Return the settings of one step without a stiffness: exact to rounding, and never at rest."""
-    return Contact(
+    return ContactSettings(
         solref=one_step_solref(bounce.restitution, bounce.timestep),
         timestep=bounce.timestep,
         integrator=bounce.integrator,
@@ -230,7 +230,7 @@ def require_timestep(timestep: float) -> None:
     require("timestep", timestep, SHORTEST_STEP <= timestep <= LONGEST_STEP, STEP_ACCEPTED)
 
 
-def _warn_if_deep(body: Body, depth: float) -> None:
+def _warn_if_deep(body: FlatBody, depth: float) -> None:
     """Warn where a body goes deeper into the floor than half its thickness: only a plane sends it back.
 
     Args:

@@ -10,8 +10,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from cointoss.coin_mj.bounces.bodies import BALL, Body
-from cointoss.coin_mj.bounces.contact import Contact
+from cointoss.coin_mj.bounces.bodies import BALL, FlatBody
+from cointoss.coin_mj.bounces.contact import ContactSettings
 from cointoss.coin_mj.bounces.drops import GRAVITY
 from cointoss.coin_mj.bounces.unlogged import unlogged
 
@@ -25,7 +25,7 @@ STILL = 1e-3
 """A body that moves by less than this part of g dt² in the last quarter of the steps lies still."""
 
 
-def depth_at_rest(contact: Contact, body: Body = BALL, gravity: float = GRAVITY) -> float:
+def depth_at_rest(contact: ContactSettings, body: FlatBody = BALL, gravity: float = GRAVITY) -> float:
     """Return how deep a body lies by theory, flat on a plane [m]: infinite where nothing holds it.
 
     A contact i carries the force k x m_i/(1 - d), m_i = 1/(J_i M⁻¹ J_iᵀ) the mass that it meets, so that
@@ -70,7 +70,7 @@ class Rest:
     """Speed at which it sinks in the mean [m/s]; 0 where it lies still."""
 
 
-def rest_of(contact: Contact, body: Body = BALL, gravity: float = GRAVITY) -> Rest:
+def rest_of(contact: ContactSettings, body: FlatBody = BALL, gravity: float = GRAVITY) -> Rest:
     """Let a body fall on a plane, and measure what it does when its bounces have ended.
 
     The fall is 50 steps' worth of gravity fast and 20,000 steps are made, whatever the step, so that what is

@@ -14,8 +14,8 @@ from cointoss.coin_mj.model.mujoco_coin import Addresses, MujocoCoin
 from cointoss.coin_mj.model.scene import build, floor_height, shape_thickness
 from cointoss.coin_mj.model.settings import (
     Friction,
+    MujocoSettings,
     Realisation,
-    Settings,
     friction_of,
     plastic_rebound,
     rebound_of,
@@ -49,7 +49,7 @@ class Machine(NamedTuple):
 
     model: mujoco.MjModel
     data: mujoco.MjData
-    settings: Settings
+    settings: MujocoSettings
     """As `resolved`."""
     mass_unit: float
     """In which MuJoCo tells masses, forces and energies: a power of 2, so that no digit changes [kg]."""
@@ -59,7 +59,7 @@ class Machine(NamedTuple):
 
 
 def machine_of(
-    scenario: Scenario, settings: Settings, thickness: float | None = None, softer: float = 1.0
+    scenario: Scenario, settings: MujocoSettings, thickness: float | None = None, softer: float = 1.0
 ) -> Machine:
     """Return the MuJoCo coin of a scenario at its release.
 
@@ -67,7 +67,7 @@ def machine_of(
         scenario: what to toss.
         settings: how MuJoCo realises the floor, made `resolved`.
         thickness: of the coin's shape, by default `shape_thickness` [m].
-        softer: then softened by this part, see `Settings.softened`.
+        softer: then softened by this part, see `MujocoSettings.softened`.
 
     Raises:
         UnusableEngineError: if MuJoCo's user filters contacts.

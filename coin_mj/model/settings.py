@@ -37,7 +37,7 @@ class Friction(StrEnum):
 
 def _require(name: str, value: object, holds: bool, accepted: str) -> None:
     if not holds:
-        raise ValueError(f"coin_mj.Settings.{name} = {value}: accepted: {accepted}")
+        raise ValueError(f"coin_mj.MujocoSettings.{name} = {value}: accepted: {accepted}")
 
 
 class Budgets(NamedTuple):
@@ -48,7 +48,7 @@ class Budgets(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Settings:
+class MujocoSettings:
     """How MuJoCo realises a floor, and how finely it steps."""
 
     contact: Realisation = Realisation.SPRING
@@ -94,7 +94,7 @@ class Settings:
         damping = self.slip_damping
         _require("slip_damping", damping, damping is None or 0 <= damping < math.inf, "a finite number >= 0")
 
-    def softened(self, part: float) -> "Settings":
+    def softened(self, part: float) -> "MujocoSettings":
         """Return settings with a spring softer by `part`, or with one step longer by `part`."""
         return replace(self, stiffness=self.stiffness / part, step=self.step * part)
 
@@ -119,9 +119,9 @@ class Settings:
         }
 
 
-FINE = Settings()
+FINE = MujocoSettings()
 """Of one toss."""
-MANY = Settings(stiffness=1e11, steps=3, flight_angle=0.8)
+MANY = MujocoSettings(stiffness=1e11, steps=3, flight_angle=0.8)
 """Of many tosses: a softer spring, fewer and larger steps."""
 
 
@@ -137,7 +137,7 @@ STEPS_OF_LOSS = 3
 """So many steps in half a period change the energy by 7e-4, a hundredth of `LOSS`: an error of order 5."""
 
 
-def resolved(settings: Settings, restitution: float, rate: float) -> Settings:
+def resolved(settings: MujocoSettings, restitution: float, rate: float) -> MujocoSettings:
     """Return settings with which a coin gains no energy in its contacts, whatever its size and restitution.
 
     While a coin turns in a contact its effective mass changes, and with it the energy of the spring. So the
@@ -176,7 +176,7 @@ class Rebound(NamedTuple):
     """Of a contact: half a period of the undamped spring, π/√k, or the one step [s]."""
 
 
-def rebound_of(restitution: float, settings: Settings) -> Rebound:
+def rebound_of(restitution: float, settings: MujocoSettings) -> Rebound:
     """Return the rebound with `restitution` χ at every point of the rim.
 
     Raises:
@@ -193,7 +193,7 @@ def rebound_of(restitution: float, settings: Settings) -> Rebound:
     return Rebound(stiffness, damping, slip_damping, step, duration)
 
 
-def plastic_rebound(rebound: Rebound, settings: Settings) -> Rebound:
+def plastic_rebound(rebound: Rebound, settings: MujocoSettings) -> Rebound:
     """Return the rebound with χ = 0: one step, as long as those of `rebound` are."""
     return rebound_of(0.0, replace(settings, contact=Realisation.ONE_STEP, step=rebound.step))
 

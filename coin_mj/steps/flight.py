@@ -14,7 +14,7 @@ from cointoss.coin_mj.steps.gap_evaluation import (
     state_above_floor,
     turning_rate,
 )
-from cointoss.coin_mj.steps.knots import Recorded, Step, add_knot
+from cointoss.coin_mj.steps.knots import Recorded, StepKind, add_knot
 from cointoss.coin_mj.steps.touch_search import arc_of, first_touch
 from cointoss.models.body import Rules, is_to_be_caught
 from cointoss.models.catch import approach_hand
@@ -71,7 +71,7 @@ def fly(
             if approach.is_caught:
                 return time, FlightExit.CAUGHT, steps_left, path
         clear = clear_flight(coin, dt) >= dt
-        path = add_knot(coin, time, Step.FLIGHT, path)
+        path = add_knot(coin, time, StepKind.FLIGHT, path)
         free_step_from(coin, start, rates, dt)
         free_rate_again(coin, end_rate)
         if not clear:

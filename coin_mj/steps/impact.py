@@ -9,7 +9,7 @@ from cointoss.coin_mj.steps.constrained_step import IMPACT, constrained_forward,
 from cointoss.coin_mj.steps.flight import TOUCH_STEP
 from cointoss.coin_mj.steps.friction import friction_step
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap
-from cointoss.coin_mj.steps.knots import Recorded, Step, add_knot
+from cointoss.coin_mj.steps.knots import Recorded, StepKind, add_knot
 from cointoss.coin_mj.steps.mujoco_step import other_force, set_margin, set_spring
 from cointoss.models.attitude import Quaternion, quaternion_product, rotation_matrix
 from cointoss.models.kernel.arrays import copy_into
@@ -149,7 +149,7 @@ def _resolve(
         dt = _step_length(coin) if force > 0 else TOUCH_STEP * coin.rebound.step
         acted = acted or force > 0
         other = add(other, scale(dt, other_force(coin)))
-        path = add_knot(coin, time, Step.IMPACT, path)
+        path = add_knot(coin, time, StepKind.IMPACT, path)
         if force > 0 and has_friction:
             friction_step(coin, IMPACT, dt)
         else:

@@ -12,11 +12,11 @@ from cointoss.models.kernel.arrays import Array, copy_into, doubled
 from cointoss.models.kernel.compiled import compiled
 
 KNOT = 15
-"""Numbers of a knot: time [s], the `Step` that starts there, qpos and qvel."""
+"""Numbers of a knot: time [s], the `StepKind` that starts there, qpos and qvel."""
 _FIRST_ROOM = 256
 
 
-class Step(IntEnum):
+class StepKind(IntEnum):
     """What kind of step starts at a knot."""
 
     FLIGHT = 0
@@ -41,13 +41,13 @@ def nothing_recorded(keep: bool) -> Recorded:
 
 
 @compiled
-def add_knot(coin: MujocoCoin, time: float, step: Step, path: Recorded) -> Recorded:
+def add_knot(coin: MujocoCoin, time: float, step: StepKind, path: Recorded) -> Recorded:
     """Return the path with the present state, and set MuJoCo's time.
 
     Args:
         coin: MuJoCo's.
         time: now [s].
-        step: the `Step` that starts there.
+        step: the `StepKind` that starts there.
         path: so far.
     """
     numbers_at(coin.address.time, (1,))[0] = time

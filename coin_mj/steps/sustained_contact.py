@@ -9,7 +9,7 @@ from cointoss.coin_mj.steps.constrained_step import Constraint, constrained_forw
 from cointoss.coin_mj.steps.free_step import free_step
 from cointoss.coin_mj.steps.friction import apply_friction, friction_step
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap, turning_rate
-from cointoss.coin_mj.steps.knots import Recorded, Step, add_knot
+from cointoss.coin_mj.steps.knots import Recorded, StepKind, add_knot
 from cointoss.coin_mj.steps.mujoco_step import set_margin, set_spring
 from cointoss.coin_mj.steps.resistance import shortest_stop
 from cointoss.models.body import Rules
@@ -119,7 +119,7 @@ def follow_contact(
             _pass_over(coin, dt)
             return ContactExit.RIM_LANDS, time + dt, steps_left, Outcome.UNDECIDED, Ending.NONE, path
         dt = min(dt, shortest_stop(coin, w), rules.max_time - time)
-        path = add_knot(coin, time, Step.CONTACT, path)
+        path = add_knot(coin, time, StepKind.CONTACT, path)
         force, dt = shallow_step(coin, rules.restitution, w, dt)
         time += dt
         steps_left -= 1

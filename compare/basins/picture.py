@@ -75,7 +75,7 @@ class MapAxis:
     """At the last pixel's centre."""
 
 
-class Margins(NamedTuple):
+class MapMargins(NamedTuple):
     """The margins of the pixels of a map."""
 
     changes: ArrayLike
@@ -93,7 +93,7 @@ def draw_map(
     x: MapAxis,
     y: MapAxis,
     style: PictureStyle = PLAIN,
-    margins: Margins | None = None,
+    margins: MapMargins | None = None,
     untrusted: NDArray[np.bool_] | None = None,
 ) -> Figure:
     """Draw a map, and beside it the sizes of its margins, where it has them.
@@ -158,7 +158,7 @@ def _hatch(mask: NDArray[np.bool_], color: str) -> NDArray[np.uint8]:
     return shades
 
 
-def draw_margin_panel(axes: Axes, margins: Margins, *, x: MapAxis, y: MapAxis) -> list[Patch]:
+def draw_margin_panel(axes: Axes, margins: MapMargins, *, x: MapAxis, y: MapAxis) -> list[Patch]:
     """Draw the sizes of margins on a logarithmic scale, and return what their legend has."""
     sizes = np.abs(np.asarray(margins.changes, dtype=float))
     found, most, unit = sizes[np.isfinite(sizes)], margins.most, margins.unit

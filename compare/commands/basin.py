@@ -7,7 +7,7 @@ import click
 
 from cointoss.compare.commands.common import (
     SCENARIO_HELP,
-    Count,
+    CountType,
     Place,
     contact_option,
     no_video_option,
@@ -57,7 +57,7 @@ class _Size(click.ParamType):
 @contact_option
 @click.option(
     "--after",
-    type=Count(0, 999_999),
+    type=CountType(0, 999_999),
     help="Map the face at the touch after this number of impacts; 0: at the first touch.",
 )
 @click.option(
@@ -82,7 +82,7 @@ class _Size(click.ParamType):
 )
 @click.option("--boundaries", is_flag=True, help="Colour the pixels at a boundary.")
 @click.option("--size", type=_Size(), metavar="WIDTHxHEIGHT", help="Size of the picture in inches.")
-@click.option("--dpi", type=Count(10, 2400), help="Pixels per inch of the picture.")
+@click.option("--dpi", type=CountType(10, 2400), help="Pixels per inch of the picture.")
 @click.option(
     "--report",
     type=Place(),

@@ -41,7 +41,7 @@ class Place(click.Path):
         return super().convert(value, param, ctx)
 
 
-class Count(click.IntRange):
+class CountType(click.IntRange):
     """A whole number within bounds, with one message for what is out of them and what is no number."""
 
     name = "count"
@@ -66,7 +66,7 @@ class Given:
         return self.text
 
 
-class Quantity(click.ParamType):
+class QuantityType(click.ParamType):
     """A number in SI, or with its unit."""
 
     name = "quantity"

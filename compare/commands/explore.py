@@ -4,12 +4,12 @@ from pathlib import Path
 
 import click
 
-from cointoss.compare.commands.common import Count, Place, plain_errors, say
+from cointoss.compare.commands.common import CountType, Place, plain_errors, say
 
 
 @click.command()
 @click.argument("map_path", metavar="MAP.zarr", type=Place())
-@click.option("--port", type=Count(1, 65535), help="The port to listen at; by default one that is free.")
+@click.option("--port", type=CountType(1, 65535), help="The port to listen at; by default one that is free.")
 @click.option("--no-browser", is_flag=True, help="Only print the address.")
 @click.option(
     "--static",

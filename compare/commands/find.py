@@ -5,7 +5,7 @@ from pathlib import Path
 
 import click
 
-from cointoss.compare.commands.common import SCENARIO_HELP, Count, Place, plain_errors, print_json
+from cointoss.compare.commands.common import SCENARIO_HELP, CountType, Place, plain_errors, print_json
 from cointoss.compare.commands.names import scenario_argument, vary_option
 
 
@@ -20,12 +20,12 @@ from cointoss.compare.commands.names import scenario_argument, vary_option
 )
 @click.option(
     "--tosses",
-    type=Count(1, 1 << 30),
+    type=CountType(1, 1 << 30),
     default=1 << 16,
     show_default=True,
     help="Over the window, at most; fewer where many show it.",
 )
-@click.option("--seed", type=Count(0, 2**32), default=0, show_default=True, help="Of the points tossed.")
+@click.option("--seed", type=CountType(0, 2**32), default=0, show_default=True, help="Of the points tossed.")
 @click.option(
     "--out",
     type=Place(),

@@ -7,10 +7,10 @@ import click
 
 from cointoss.compare.commands.common import (
     SCENARIO_HELP,
-    Count,
+    CountType,
     Given,
     Place,
-    Quantity,
+    QuantityType,
     naming_options,
     plain_errors,
     print_json,
@@ -28,19 +28,21 @@ from cointoss.compare.commands.names import scenario_argument, span_option
 @span_option("--free", "A field to be found, and where it is looked for; may be given several times.")
 @click.option(
     "--sd-time",
-    type=Quantity("s"),
+    type=QuantityType("s"),
     help="Standard deviation of the times of touches, such as '1 ms'; needed without a column sd_t.",
 )
-@click.option("--sd-height", type=Quantity("m"), help="Likewise of heights, such as '2 mm'.")
-@click.option("--sd-attitude", type=Quantity("rad"), help="Likewise of tilts and attitudes, such as '2 deg'.")
+@click.option("--sd-height", type=QuantityType("m"), help="Likewise of heights, such as '2 mm'.")
+@click.option(
+    "--sd-attitude", type=QuantityType("rad"), help="Likewise of tilts and attitudes, such as '2 deg'."
+)
 @click.option(
     "--starts",
-    type=Count(1, 1 << 20),
+    type=CountType(1, 1 << 20),
     default=2048,
     show_default=True,
     help="Values that are tried first, spread evenly over the spans; more for more or wider ones.",
 )
-@click.option("--seed", type=Count(0, 2**32), default=0, show_default=True, help="Of the starts.")
+@click.option("--seed", type=CountType(0, 2**32), default=0, show_default=True, help="Of the starts.")
 @click.option("--out", type=Place(), help="Also write the scenario with the values found to this .toml file.")
 @click.option("--png", type=Place(), help="Also draw the fit to this .png file.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from cointoss.compare.commands.common import Count, Given, Place, Quantity, naming_options, refuse
+from cointoss.compare.commands.common import CountType, Given, Place, QuantityType, naming_options, refuse
 
 if TYPE_CHECKING:
     from cointoss.models.hand import Hand
@@ -21,30 +21,33 @@ _OPTIONS = (
         "scatter, up, spun, caught. An option takes the place of what it says.",
     ),
     click.option(
-        "--height", type=Quantity("m"), show_default="1 m", help="Height of the mass centre at the release."
+        "--height",
+        type=QuantityType("m"),
+        show_default="1 m",
+        help="Height of the mass centre at the release.",
     ),
-    click.option("--speed", type=Quantity("m/s"), show_default="2 m/s", help="Speed upwards."),
+    click.option("--speed", type=QuantityType("m/s"), show_default="2 m/s", help="Speed upwards."),
     click.option(
         "--spin",
-        type=Quantity("rad/s"),
+        type=QuantityType("rad/s"),
         show_default="120 rad/s",
         help="Rate at which the coin's normal goes round the angular momentum.",
     ),
     click.option(
         "--psi",
-        type=Quantity("rad"),
+        type=QuantityType("rad"),
         show_default="90 deg",
         help="Angle between normal and angular momentum; less than 90 deg: the coin wobbles.",
     ),
     click.option(
         "--psi-scatter",
-        type=Quantity("rad"),
+        type=QuantityType("rad"),
         show_default="10 deg, as of people; 0 deg with --hand, --psi or --spun",
         help="Its standard deviation.",
     ),
     click.option(
         "--scatter",
-        type=Quantity(""),
+        type=QuantityType(""),
         show_default="10 %",
         help="Standard deviation of height, speed and spin.",
     ),
@@ -63,11 +66,11 @@ _OPTIONS = (
     ),
     click.option(
         "--caught",
-        type=Quantity("m"),
+        type=QuantityType("m"),
         help="Height at which a hand catches the coin; by default the scenario's [ending] caught, if it has "
         "one.",
     ),
-    click.option("--seed", type=Count(0, 2**32), default=0, show_default=True, help="Of the releases."),
+    click.option("--seed", type=CountType(0, 2**32), default=0, show_default=True, help="Of the releases."),
 )
 
 

@@ -7,7 +7,7 @@ import click
 
 from cointoss.compare.commands.common import (
     SCENARIO_HELP,
-    Count,
+    CountType,
     engine_option,
     plain_errors,
     print_json,
@@ -38,7 +38,7 @@ Counts = dict[str, tuple[int, int]]
 @click.command(epilog=SCENARIO_HELP)
 @scenario_argument
 @hand_options
-@click.option("--tosses", type=Count(1, 10_000_000), default=1000, show_default=True, help="How many.")
+@click.option("--tosses", type=CountType(1, 10_000_000), default=1000, show_default=True, help="How many.")
 @engine_option
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
 def hands(scenario: str, tosses: int, seed: int, engine: str, as_json: bool, **given: Any) -> None:

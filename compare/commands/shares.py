@@ -13,10 +13,10 @@ import click
 
 from cointoss.compare.commands.common import (
     SCENARIO_HELP,
-    Count,
+    CountType,
     Given,
     Place,
-    Quantity,
+    QuantityType,
     engine_option,
     naming_options,
     plain_errors,
@@ -44,12 +44,12 @@ WHOLE = 1000
 @hand_options
 @click.option(
     "--tosses",
-    type=Count(1, 10_000_000),
+    type=CountType(1, 10_000_000),
     help="Of each setting; by default 1000, with --to at most ten million.",
 )
 @click.option(
     "--to",
-    type=Quantity(""),
+    type=QuantityType(""),
     metavar="PART",
     help="Toss each setting until its widest interval is at most this to either side, such as 0.5%.",
 )

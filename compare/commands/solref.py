@@ -6,7 +6,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from cointoss.compare.commands.common import Count, Given, Quantity, naming_options, plain_errors, print_json
+from cointoss.compare.commands.common import (
+    CountType,
+    Given,
+    QuantityType,
+    naming_options,
+    plain_errors,
+    print_json,
+)
 
 if TYPE_CHECKING:
     from cointoss.coin_mj.bounces.inverse import Rebounds
@@ -18,19 +25,19 @@ FAILS = 0.2
 
 
 @click.command()
-@click.option("--restitution", type=Quantity(""), metavar="E", help="From 0 to 1: print settings for it.")
+@click.option("--restitution", type=QuantityType(""), metavar="E", help="From 0 to 1: print settings for it.")
 @click.option(
     "--of", "given", metavar="SOLREF", help='Print the restitution of these settings, such as "0.01 0.37".'
 )
 @click.option(
     "--dt",
-    type=Quantity("s"),
+    type=QuantityType("s"),
     required=True,
     metavar="DT",
     help="The model's timestep, such as 0.002 or 2ms.",
 )
 @click.option("--spring", is_flag=True, help="By a spring that lasts several steps, instead of in one.")
-@click.option("--steps", type=Count(5, 500), help="Steps in the contact of a spring; by default 40.")
+@click.option("--steps", type=CountType(5, 500), help="Steps in the contact of a spring; by default 40.")
 @click.option(
     "--body",
     metavar="BODY",

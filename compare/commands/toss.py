@@ -8,7 +8,7 @@ import click
 
 from cointoss.compare.commands.common import (
     SCENARIO_HELP,
-    Count,
+    CountType,
     Place,
     contact_option,
     engine_option,
@@ -22,15 +22,15 @@ from cointoss.compare.commands.names import scenario_argument
 @scenario_argument
 @engine_option
 @contact_option
-@click.option("--max-impacts", type=Count(1, 1_000_000), help="Stop after this number of impacts.")
+@click.option("--max-impacts", type=CountType(1, 1_000_000), help="Stop after this number of impacts.")
 @click.option(
     "--contact-steps",
-    type=Count(1, 1_000_000_000),
+    type=CountType(1, 1_000_000_000),
     help="Stop after this number of steps of sustained contact and after it; by default an engine's own.",
 )
 @click.option(
     "--flight-steps",
-    type=Count(1, 1_000_000_000),
+    type=CountType(1, 1_000_000_000),
     help="Stop after this number of steps of flight, in MuJoCo; by default 250,000.",
 )
 @click.option("--all", "whole", is_flag=True, help="Print every impact and contact, not only the first.")

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.stats import qmc
 
 from cointoss.compare.find.window import Target, Window
-from cointoss.compare.metrics.margin import FINE, MANY, Search, changes_both_ways
+from cointoss.compare.metrics.margin import FINE, MANY, SearchResolution, changes_both_ways
 from cointoss.compare.output.interruption import Interruption
 from cointoss.models.records import Array
 from cointoss.models.stages import stage
@@ -155,7 +155,9 @@ def _narrowed(
     return points, shown
 
 
-def _margins(window: Window, target: Target, points: Array, steps: int, how: Search = MANY) -> Array:
+def _margins(
+    window: Window, target: Target, points: Array, steps: int, how: SearchResolution = MANY
+) -> Array:
     """Return how far each point is from one that shows fewer steps, (n, fields, 2), as in a `Hit`."""
     found = np.empty((len(points), points.shape[1], 2))
     for i in range(points.shape[1]):

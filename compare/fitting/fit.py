@@ -14,7 +14,7 @@ from cointoss.analytic import toss
 from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.fitting.misfit import CLOCK, Misfit
 from cointoss.compare.fitting.observed import Observed
-from cointoss.compare.fitting.search import LEVEL, Minimum, Search
+from cointoss.compare.fitting.search import LEVEL, LeastSquaresSearch, Minimum
 from cointoss.compare.fitting.table import DEVIATIONS, read_observed, require_deviations
 from cointoss.compare.sweep.axes import SPAN_FORM, Span, require_ends, span_of, split_span, unit_of
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
@@ -284,7 +284,7 @@ def fit_spans(
             f"free fields {', '.join(fields) or 'none'}: accepted: from 1 to {MOST_FIELDS}, each once"
         )
     misfit = Misfit(scenario=scenario, spans=tuple(spans), observed=observed)
-    searched = interruptible(Search(misfit, starts=starts, seed=seed).found)
+    searched = interruptible(LeastSquaresSearch(misfit, starts=starts, seed=seed).found)
     if searched is None:
         middle = np.array([(span.start + span.stop) / 2 for span in spans])
         misfit.scenario_of(middle)  # says why

@@ -85,7 +85,7 @@ class Minimum:
         return self.chi_square + UNTESTED * int(np.sum(~self.predicted.is_tested))
 
 
-class Found(NamedTuple):
+class Minima(NamedTuple):
     """What a search found."""
 
     minima: tuple[Minimum, ...]
@@ -94,7 +94,7 @@ class Found(NamedTuple):
     """Of the interval of each value, (k, 2)."""
 
 
-class Search:
+class LeastSquaresSearch:
     """A search for the least squares of a misfit; points are in parts of the spans, 0 to 1."""
 
     def __init__(self, misfit: Misfit, *, starts: int, seed: int) -> None:
@@ -104,7 +104,7 @@ class Search:
         # What was seen first is fitted first.
         self._order = np.argsort(misfit.times, kind="stable")
 
-    def found(self) -> Found | None:
+    def found(self) -> Minima | None:
         """Return what was found; None where no start makes a scenario."""
         with stage("screening starts", "starts") as progress:
             starts = self._screened(progress)
@@ -120,7 +120,7 @@ class Search:
             return None
         with stage("measuring the intervals"):
             ends = self._ends(minima, np.vstack([known[-1].points, deepest]), known[-EARLIER - 1 : -1])
-        return Found(self._apart(minima), ends)
+        return Minima(self._apart(minima), ends)
 
     def _fitted(self, points: Array) -> list[Known]:
         """Return points that explain what was seen until ever later times, at last all."""

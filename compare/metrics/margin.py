@@ -26,7 +26,7 @@ TOGETHER = 2048
 
 
 @dataclass(frozen=True, kw_only=True)
-class Search:
+class SearchResolution:
     """How closely changes are searched."""
 
     per_decade: int
@@ -40,9 +40,9 @@ class Search:
         return FINEST * 10 ** (np.arange(DECADES * self.per_decade + 1) / self.per_decade)
 
 
-FINE = Search(per_decade=4, bisections=8)
+FINE = SearchResolution(per_decade=4, bisections=8)
 """For one toss."""
-MANY = Search(per_decade=2, bisections=2)
+MANY = SearchResolution(per_decade=2, bisections=2)
 """For many: a third of the tosses."""
 
 
@@ -152,7 +152,10 @@ def is_planar(scenario: Scenario) -> bool:
 
 
 def margins(
-    scenario: Scenario, proved_change: Proof | None = None, *, settings: analytic.Settings = analytic.MANY
+    scenario: Scenario,
+    proved_change: Proof | None = None,
+    *,
+    settings: analytic.AnalyticSettings = analytic.MANY,
 ) -> tuple[Margin, ...]:
     """Return the margin of a scenario's toss along each of `QUANTITIES`.
 
@@ -185,7 +188,7 @@ def smallest_changes(
     quantity: Quantity,
     *,
     outcomes: Callable[[Releases], Codes],
-    search: Search,
+    search: SearchResolution,
 ) -> Array:
     """Return the margin of each of many tosses along a quantity, with its sign, in SI units, (n,).
 
@@ -205,7 +208,7 @@ def smallest_changes(
     return np.where(down < up, -down, up)
 
 
-def changes_both_ways(n: int, differ: Differ, search: Search, *, nearest: bool = False) -> Array:
+def changes_both_ways(n: int, differ: Differ, search: SearchResolution, *, nearest: bool = False) -> Array:
     """Return the smallest changes upwards, and downwards, that make a difference to each of many, (2, n).
 
     They are infinite where none on the ladder does, or none before one that is not accepted.

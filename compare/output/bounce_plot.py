@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from cointoss.coin_mj.bounces.pair import LONGEST, SHARE, Outcome, PairBounce
+from cointoss.coin_mj.bounces.pair import LONGEST, SHARE, PairBounce, PairOutcome
 from cointoss.compare.output.style import BLUE, STYLE, VERMILION
 from cointoss.models.records import Array
 
@@ -13,12 +13,12 @@ DEEP = "*"
 GAINS = "+"
 """Marks an energy that is more after the contact than before."""
 MEANINGS = {
-    Outcome.STAYS: "the geoms do not part; they lie on each other or stick in each other, as deep as shown",
-    Outcome.LASTS: f"the contact goes on for more than {LONGEST} steps, and the geoms still move",
-    Outcome.PASSES: "the geoms part on the wrong sides, or pass each other's middle within a step",
-    Outcome.MISSES: "the approach starts against a force of the model, such as a spring, that ends it",
-    Outcome.OTHER_SPEED: f"something else changes the speed by more than {100 * SHARE:g} % on the way",
-    Outcome.CHANGES: f"the point's speed changes by more than {100 * SHARE:g} %; take a shorter step",
+    PairOutcome.STAYS: "the geoms do not part; they lie on or stick in each other, as deep as shown",
+    PairOutcome.LASTS: f"the contact goes on for more than {LONGEST} steps, and the geoms still move",
+    PairOutcome.PASSES: "the geoms part on the wrong sides, or pass each other's middle within a step",
+    PairOutcome.MISSES: "the approach starts against a force of the model, such as a spring, that ends it",
+    PairOutcome.OTHER_SPEED: f"something else changes the speed by more than {100 * SHARE:g} % on the way",
+    PairOutcome.CHANGES: f"the point's speed changes by more than {100 * SHARE:g} %; take a shorter step",
 }
 """What outcomes mean, where a line needs it."""
 
@@ -71,9 +71,9 @@ def bounce_table(found: PairBounce) -> str:
     return "\n".join([*lines, *notes, *found.notes])
 
 
-def _range(values: Array, outcomes: tuple[Outcome, ...]) -> str:
+def _range(values: Array, outcomes: tuple[PairOutcome, ...]) -> str:
     """Return the mean and the range over the phases of a step, or how many do something else than rebound."""
-    others = [outcome for outcome in Outcome if outcome != Outcome.REBOUNDS and outcome in outcomes]
+    others = [outcome for outcome in PairOutcome if outcome != PairOutcome.REBOUNDS and outcome in outcomes]
     if others:
         return ", ".join(f"{outcomes.count(outcome)} of {len(outcomes)} {outcome}" for outcome in others)
     return f"{values.mean():.4f} [{values.min():.4f}, {values.max():.4f}]"

@@ -14,7 +14,7 @@ OFF_THE_LAW = (TrustEnd.SECOND_POINT, TrustEnd.RESTITUTION)
 """Ends of MuJoCo's trust where its impulse is not that of the contact law, however well the toss is known."""
 
 
-class Kind(StrEnum):
+class VerdictKind(StrEnum):
     """How good the news is."""
 
     AGREE = "agree"
@@ -31,7 +31,7 @@ class Verdict(NamedTuple):
     """A sentence or two, and how good the news is."""
 
     text: str
-    kind: Kind
+    kind: VerdictKind
 
 
 def verdict_of(comparison: ComparedTosses) -> Verdict:
@@ -40,7 +40,9 @@ def verdict_of(comparison: ComparedTosses) -> Verdict:
     a, doubt = _outcome(analytic), _doubt(analytic)
     if mujoco is None:
         says = f"{a} by the analytic engine alone{', and that is certain' * analytic.is_certain}"
-        return Verdict(_sentence(f"{says}: MuJoCo can't toss this coin on this floor") + doubt, Kind.ALONE)
+        return Verdict(
+            _sentence(f"{says}: MuJoCo can't toss this coin on this floor") + doubt, VerdictKind.ALONE
+        )
     b = _outcome(mujoco)
     agreement, kind = _agreement(comparison, a == b)
     if a == b:
@@ -50,7 +52,7 @@ def verdict_of(comparison: ComparedTosses) -> Verdict:
         says = f"{a} by both engines{', and certain by the analytic one' * analytic.is_certain}{reserve}"
     else:
         says = f"{a} by the analytic engine, {b} by MuJoCo"
-        if analytic.is_sure and kind != Kind.FAULT:
+        if analytic.is_sure and kind != VerdictKind.FAULT:
             doubt = " The analytic engine's own errors are too small to change its outcome."
     return Verdict(_sentence(f"{says}: {agreement}") + doubt, kind)
 
@@ -87,18 +89,18 @@ def horizon_sentence(comparison: ComparedTosses) -> str:
     )
 
 
-def _agreement(comparison: ComparedTosses, same_outcome: bool) -> tuple[str, Kind]:
+def _agreement(comparison: ComparedTosses, same_outcome: bool) -> tuple[str, VerdictKind]:
     a, b = comparison.both
     prefix, horizon, count = comparison.common_prefix, comparison.horizon, _most_impacts(comparison)
     in_contact, caught = len(a.contacts) + len(b.contacts) > 0, _is_caught(comparison)
     # Bounces that die out have no last one: each engine takes the smallest for contact from its own on.
     dies_out = len(a.contacts) > 0 < len(b.contacts) and 0 < prefix == min(len(a.impacts), len(b.impacts))
     agree = prefix == len(a.impacts) == len(b.impacts) or (dies_out and same_outcome)
-    kind = Kind.AGREE if agree and same_outcome else Kind.DIFFER
+    kind = VerdictKind.AGREE if agree and same_outcome else VerdictKind.DIFFER
     if prefix < horizon:
         return (
             f"they differ at impact {prefix + 1}, although {_first(horizon)} must agree. {REPORT_IT}",
-            Kind.FAULT,
+            VerdictKind.FAULT,
         )
     off_the_law = _off_the_law(comparison)
     decide = MUJOCOS_ERRORS if a.is_sure else TINY_ERRORS
@@ -109,7 +111,7 @@ def _agreement(comparison: ComparedTosses, same_outcome: bool) -> tuple[str, Kin
     leads_to_it = not in_contact and not (caught and count) and a.outcome_certain is not False
     if as_they_must and decided and not same_outcome and leads_to_it:
         why = f"{_all(count)} must lead to the same" if count else "the coin only flew"
-        return f"they differ, although {why}. {REPORT_IT}", Kind.FAULT
+        return f"they differ, although {why}. {REPORT_IT}", VerdictKind.FAULT
     if count == 0:
         return _without_impact(a, b, in_contact), kind
     if not agree and prefix == 0:

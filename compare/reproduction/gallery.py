@@ -95,7 +95,7 @@ thresholds and reasons are there [as CSV](claims.csv), too.
 
 
 @dataclass(frozen=True, kw_only=True)
-class Entry:
+class GalleryEntry:
     """One figure of the paper, reproduced."""
 
     name: str
@@ -134,10 +134,10 @@ def write(out: Path, names: Sequence[str], *, quick: bool) -> None:
             (aside / page).write_text(text, encoding="utf-8")
 
 
-def entries(out: Path, names: Sequence[str]) -> list[Entry]:
+def entries(out: Path, names: Sequence[str]) -> list[GalleryEntry]:
     """Return what runs of the figures `names` left in their folders below `out`."""
     return [
-        Entry(
+        GalleryEntry(
             name=name,
             found=runner.find(name),
             claims=read_claims(runner.folder_of(name, out) / "claims.json"),
@@ -147,7 +147,7 @@ def entries(out: Path, names: Sequence[str]) -> list[Entry]:
     ]
 
 
-def markdown(out: Path, shown: Sequence[Entry], *, quick: bool) -> str:
+def markdown(out: Path, shown: Sequence[GalleryEntry], *, quick: bool) -> str:
     """Return the page of the reader.
 
     Args:
@@ -186,7 +186,7 @@ def _sketches() -> str:
     return f"Nothing is computed where the paper sketches a definition: {listed}."
 
 
-def claims_sheet(shown: Sequence[Entry]) -> str:
+def claims_sheet(shown: Sequence[GalleryEntry]) -> str:
     """Return all claims as comma-separated values, a row for each criterion."""
     head = (
         "name",
@@ -241,7 +241,7 @@ def _verdicts(claims: Sequence[Claim]) -> list[str]:
     return [" ".join(parts)]
 
 
-def html(out: Path, shown: Sequence[Entry]) -> str:
+def html(out: Path, shown: Sequence[GalleryEntry]) -> str:
     """Return the gallery, one self-contained page.
 
     Args:

@@ -164,5 +164,5 @@ def _drawn(axis: Axis) -> picture.MapAxis:
     return picture.MapAxis(name=axis.word, unit=axis.printed_unit, start=axis.start, stop=axis.stop)
 
 
-def _margins(changes: NDArray[Any], sweep: Sweep) -> picture.Margins:
-    return picture.Margins(changes, sweep.quantity.name, sweep.quantity.unit, most=sweep.quantity.factor)
+def _margins(changes: NDArray[Any], sweep: Sweep) -> picture.MapMargins:
+    return picture.MapMargins(changes, sweep.quantity.name, sweep.quantity.unit, most=sweep.quantity.factor)

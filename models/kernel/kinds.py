@@ -14,14 +14,14 @@ from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_
 import numpy as np
 
 
-class Kind(NamedTuple):
+class ValueKind(NamedTuple):
     """A kind of values."""
 
     form: str
     """The form of its numbers, as `struct` reads it."""
     of: Any = None
     """float, int, bool or an enum; a tuple's class; an array's dtype."""
-    parts: "tuple[Kind, ...]" = ()
+    parts: "tuple[ValueKind, ...]" = ()
     """Of a tuple."""
     dimensions: int = 0
     """Of an array."""
@@ -29,11 +29,11 @@ class Kind(NamedTuple):
     """Whether the number may be None, for which numba compiles apart."""
 
 
-NOTHING = Kind("")
+NOTHING = ValueKind("")
 """Of what returns None."""
 
 
-def kinds_of(function: Callable[..., Any]) -> tuple[tuple[Kind, ...], Kind]:
+def kinds_of(function: Callable[..., Any]) -> tuple[tuple[ValueKind, ...], ValueKind]:
     """Return the kinds of a function's arguments and that of what it returns.
 
     Raises:
@@ -44,7 +44,7 @@ def kinds_of(function: Callable[..., Any]) -> tuple[tuple[Kind, ...], Kind]:
 
 
 @cache
-def kind_of(hint: Any) -> Kind:
+def kind_of(hint: Any) -> ValueKind:
     """Return the kind that an annotation means.
 
     Raises:
@@ -53,20 +53,20 @@ def kind_of(hint: Any) -> Kind:
     if hint is type(None):
         return NOTHING
     if hint is float:
-        return Kind("d", float)
+        return ValueKind("d", float)
     if isinstance(hint, type) and issubclass(hint, int):
-        return Kind("q", hint)
+        return ValueKind("q", hint)
     if get_origin(hint) is Annotated:  # of an enum as its integer, or of an array
         array, dimensions = get_args(hint)
         if dimensions is int:
-            return Kind("q", int)
+            return ValueKind("q", int)
         dtype = (
             dimensions.dtype if isinstance(dimensions, Rows) else np.dtype(get_args(get_args(array)[1])[0])
         )
         n = 1 if isinstance(dimensions, Rows) else dimensions
-        return Kind("q" * (5 + 2 * n), dtype, dimensions=n)
+        return ValueKind("q" * (5 + 2 * n), dtype, dimensions=n)
     if get_origin(hint) in (Union, python_types.UnionType) and set(get_args(hint)) == {float, type(None)}:
-        return Kind("d", float, may_lack=True)
+        return ValueKind("d", float, may_lack=True)
     if get_origin(hint) is tuple:
         return _tuple(tuple, get_args(hint))
     if isinstance(hint, type) and issubclass(hint, tuple):
@@ -80,17 +80,17 @@ class Rows(NamedTuple):
     dtype: np.dtype[Any]
 
 
-def _tuple(of: type, hints: Any) -> Kind:
+def _tuple(of: type, hints: Any) -> ValueKind:
     parts = tuple(map(kind_of, hints))
-    return Kind("".join(part.form for part in parts), of, parts)
+    return ValueKind("".join(part.form for part in parts), of, parts)
 
 
-def may_lack(kind: Kind) -> bool:
+def may_lack(kind: ValueKind) -> bool:
     """Return whether a number of such a value may be None."""
     return kind.may_lack or any(map(may_lack, kind.parts))
 
 
-def write(kind: Kind, value: Any, form: list[str], numbers: list[Any]) -> bool:
+def write(kind: ValueKind, value: Any, form: list[str], numbers: list[Any]) -> bool:
     """Append a value's numbers and their form; return whether it lacks a number that may be None.
 
     Raises:
@@ -118,7 +118,7 @@ def write(kind: Kind, value: Any, form: list[str], numbers: list[Any]) -> bool:
     return False
 
 
-def _write_parts(kind: Kind, value: Any, form: list[str], numbers: list[Any]) -> bool:
+def _write_parts(kind: ValueKind, value: Any, form: list[str], numbers: list[Any]) -> bool:
     """Write a tuple; one without arrays can't change, and a toss passes the same coin again and again."""
     if not isinstance(value, tuple):
         raise TypeError(f"a {type(value).__name__}; accepted: a tuple")
@@ -141,17 +141,17 @@ def _write_parts(kind: Kind, value: Any, form: list[str], numbers: list[Any]) ->
     return lacks
 
 
-_written: dict[int, tuple[Any, Kind, str, list[Any], bool]] = {}
+_written: dict[int, tuple[Any, ValueKind, str, list[Any], bool]] = {}
 """By its address, a tuple that was written; kept with it, its address stays its own."""
 _MOST_REMEMBERED = 64
 
 
 @cache
-def _holds_array(kind: Kind) -> bool:
+def _holds_array(kind: ValueKind) -> bool:
     return kind.dimensions > 0 or any(map(_holds_array, kind.parts))
 
 
-def read(kind: Kind, numbers: Iterator[Any], release: Callable[[int], object]) -> Any:
+def read(kind: ValueKind, numbers: Iterator[Any], release: Callable[[int], object]) -> Any:
     """Return a value of its numbers; an array is copied, and its own memory given back by `release`."""
     if kind.parts:
         parts = [read(part, numbers, release) for part in kind.parts]
@@ -164,7 +164,7 @@ def read(kind: Kind, numbers: Iterator[Any], release: Callable[[int], object]) -
     return kind.of(number) if kind.of is bool or issubclass(kind.of, IntEnum) else number
 
 
-def _read_array(kind: Kind, numbers: list[int], release: Callable[[int], object]) -> Any:
+def _read_array(kind: ValueKind, numbers: list[int], release: Callable[[int], object]) -> Any:
     counted, _, _, _, address = numbers[:5]
     array = np.empty(tuple(numbers[5 : 5 + kind.dimensions]), kind.of)
     ctypes.memmove(array.ctypes.data, address, array.nbytes)

@@ -16,7 +16,7 @@ from typing import Any, Generic, NamedTuple, ParamSpec, TypeVar
 
 from cointoss.models.kernel.base_folder import base_folder, is_private
 from cointoss.models.kernel.digests import HOME, digest_of
-from cointoss.models.kernel.kinds import Kind, kinds_of, may_lack, read, write
+from cointoss.models.kernel.kinds import ValueKind, kinds_of, may_lack, read, write
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -116,7 +116,7 @@ class Entry(Generic[P, R]):
         self._code: dict[bool, Any] = {}
 
     @cached_property
-    def kinds(self) -> tuple[tuple[Kind, ...], Kind]:
+    def kinds(self) -> tuple[tuple[ValueKind, ...], ValueKind]:
         """The kinds of its arguments, and that of what it returns."""
         function: Any = self.function
         return kinds_of(function.py_func)

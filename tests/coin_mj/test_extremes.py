@@ -14,7 +14,7 @@ from cointoss.coin_mj import FINE, MANY
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.settings import resolved
 from cointoss.coin_mj.path import MOTION, STEP
-from cointoss.coin_mj.steps.knots import Step
+from cointoss.coin_mj.steps.knots import StepKind
 from cointoss.coin_mj.toss import run
 from cointoss.models.records import Ending, Outcome
 from cointoss.models.scenario import Scenario
@@ -68,7 +68,7 @@ def logged(case: Scenario, settings: Any) -> tuple[Any, np.ndarray, np.ndarray]:
     energy = body.mass * (np.sum(v_C**2, axis=1) / 2 + body.gravity * (q[:, 2] + up @ c)) + spin / 2
     depth = body.thickness / 2 * np.abs(up[:, 2]) + body.radius * np.hypot(up[:, 0], up[:, 1]) - q[:, 2]
     step = answer.knots[:, STEP]
-    return answer, energy[step != Step.IMPACT], depth[step == Step.CONTACT] / body.radius
+    return answer, energy[step != StepKind.IMPACT], depth[step == StepKind.CONTACT] / body.radius
 
 
 def check(case: Scenario) -> None:
@@ -82,7 +82,7 @@ def check(case: Scenario) -> None:
     if case.body.air.exponent is None or case.coin.thickness == 0:
         assert process_time() - start < 30
     else:
-        assert np.sum(answer.knots[:, STEP] != Step.IMPACT) < 10_100
+        assert np.sum(answer.knots[:, STEP] != StepKind.IMPACT) < 10_100
     assert answer.ending != Ending.NONE
     assert depth.max(initial=0) < 1e-3
     if case.floor.contact == "smooth":

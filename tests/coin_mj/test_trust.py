@@ -5,7 +5,7 @@ import pytest
 
 from cointoss import analytic
 from cointoss.coin_mj.model.machine import shape_of
-from cointoss.coin_mj.model.settings import Friction, Settings
+from cointoss.coin_mj.model.settings import Friction, MujocoSettings
 from cointoss.coin_mj.toss import toss
 from cointoss.coin_mj.trust import IMPULSE_ERROR, shared_impacts
 from cointoss.compare.metrics.impulses import errors_of_impacts
@@ -150,7 +150,7 @@ def test_friction_that_changes_the_restitution_is_not_trusted():
         ending={"max_impacts": 1},
     )
     assert toss(case).trust == "1 impact"
-    native = toss(case, settings=Settings(friction=Friction.NATIVE))
+    native = toss(case, settings=MujocoSettings(friction=Friction.NATIVE))
     assert (native.trusted_impacts, native.trust_end) == (0, TrustEnd.RESTITUTION)
     assert native.trust == "0 of 1 impact: at impact 1 MuJoCo's contact misses the restitution"
 

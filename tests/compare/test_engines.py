@@ -36,7 +36,7 @@ def test_settings_of_a_contact_are_those_on_which_it_depends():
     one_step = replace(coin_mj.MANY, contact=Realisation.ONE_STEP, slip_damping=2.0)
     assert one_step.as_dict().keys() == of_both | {"step", "slip_damping"}
     recorded: dict[str, Any] = one_step.as_dict()
-    assert coin_mj.Settings(**recorded).as_dict() == recorded
+    assert coin_mj.MujocoSettings(**recorded).as_dict() == recorded
 
 
 @pytest.mark.parametrize(
@@ -57,4 +57,4 @@ def test_settings_of_a_contact_are_those_on_which_it_depends():
 def test_a_wrong_setting_is_refused_by_name_value_and_what_is_accepted(wrong, accepted):
     ((name, value),) = wrong.items()
     with pytest.raises(ValueError, match=f"Settings.{name} = {value}: accepted: {accepted}"):
-        coin_mj.Settings(**wrong)
+        coin_mj.MujocoSettings(**wrong)

@@ -3,8 +3,8 @@
 import numpy as np
 
 from cointoss.analytic.contact.automaton import Event, Mode, contact_at, margin_event, mode_after, project
-from cointoss.analytic.contact.contact import Contact
-from cointoss.analytic.contact.integrator import Step, contact_work, step_contact
+from cointoss.analytic.contact.contact import SustainedContact
+from cointoss.analytic.contact.integrator import ContactStep, contact_work, step_contact
 from cointoss.analytic.contact.resets import stop_slip, tip_over
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.flight.state_vector import state_of
@@ -20,7 +20,7 @@ step_contact = by_numba(step_contact)
 SMOOTH = FloorFriction(0.0)
 
 
-def held(body: Body, friction: FloorFriction, mode: int, y: Array) -> Contact:
+def held(body: Body, friction: FloorFriction, mode: int, y: Array) -> SustainedContact:
     """Return the contact of a coin in the state y; see `cointoss.analytic.contact.automaton.contact_at`."""
     return contact_at(body, friction, int(mode), y)
 
@@ -42,7 +42,7 @@ def end_mode(body: Body, friction: FloorFriction, mode: int, y: Array) -> Event:
     return event
 
 
-def follow_step(body: Body, friction: FloorFriction, mode: int, y: Array, dt: float) -> Step:
+def follow_step(body: Body, friction: FloorFriction, mode: int, y: Array, dt: float) -> ContactStep:
     """Advance y by one step in contact, or to its end; see `cointoss.analytic.contact.integrator`."""
     contact = held(body, friction, mode, y)
     return step_contact(contact, y, dt, STEP_ERROR, contact_work(contact, y))

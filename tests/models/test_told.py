@@ -8,7 +8,7 @@ import pytest
 
 from cointoss import coin_mj
 from cointoss.compare.report.comparison import Comparison
-from cointoss.compare.report.verdict import Kind, horizon_sentence, verdict_of
+from cointoss.compare.report.verdict import VerdictKind, horizon_sentence, verdict_of
 from cointoss.models.records import IMPACT_ROW, Ending, Impacts, OtherOutcome, Outcome, TrustEnd
 from tests.helpers.films import MadePath
 from tests.helpers.films import made as made_by_formulas
@@ -121,10 +121,12 @@ def test_no_word_on_a_comparison_denies_those_on_its_tosses(known):
         assert not (sure and ("tiny errors" in told or "engines’ own" in told)), told
         # All impacts are all of both.
         assert ("all 9 impacts" in verdict) <= (a == b == 9), told
-        assert not (more and kind == Kind.AGREE) or f"counts {abs(more)} more" in verdict or not settled, told
+        assert (
+            not (more and kind == VerdictKind.AGREE) or f"counts {abs(more)} more" in verdict or not settled
+        ), told
         # What must be so is not said to be decided by a tiny change, and one engine is wrong or none is.
         assert not ("must lead" in verdict and "decides" in verdict), told
         assert not ("engine is wrong: please" in verdict and "neither engine is wrong" in verdict), told
-        if kind == Kind.FAULT:
+        if kind == VerdictKind.FAULT:
             assert analytic.outcome_certain is not False, told
-    assert {Kind.AGREE, Kind.DIFFER} <= kinds
+    assert {VerdictKind.AGREE, VerdictKind.DIFFER} <= kinds

@@ -2,7 +2,7 @@
 
 from cointoss.analytic.contact import upright
 from cointoss.analytic.contact.automaton import Mode
-from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.edge.restoring import held_on_edge
 from cointoss.analytic.contact.edge.rocking import rocks_on_edge
 from cointoss.analytic.contact.edge.standing import on_edge, slows, stands
@@ -16,7 +16,7 @@ _BETWEEN_TRIALS = 64
 
 
 @compiled
-def stands_for_good(contact: Contact, steps: int, early: bool, y: Array) -> bool:
+def stands_for_good(contact: SustainedContact, steps: int, early: bool, y: Array) -> bool:
     """Return whether a coin in contact is proved to stand on its edge for good.
 
     A coin without thickness is not.
@@ -40,7 +40,7 @@ def stands_for_good(contact: Contact, steps: int, early: bool, y: Array) -> bool
 
 
 @compiled
-def comes_upright(contact: Contact, y: Array) -> bool:
+def comes_upright(contact: SustainedContact, y: Array) -> bool:
     """Return whether a coin in contact at one rim comes onto its edge and presses both; y: state, (13,)."""
     body = contact.body
     if contact.mode == Mode.UPRIGHT or body.thickness == 0 or not on_edge(body, y):

@@ -4,7 +4,7 @@ import numpy as np
 
 from cointoss.analytic.contact import upright
 from cointoss.analytic.contact.automaton import contact_at, flow
-from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, spin_of
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.kernel.compiled import compiled
@@ -16,7 +16,7 @@ TRIAL = 2e-9
 
 
 @compiled
-def held_on_edge(contact: Contact, y: Array) -> bool:
+def held_on_edge(contact: SustainedContact, y: Array) -> bool:
     """Return whether the floor's force on either rim turns a coin on its edge back to the other now.
 
     Args:
@@ -28,7 +28,7 @@ def held_on_edge(contact: Contact, y: Array) -> bool:
 
 
 @compiled
-def restoring_acceleration(contact: Contact, rim: float, lean: float, y: Array) -> float:
+def restoring_acceleration(contact: SustainedContact, rim: float, lean: float, y: Array) -> float:
     """Return how fast n_z accelerates back to 0 of a coin leaning onto a rim [1/s²]; < 0 where it does not.
 
     Args:

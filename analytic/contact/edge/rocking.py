@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from cointoss.analytic.contact.automaton import Mode
-from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.edge.restoring import TRIAL, lean_and_rate, restoring_acceleration
 from cointoss.analytic.contact.edge.rolling import PHASES, roll_by, set_roll_rate, to_lowest
 from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, spin_of
@@ -23,7 +23,7 @@ _GROWTH = 2 ** (2 / 3)
 
 
 @compiled
-def rocks_on_edge(contact: Contact, y: Array) -> bool:
+def rocks_on_edge(contact: SustainedContact, y: Array) -> bool:
     """Return whether a coin that rocks on its edge, rim by rim, has too little energy of rocking to leave it.
 
     In every phase of its roll that it can reach, C lowest among them, the floor must turn it back from

@@ -3,7 +3,7 @@
 import math
 
 from cointoss.analytic.contact.automaton import Mode
-from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.flight.state_vector import attitude_of, set_attitude, set_height, set_spin, state_of
 from cointoss.models.attitude import quaternion_product, rotation_matrix
 from cointoss.models.body import Body
@@ -18,7 +18,9 @@ PHASES = 48
 
 
 @compiled
-def roll_by(contact: Contact, keeps_turning: bool, y: Array, half_angle: float, phase: Array) -> float:
+def roll_by(
+    contact: SustainedContact, keeps_turning: bool, y: Array, half_angle: float, phase: Array
+) -> float:
     """Roll a coin on its edge on by an angle.
 
     Args:

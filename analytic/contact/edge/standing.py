@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from cointoss.analytic.contact.automaton import Mode, contact_at
-from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.edge.restoring import held_on_edge, lean_and_rate
 from cointoss.analytic.contact.edge.rolling import PHASES, roll_by, set_roll_rate
 from cointoss.analytic.contact.floor_force import friction_holds, holding_force, horizontal_size
@@ -53,7 +53,7 @@ def rolls(body: Body, friction: FloorFriction, y: Array) -> bool:
 
 
 @compiled
-def stands(contact: Contact, y: Array) -> bool:
+def stands(contact: SustainedContact, y: Array) -> bool:
     """Return whether a coin on its edge is held there however it rolls on.
 
     Rolling brings C up and down, and so changes the roll rate: the floor must hold the coin in every phase
@@ -88,7 +88,7 @@ def stands(contact: Contact, y: Array) -> bool:
 
 
 @compiled
-def tipped(contact: Contact, straight: bool, y: Array) -> Contact:
+def tipped(contact: SustainedContact, straight: bool, y: Array) -> SustainedContact:
     """Return the contact of a coin on its edge once it is tipped onto its lower rim.
 
     Args:

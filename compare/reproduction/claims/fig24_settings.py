@@ -43,7 +43,7 @@ SHOWN = 5
 
 
 @dataclass(frozen=True, kw_only=True)
-class Settings:
+class Fig24Settings:
     """What Fig. 24 may have been computed with; each is as printed, where it is, in half of the draws."""
 
     thickness: float
@@ -80,11 +80,11 @@ class Settings:
         return toss.replace("gravity", self.gravity, *floor, "release.angles", tilt)
 
 
-def drawn(rng: Generator) -> Settings:
+def drawn(rng: Generator) -> Fig24Settings:
     """Draw settings: each quantity as printed in half of the draws, else at random."""
     law = ContactLaw(rng.choice(list(ContactLaw)))
     free_tilt = rng.random() < 0.5
-    return Settings(
+    return Fig24Settings(
         thickness=float(rng.choice(THICKNESSES)),
         offset=float(rng.choice([0.0, 1.0]) if rng.random() < 0.5 else rng.random()),
         law=law,
@@ -127,7 +127,7 @@ def make(progress: Progress, count: int = COUNT, heights: int = HEIGHTS) -> Find
     )
 
 
-def _scores(settings: Settings, lows: Array) -> list[float]:
+def _scores(settings: Fig24Settings, lows: Array) -> list[float]:
     """Return the faces shared, whether all six begin as printed, and the faces shared from random heights."""
     scenario = settings.scenario
     found = sequences(scenario, printed_heights())

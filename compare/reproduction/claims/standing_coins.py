@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.runs import run
-from cointoss.analytic.settings import Settings
+from cointoss.analytic.settings import AnalyticSettings
 from cointoss.analytic.toss import Pieces
 from cointoss.compare.metrics.estimates import mean, share
 from cointoss.compare.output.progress import Progress
@@ -38,7 +38,7 @@ SPANS = {"height": 0.02, "spin": 2.0, "tilt": 0.05}
 """What varies along a line of releases, and how far [m, rad/s, rad]."""
 POINTS = 40
 """On a line."""
-SETTINGS = Settings(contact_steps=20_000)
+SETTINGS = AnalyticSettings(contact_steps=20_000)
 STANDS = 1e-3
 """A coin that lacks no more than this comes to stand [m g r]."""
 AT_REST = 0.01

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cointoss.analytic.runs import run
-from cointoss.analytic.settings import Settings
+from cointoss.analytic.settings import AnalyticSettings
 from cointoss.compare.metrics.estimate import Estimate
 from cointoss.compare.metrics.estimates import share_of
 from cointoss.compare.output.progress import Progress
@@ -30,7 +30,7 @@ TESTS = {EndingTest.PAPER: Ending.PAPER, EndingTest.PAPER_SMOOTH: Ending.PAPER_S
 LABELS = {"E < m g r": BLUE, "eq. (20)": VERMILION}
 COUNT, FEWER, PART = 40_000, 16_000, 2000
 """Tosses of each class of ideal coins and of imperfect ones, and of a part that is kept."""
-SETTINGS = {True: Settings(contact_steps=5000), False: Settings(contact_steps=500)}
+SETTINGS = {True: AnalyticSettings(contact_steps=5000), False: AnalyticSettings(contact_steps=500)}
 """In air and in vacuum, where coins that never rest are not followed for ever."""
 NAMED, LEFT, EDGE, OPEN, TOSSES = range(5)
 """Of a count: faces that a test names, that are left, left for the edge, or maybe left; and all tosses."""

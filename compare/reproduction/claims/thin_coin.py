@@ -42,7 +42,7 @@ COLORS = {THIN: BLUE, NEAR: SKY, REAL: VERMILION}
 
 
 @dataclass(frozen=True, kw_only=True)
-class Tossed:
+class ThinCoinTosses:
     """Many tosses of one coin on one floor."""
 
     outcome: NDArray[np.int8]
@@ -77,7 +77,7 @@ def make(
     some = chosen(tossed, slice(count_real))
     first = {coin: faces_after(_case(coin, SMOOTH), some, 0) for coin in COINS}
     progress(done := done + 1, whole)
-    made: dict[tuple[str, str], Tossed] = {}
+    made: dict[tuple[str, str], ThinCoinTosses] = {}
     after_row: dict[str, Estimate] = {}
     for floor in FLOORS:
         for coin in COINS:
@@ -86,7 +86,7 @@ def make(
             ended = analytic.toss_many(scenario, some)
             few = slice(count_real)
             higher = analytic.toss_many(scenario, moved(chosen(some, few), position=HIGHER))
-            made[coin, floor] = Tossed(
+            made[coin, floor] = ThinCoinTosses(
                 outcome=ended.outcome,
                 impacts=ended.impacts,
                 uncertain=higher.outcome != ended.outcome[few],

@@ -10,8 +10,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from cointoss.coin_mj.bounces.bodies import BALL, Body
-from cointoss.coin_mj.bounces.contact import Contact, one_step_solref
+from cointoss.coin_mj.bounces.bodies import BALL, FlatBody
+from cointoss.coin_mj.bounces.contact import ContactSettings, one_step_solref
 from cointoss.coin_mj.bounces.drops import GRAVITY, SPEED
 from cointoss.coin_mj.bounces.recipe import SPRING_STEPS, recipe_of
 from cointoss.compare.output.progress import Progress
@@ -27,7 +27,7 @@ PHASES = 4
 """Of the touch between two steps."""
 AT_REST = {"one step": 16.0, "spring": 8.0}
 """Duration of the rest, whose last quarter is looked at [s]: what one step has pressed in rises slowly."""
-SLIP, FRICTION, SLIDING = 1.0, 0.3, Body("sphere", (0.1,))
+SLIP, FRICTION, SLIDING = 1.0, 0.3, FlatBody("sphere", (0.1,))
 """Of a ball that slides [m/s]; coefficient; the ball."""
 EXACT = recipe_of(E, STEP)
 ONE_STEP = replace(EXACT, exact=False)
@@ -55,7 +55,7 @@ class Backends:
     """By setting, and by backend."""
 
 
-def drop(contact: Contact, body: Body = BALL, more: str = "") -> Path:
+def drop(contact: ContactSettings, body: FlatBody = BALL, more: str = "") -> Path:
     """Return a body that comes down flat without weight at `PHASES` of a step.
 
     Args:
@@ -72,7 +72,7 @@ def drop(contact: Contact, body: Body = BALL, more: str = "") -> Path:
     return model, qpos, qvel, 120 if contact.integrator in ("RK4", "discrete") else 12
 
 
-def lying(contact: Contact, duration: float) -> Path:
+def lying(contact: ContactSettings, duration: float) -> Path:
     """Return a ball that falls as fast as `rest_of` lets it fall, for a duration [s]."""
     model = BALL.compiled(contact, BALL.height)
     qvel = np.zeros((1, 6))
@@ -135,9 +135,9 @@ SETTINGS: dict[str, tuple[Callable[[], Path], Callable[[Array], list[float]]]] =
     "spring of 40 steps, `RK4`": (lambda: drop(SPRING), restitution),
     "the same, `discrete`": (lambda: drop(replace(SPRING, integrator="discrete")), restitution),
     "spring, at rest": (lambda: lying(SPRING, AT_REST["spring"]), rest),
-    "box flat, one step": (lambda: drop(ONE_STEP, Body("box", (0.1, 0.1, 0.05))), restitution),
-    "capsule, one step": (lambda: drop(ONE_STEP, Body("capsule", (0.02, 0.05))), restitution),
-    "ellipsoid, one step": (lambda: drop(ONE_STEP, Body("ellipsoid", (0.1, 0.1, 0.05))), restitution),
+    "box flat, one step": (lambda: drop(ONE_STEP, FlatBody("box", (0.1, 0.1, 0.05))), restitution),
+    "capsule, one step": (lambda: drop(ONE_STEP, FlatBody("capsule", (0.02, 0.05))), restitution),
+    "ellipsoid, one step": (lambda: drop(ONE_STEP, FlatBody("ellipsoid", (0.1, 0.1, 0.05))), restitution),
     '`cone="elliptic"`, condim 1': (lambda: drop(ONE_STEP, more='cone="elliptic"'), nothing),
     "restitution and friction together": (sliding, slip),
     '`<flag speculative="enable"/>`': (lambda: _speculative(), nothing),

@@ -14,7 +14,7 @@ from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.setups.mujoco_bodies import (
     SHAPES,
     SIZE,
-    Rebounds,
+    BodyRebounds,
     Touch,
     rebounds,
     resting_depth,
@@ -89,7 +89,7 @@ FLATS = {
 }
 
 
-def errors_of(found: Rebounds, contact: str, dt: float) -> BodyErrors:
+def errors_of(found: BodyRebounds, contact: str, dt: float) -> BodyErrors:
     """Return the errors of what was found."""
     length = dt * (SPRING_STEPS if contact == "spring" else 1)
     return BodyErrors(

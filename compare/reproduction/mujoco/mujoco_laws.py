@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from cointoss.coin_mj import Friction, Realisation, Settings
+from cointoss.coin_mj import Friction, MujocoSettings, Realisation
 from cointoss.coin_mj.model.settings import ROUGH
 from cointoss.compare.output.progress import Progress, stepping
 from cointoss.compare.output.style import BLUE, GREEN, GREY, VERMILION
@@ -32,31 +32,31 @@ FRICTIONS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 100.0, 1000.0)
 REALISED = 1e-2
 """A law is realised where the median error of its impulses is below this."""
 
-_T = math.pi / math.sqrt(Settings().stiffness)
-CONTACTS: dict[str, tuple[float, Settings]] = {
-    "frictionless": (0.0, Settings()),
-    "Coulomb's force": (FRICTION, Settings()),
-    f"Coulomb's force, μ = {ROUGH:g}": (ROUGH, Settings()),
-    "native cone": (FRICTION, Settings(friction=Friction.NATIVE)),
+_T = math.pi / math.sqrt(MujocoSettings().stiffness)
+CONTACTS: dict[str, tuple[float, MujocoSettings]] = {
+    "frictionless": (0.0, MujocoSettings()),
+    "Coulomb's force": (FRICTION, MujocoSettings()),
+    f"Coulomb's force, μ = {ROUGH:g}": (ROUGH, MujocoSettings()),
+    "native cone": (FRICTION, MujocoSettings(friction=Friction.NATIVE)),
     f"native cone, μ = {ROUGH:g}, slip undamped": (
         ROUGH,
-        Settings(friction=Friction.NATIVE, slip_damping=0.0),
+        MujocoSettings(friction=Friction.NATIVE, slip_damping=0.0),
     ),
     f"native cone, μ = {ROUGH:g}, slip damped": (
         ROUGH,
-        Settings(friction=Friction.NATIVE, slip_damping=10 / _T),
+        MujocoSettings(friction=Friction.NATIVE, slip_damping=10 / _T),
     ),
 }
 """Coefficient of friction and settings of MuJoCo's contacts, by name."""
 _IN_ONE = Realisation.ONE_STEP
-ONE_STEP: dict[str, tuple[float, Settings]] = {
-    "frictionless": (0.0, Settings(contact=_IN_ONE)),
-    "Coulomb's force": (FRICTION, Settings(contact=_IN_ONE)),
-    f"Coulomb's force, μ = {ROUGH:g}": (ROUGH, Settings(contact=_IN_ONE)),
-    "native cone": (FRICTION, Settings(contact=_IN_ONE, friction=Friction.NATIVE)),
+ONE_STEP: dict[str, tuple[float, MujocoSettings]] = {
+    "frictionless": (0.0, MujocoSettings(contact=_IN_ONE)),
+    "Coulomb's force": (FRICTION, MujocoSettings(contact=_IN_ONE)),
+    f"Coulomb's force, μ = {ROUGH:g}": (ROUGH, MujocoSettings(contact=_IN_ONE)),
+    "native cone": (FRICTION, MujocoSettings(contact=_IN_ONE, friction=Friction.NATIVE)),
     f"native cone, μ = {ROUGH:g}, slip undamped": (
         ROUGH,
-        Settings(contact=_IN_ONE, friction=Friction.NATIVE, slip_damping=0.0),
+        MujocoSettings(contact=_IN_ONE, friction=Friction.NATIVE, slip_damping=0.0),
     ),
 }
 """As `CONTACTS`, each within one step."""
@@ -98,7 +98,7 @@ def compute(progress: Progress, count: int = COUNT, seed: int = SEED) -> LawFits
         }
     )
 
-    def of(mu: float, settings: Settings) -> Array:
+    def of(mu: float, settings: MujocoSettings) -> Array:
         return first(
             by_mujoco((on_floor(case, ContactLaw.COULOMB, mu) for case in cases), settings), "impulse"
         )
@@ -107,7 +107,7 @@ def compute(progress: Progress, count: int = COUNT, seed: int = SEED) -> LawFits
         {name: step(of(*given)) for name, given in kinds.items()} for kinds in (CONTACTS, ONE_STEP)
     )
     rough = laws[NAMES[ContactLaw.PERFECTLY_ROUGH]]
-    growing = {mu: step(_fit(rough, of(mu, Settings()))) for mu in FRICTIONS}
+    growing = {mu: step(_fit(rough, of(mu, MujocoSettings()))) for mu in FRICTIONS}
     fits, one_step = (
         {law: {contact: _fit(S_law, S) for contact, S in made.items()} for law, S_law in laws.items()}
         for made in (contacts, in_one)

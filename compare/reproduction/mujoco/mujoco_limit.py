@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from cointoss.coin_mj import Settings
+from cointoss.coin_mj import MujocoSettings
 from cointoss.coin_mj.bounces.contact import DEFAULT, HARDEST, one_step_solref, spring_solref
 from cointoss.coin_mj.bounces.drops import restitutions_of_a_ball
 from cointoss.compare.output.progress import Progress, stepping
@@ -83,7 +83,7 @@ def compute(
     step = stepping(progress, len(fields(ImpactErrors)))
 
     def by_restitution(chi: float) -> Spread:
-        return spread(restitution_errors(draw_touches(rng, half, (chi, chi)), Settings()))
+        return spread(restitution_errors(draw_touches(rng, half, (chi, chi)), MujocoSettings()))
 
     return ImpactErrors(
         kinds=step(over_kinds(kinds, rng)),

@@ -11,7 +11,7 @@ import mujoco
 import numpy as np
 
 from cointoss import coin_mj
-from cointoss.coin_mj import MANY, Realisation, Settings
+from cointoss.coin_mj import MANY, MujocoSettings, Realisation
 from cointoss.coin_mj.model.state import of_release
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.tables import paragraphs, table
@@ -107,7 +107,7 @@ def draw_releases(rng: np.random.Generator, count: int) -> Releases:
 
 
 def _speed(
-    scenario: Scenario, releases: Releases, settings: Settings, smooth: list[Scenario], threads: int
+    scenario: Scenario, releases: Releases, settings: MujocoSettings, smooth: list[Scenario], threads: int
 ) -> Speed:
     # The first toss compiles.
     coin_mj.toss_many(scenario, draw_releases(np.random.default_rng(0), 1), settings=settings)
@@ -134,7 +134,7 @@ def _speed(
 
 def _loop(
     scenario: Scenario,
-    settings: Settings,
+    settings: MujocoSettings,
     smooth: list[Scenario],
     error: float,
     seconds_per_second: float,
@@ -156,7 +156,7 @@ def _loop(
     return None
 
 
-def _loop_seconds(scenario: Scenario, settings: Settings, step: float) -> float:
+def _loop_seconds(scenario: Scenario, settings: MujocoSettings, step: float) -> float:
     """Return the time that the loop takes for a second of a toss [s]."""
     model = loop_model(scenario, settings, step)
     data = mujoco.MjData(model)

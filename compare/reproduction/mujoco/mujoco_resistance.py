@@ -60,7 +60,7 @@ STARTS = {
 
 
 @dataclass(frozen=True)
-class Contact:
+class NativeFriction:
     """Settings of MuJoCo's own friction."""
 
     cone: str
@@ -69,11 +69,11 @@ class Contact:
 
 
 CONTACTS = {
-    "MuJoCo's default: pyramidal": Contact("pyramidal"),
-    "pyramidal, solimp 0.9999": Contact("pyramidal", HARDEST),
-    "elliptic": Contact("elliptic"),
-    "elliptic, impratio 100": Contact("elliptic", DEFAULT, 100.0),
-    "elliptic, solimp 0.9999": Contact("elliptic", HARDEST),
+    "MuJoCo's default: pyramidal": NativeFriction("pyramidal"),
+    "pyramidal, solimp 0.9999": NativeFriction("pyramidal", HARDEST),
+    "elliptic": NativeFriction("elliptic"),
+    "elliptic, impratio 100": NativeFriction("elliptic", DEFAULT, 100.0),
+    "elliptic, solimp 0.9999": NativeFriction("elliptic", HARDEST),
 }
 
 
@@ -164,7 +164,7 @@ def _stopped(start: Start, times, rolling, turning, way) -> Stopped:
     return Stopped(distance, duration)
 
 
-def native(start: Start, contact: Contact, step: float = STEP) -> Run:
+def native(start: Start, contact: NativeFriction, step: float = STEP) -> Run:
     """Return how MuJoCo's own friction stops a body, stepped by `mj_step`."""
     model = mujoco.MjModel.from_xml_string(described(start.body, contact, step))
     data = mujoco.MjData(model)
@@ -189,7 +189,7 @@ def native(start: Start, contact: Contact, step: float = STEP) -> Run:
     return Run(times[::SAMPLED].tolist(), rolling[::SAMPLED].tolist(), stopped)
 
 
-def described(body: str, contact: Contact, step: float) -> str:
+def described(body: str, contact: NativeFriction, step: float) -> str:
     """Return the model of a body on a plane, upright, as XML."""
     across, axial = INERTIA[body]
     inertia = " ".join(repr(part * MASS * RADIUS**2) for part in (across, across, axial))

@@ -6,7 +6,13 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from cointoss.coin_mj.bounces.contact import HARDEST, INTEGRATORS, Contact, one_step_solref, spring_solref
+from cointoss.coin_mj.bounces.contact import (
+    HARDEST,
+    INTEGRATORS,
+    ContactSettings,
+    one_step_solref,
+    spring_solref,
+)
 from cointoss.coin_mj.bounces.drops import GRAVITY, SPEED, drops_of
 from cointoss.coin_mj.bounces.flight import energy_change
 from cointoss.coin_mj.bounces.pair import SPEEDS, PairBounce
@@ -74,11 +80,11 @@ HELD = {
 """Options, and whether pairs with a damping of the slip hold what is pinched."""
 CONTACTS = {
     "one step": recipe_of(E, STEP),
-    "one step, no stiffness": Contact(
+    "one step, no stiffness": ContactSettings(
         solref=one_step_solref(E, STEP), timestep=STEP, integrator="implicitfast"
     ),
     "spring": recipe_of(E, STEP, SPRING_STEPS),
-    "spring, solimp 0.9999": Contact(
+    "spring, solimp 0.9999": ContactSettings(
         solref=spring_solref(E, STEP, SPRING_STEPS), timestep=STEP, integrator="RK4", solimp=HARDEST
     ),
 }

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from cointoss.analytic.air.velocity_field import SurfaceFields, velocity_fields
 from cointoss.analytic.entries import force_and_moment
-from cointoss.coin_mj import Settings
+from cointoss.coin_mj import MujocoSettings
 from cointoss.coin_mj.entries import forward
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
@@ -124,7 +124,7 @@ def _integral(case: Scenario, b: float) -> Wrench:
 
 def _by_mujoco(case: Scenario) -> Wrench:
     """Return the forces of MuJoCo's actuators and its damping on the released coin."""
-    machine = machine_of(case, Settings(), shape_thickness(case))
+    machine = machine_of(case, MujocoSettings(), shape_thickness(case))
     forward(machine.coin)
     force = machine.data.qfrc_actuator + machine.data.qfrc_passive
     return Wrench(force[:3].copy(), force[3:].copy())

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from cointoss import analytic, coin_mj
-from cointoss.coin_mj import Friction, Settings
+from cointoss.coin_mj import Friction, MujocoSettings
 from cointoss.coin_mj.model.settings import ROUGH
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, PALE, VERMILION
@@ -31,7 +31,7 @@ class Law:
     claim: str
     misfit: Callable[[Array, Array, Array], Array]
     """What its conditions leave over, of v_A before and after (τ, ν, z) and of the impulse over the mass."""
-    contact: tuple[float, Settings] | None
+    contact: tuple[float, MujocoSettings] | None
     """Friction and settings of the MuJoCo contact that realises it."""
 
 
@@ -56,25 +56,25 @@ LAWS = {
         letter="c",
         claim="perfectly rough: v_Aν' = v_Aτ' = 0",
         misfit=lambda _, after, __: after[:2],
-        contact=(ROUGH, Settings()),
+        contact=(ROUGH, MujocoSettings()),
     ),
     ContactLaw.SLIP_PRESERVING: Law(
         letter="d",
         claim="smooth (1): v_Aν' = v_Aν, v_Aτ' = v_Aτ",
         misfit=lambda v, after, _: after[:2] - v[:2],
-        contact=(ROUGH, Settings(friction=Friction.NATIVE, slip_damping=0.0)),
+        contact=(ROUGH, MujocoSettings(friction=Friction.NATIVE, slip_damping=0.0)),
     ),
     ContactLaw.SMOOTH: Law(
         letter="e",
         claim="smooth (2): S_τν = 0",
         misfit=lambda _, __, S: S[:2],
-        contact=(0.0, Settings()),
+        contact=(0.0, MujocoSettings()),
     ),
     ContactLaw.SLIDING_FRICTION: Law(
         letter="f",
         claim="developed friction: S_τν = -μ S_z v_Aτν/v_Aτν",
         misfit=lambda v, _, S: S[:2] + MU * S[2] * v[:2] / np.hypot(v[0], v[1]),
-        contact=(MU, Settings()),
+        contact=(MU, MujocoSettings()),
     ),
 }
 

@@ -9,7 +9,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from cointoss.coin_mj.bounces.contact import Contact
+from cointoss.coin_mj.bounces.contact import ContactSettings
 from cointoss.coin_mj.bounces.drops import GRAVITY, LONGEST, PHASES, SPEED
 from cointoss.models.records import Array
 
@@ -45,7 +45,7 @@ SHAPES = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class Touch(Contact):
+class Touch(ContactSettings):
     """Settings of a contact, with what touches there."""
 
     speculative: bool = False
@@ -59,7 +59,7 @@ class Touch(Contact):
 
 
 @dataclass(frozen=True)
-class Rebounds:
+class BodyRebounds:
     """What bodies did that touched anywhere between two steps."""
 
     restitutions: Array
@@ -68,10 +68,10 @@ class Rebounds:
     """Greatest, over `SPEED` [s]."""
 
 
-def rebounds(shape: Shape, touch: Touch) -> Rebounds:
+def rebounds(shape: Shape, touch: Touch) -> BodyRebounds:
     """Let a body come down with `SPEED`, without weight, in every phase of a step."""
     drops = [_drop(shape, touch, (number + 0.5) / PHASES) for number in range(PHASES)]
-    return Rebounds(np.array([drop[0] for drop in drops]), max(drop[1] for drop in drops) / SPEED)
+    return BodyRebounds(np.array([drop[0] for drop in drops]), max(drop[1] for drop in drops) / SPEED)
 
 
 def resting_depth(touch: Touch) -> float:

@@ -6,7 +6,7 @@
 import mujoco
 
 from cointoss.coin_mj import PairBounce, bounce
-from cointoss.coin_mj.bounces.contact import Contact
+from cointoss.coin_mj.bounces.contact import ContactSettings
 
 BALL = 0.02
 """Radius of the ball that falls on a floor [m]."""
@@ -16,7 +16,7 @@ PINCH, PINCHED, MU = 20.0, 0.1, 1.0
 """Force of either plate on a body [N]; the body's mass [kg]; friction."""
 
 
-def falls_through(contact: Contact, thickness: float | None) -> int:
+def falls_through(contact: ContactSettings, thickness: float | None) -> int:
     """Return how many of `FALLS` balls go through a floor: a box of a thickness [m], or a plane."""
     floor = '<geom type="plane" size="0 0 1"/>'
     if thickness is not None:
@@ -36,7 +36,7 @@ def falls_through(contact: Contact, thickness: float | None) -> int:
     return int(through)
 
 
-def leg(contact: Contact) -> PairBounce:
+def leg(contact: ContactSettings) -> PairBounce:
     """Return how a hopper's leg bounces: a weight on a slide, a thigh and a shin on hinges."""
     return bounce(
         mujoco.MjModel.from_xml_string(
@@ -55,7 +55,7 @@ def leg(contact: Contact) -> PairBounce:
     )
 
 
-def cylinder(contact: Contact, beside: float) -> PairBounce:
+def cylinder(contact: ContactSettings, beside: float) -> PairBounce:
     """Return how a cylinder bounces that comes down flat on a ball, its axis beside the ball's middle [m]."""
     return bounce(
         mujoco.MjModel.from_xml_string(
@@ -68,7 +68,7 @@ def cylinder(contact: Contact, beside: float) -> PairBounce:
     )
 
 
-def creep(contact: Contact, option: str, pair: bool) -> float | None:
+def creep(contact: ContactSettings, option: str, pair: bool) -> float | None:
     """Return the speed at which a box creeps down between two plates that pinch it [m/s].
 
     None where it falls out of them within 2 s.

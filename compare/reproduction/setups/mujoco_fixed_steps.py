@@ -12,7 +12,7 @@ import numpy as np
 
 from cointoss.coin_mj.bounces.drops import LONGEST, PHASES
 from cointoss.coin_mj.model.scene import build, shape_thickness
-from cointoss.coin_mj.model.settings import Realisation, Settings, rebound_of
+from cointoss.coin_mj.model.settings import MujocoSettings, Realisation, rebound_of
 from cointoss.coin_mj.model.state import of_release
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.free_joint import to_mass_center
@@ -21,7 +21,7 @@ from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
 
 
-def restitutions_of_coins(cases: Sequence[Scenario], settings: Settings, dt: float) -> Array:
+def restitutions_of_coins(cases: Sequence[Scenario], settings: MujocoSettings, dt: float) -> Array:
     """Let coins come down on a smooth floor and step them with `mj_step`; give χ' of their first impacts.
 
     The integrator is the realisation's: Euler for one-step contacts, RK4 for springs. The touch falls
@@ -43,7 +43,7 @@ def restitutions_of_coins(cases: Sequence[Scenario], settings: Settings, dt: flo
     )
 
 
-def loop_model(case: Scenario, settings: Settings, dt: float) -> mujoco.MjModel:
+def loop_model(case: Scenario, settings: MujocoSettings, dt: float) -> mujoco.MjModel:
     """Build the coin of a scenario for a loop of `mj_step` with steps of dt [s]."""
     one_step = settings.contact == Realisation.ONE_STEP
     rebound = rebound_of(case.floor.restitution, replace(settings, step=dt))
@@ -54,7 +54,7 @@ def loop_model(case: Scenario, settings: Settings, dt: float) -> mujoco.MjModel:
     return model
 
 
-def _restitution_of_a_coin(case: Scenario, settings: Settings, dt: float, phase: float) -> float:
+def _restitution_of_a_coin(case: Scenario, settings: MujocoSettings, dt: float, phase: float) -> float:
     body, model = case.body, loop_model(case, settings, dt)
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:] = of_release(body, case.release)

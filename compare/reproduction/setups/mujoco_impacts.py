@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from cointoss import analytic, coin_mj
-from cointoss.coin_mj import Settings
+from cointoss.coin_mj import MujocoSettings
 from cointoss.compare.reproduction.setups.general_coins import PAPER_OFFSET
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.geometry import contact_velocity, gap, lowest_point
@@ -117,7 +117,7 @@ def by_law(cases: Iterable[Scenario]) -> list[Impacts]:
     return [analytic.toss(case).impacts for case in cases]
 
 
-def by_mujoco(cases: Iterable[Scenario], settings: Settings) -> list[Impacts]:
+def by_mujoco(cases: Iterable[Scenario], settings: MujocoSettings) -> list[Impacts]:
     """Return the impacts by MuJoCo, whose floor is smooth, or Coulomb's."""
     return [coin_mj.impacts_of(case, settings=settings) for case in cases]
 
@@ -128,12 +128,12 @@ def first(impacts: list[Impacts], column: str) -> Array:
     return np.array([getattr(one, column)[0] if len(one) else empty for one in impacts])
 
 
-def impulse_errors(cases: Sequence[Scenario], settings: Settings) -> Array:
+def impulse_errors(cases: Sequence[Scenario], settings: MujocoSettings) -> Array:
     """Return |S_law - S|/|S_law| of MuJoCo's first impulses, (n,)."""
     return relative_errors(first(by_law(cases), "impulse"), first(by_mujoco(cases, settings), "impulse"))
 
 
-def restitution_errors(cases: Sequence[Scenario], settings: Settings) -> Array:
+def restitution_errors(cases: Sequence[Scenario], settings: MujocoSettings) -> Array:
     """Return |χ' - χ|, χ' the restitution of MuJoCo's first impacts, (n,)."""
     found = by_mujoco(cases, settings)
     after, before = first(found, "contact_velocity_after"), first(found, "contact_velocity_before")

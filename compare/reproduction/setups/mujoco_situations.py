@@ -6,7 +6,7 @@
 import mujoco
 import numpy as np
 
-from cointoss.coin_mj.bounces.contact import Contact
+from cointoss.coin_mj.bounces.contact import ContactSettings
 from cointoss.coin_mj.bounces.drops import PHASES, SPEED
 from cointoss.models.records import Array
 
@@ -18,7 +18,7 @@ RECIPE = 'cone="elliptic" impratio="1e-6" noslip_iterations="20"'
 """Options with which a ball has restitution and Coulomb friction together."""
 
 
-def _model(contact: Contact, bodies: str, option: str = "", more: str = "") -> mujoco.MjModel:
+def _model(contact: ContactSettings, bodies: str, option: str = "", more: str = "") -> mujoco.MjModel:
     exact = "enable" if contact.exact else "disable"
     return mujoco.MjModel.from_xml_string(
         f'<mujoco><option timestep="{contact.timestep!r}" integrator="{contact.integrator}" {option}>'
@@ -27,7 +27,7 @@ def _model(contact: Contact, bodies: str, option: str = "", more: str = "") -> m
     )
 
 
-def stack(contact: Contact, condim: int) -> tuple[float, float]:
+def stack(contact: ContactSettings, condim: int) -> tuple[float, float]:
     """Return how deep the uppermost of five boxes is after 40 s [m], and how fast it sinks then [m/s].
 
     Every geom has the line that is printed, with a condim; a depth of more than a tenth of a box: the stack
@@ -53,7 +53,7 @@ def stack(contact: Contact, condim: int) -> tuple[float, float]:
     return 0.05 + 0.1 * (len(STACK) - 1) - heights[1], (heights[0] - heights[1]) / 10
 
 
-def ball(place: float, contact: Contact) -> str:
+def ball(place: float, contact: ContactSettings) -> str:
     """Return a ball of 1 kg that slides along x."""
     return (
         f'<body pos="{place} 0 0"><joint type="slide" axis="1 0 0"/>'
@@ -61,7 +61,7 @@ def ball(place: float, contact: Contact) -> str:
     )
 
 
-def hits(contact: Contact, bodies: str) -> Array:
+def hits(contact: ContactSettings, bodies: str) -> Array:
     """Return the velocities of bodies, the first of which came at 1 m/s, when no more of them touch."""
     model = _model(contact, bodies, 'gravity="0 0 0"')
     data = mujoco.MjData(model)
@@ -70,7 +70,7 @@ def hits(contact: Contact, bodies: str) -> Array:
     return data.qvel.copy()
 
 
-def rod(contact: Contact) -> str:
+def rod(contact: ContactSettings) -> str:
     """Return a rod of 10 kg, 1 m long, hinged at one end, that a ball may hit at the other."""
     return (
         '<body pos="0.3 0 1"><joint type="hinge" axis="0 1 0"/>'
@@ -79,7 +79,7 @@ def rod(contact: Contact) -> str:
     )
 
 
-def sliding(contact: Contact, friction: float, slip: float, option: str) -> tuple[float, float]:
+def sliding(contact: ContactSettings, friction: float, slip: float, option: str) -> tuple[float, float]:
     """Return the errors of the restitution and of the slip of a ball that slides.
 
     A ball of 10 cm comes down at `SPEED` on a `<pair>` with Coulomb friction: the slip of a solid ball ends
@@ -112,7 +112,7 @@ def sliding(contact: Contact, friction: float, slip: float, option: str) -> tupl
     return float(worst[0]), float(worst[1])
 
 
-def falling_balls(contact: Contact, duration: float = 10.0) -> float:
+def falling_balls(contact: ContactSettings, duration: float = 10.0) -> float:
     """Return the change of energy, over itself, of SimBenchmark's 49 balls of 10 kg that fall on a plane."""
     balls = "".join(
         f'<body pos="{2 * i} {2 * j} {1.5 + 0.1 * (i + j)}"><freejoint/>'

@@ -12,7 +12,7 @@ import mujoco
 import numpy as np
 from matplotlib.axes import Axes
 
-from cointoss.coin_mj import Friction, Realisation, Settings
+from cointoss.coin_mj import Friction, MujocoSettings, Realisation
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.toss import run
@@ -43,10 +43,10 @@ FINE = 640
 """Steps in a contact that is resolved finely."""
 KINDS = ("frictionless", "sticking", "sliding", "turning")
 CONTACTS = {
-    "spring": Settings(),
-    "one step": Settings(contact=Realisation.ONE_STEP),
-    "spring, native cone": Settings(friction=Friction.NATIVE),
-    "one step, native cone": Settings(contact=Realisation.ONE_STEP, friction=Friction.NATIVE),
+    "spring": MujocoSettings(),
+    "one step": MujocoSettings(contact=Realisation.ONE_STEP),
+    "spring, native cone": MujocoSettings(friction=Friction.NATIVE),
+    "one step, native cone": MujocoSettings(contact=Realisation.ONE_STEP, friction=Friction.NATIVE),
 }
 
 
@@ -107,7 +107,7 @@ def over_stiffness(cases: Sequence[Scenario], stiffnesses: Sequence[float]) -> S
     def median_error(found: list[Impacts]) -> float:
         return _median(relative_errors(S, first(found, "impulse")))
 
-    settings = [Settings(stiffness=k) for k in stiffnesses]
+    settings = [MujocoSettings(stiffness=k) for k in stiffnesses]
     hard = [by_mujoco(cases, one) for one in settings]
     impulse = [median_error(found) for found in hard]
     fitted = [i for i, k in enumerate(stiffnesses) if 0.9e8 < k < 1.1e14]
@@ -119,7 +119,7 @@ def over_stiffness(cases: Sequence[Scenario], stiffnesses: Sequence[float]) -> S
             median_error([_with_guessed_mass(case, one) for case in cases]) for one in settings
         ],
     }
-    for name, steps in ((LIMIT, Settings().steps), (f"the same with {FINE} steps", FINE)):
+    for name, steps in ((LIMIT, MujocoSettings().steps), (f"the same with {FINE} steps", FINE)):
         errors[name] = [_median(relative_errors(S, _limit(cases, k, steps))) for k in stiffnesses]
     return StiffnessErrors(
         stiffness=list(stiffnesses),
@@ -130,7 +130,7 @@ def over_stiffness(cases: Sequence[Scenario], stiffnesses: Sequence[float]) -> S
 
 def _limit(cases: Sequence[Scenario], stiffness: float, steps: int) -> Array:
     hard, soft = (
-        first(by_mujoco(cases, Settings(stiffness=k, steps=steps)), "impulse")
+        first(by_mujoco(cases, MujocoSettings(stiffness=k, steps=steps)), "impulse")
         for k in (stiffness, stiffness / 4)
     )
     return 2 * hard - soft
@@ -146,7 +146,7 @@ def _change_error(law: list[Impacts], found: list[Impacts], name: str) -> Array:
     return np.linalg.norm(first(found, f"{name}_after") - after, axis=1) / change
 
 
-def _with_guessed_mass(case: Scenario, settings: Settings) -> Impacts:
+def _with_guessed_mass(case: Scenario, settings: MujocoSettings) -> Impacts:
     machine = machine_of(case, settings, shape_thickness(case))
     machine.model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_DIAGEXACT)
     return Impacts.from_rows(run(machine, case.rules).rows)
@@ -154,9 +154,10 @@ def _with_guessed_mass(case: Scenario, settings: Settings) -> Impacts:
 
 def over_steps(cases: Sequence[Scenario], steps: Sequence[int], most: int) -> dict[int, float]:
     """Return the median change of the impulse against that of the most steps, for each number of steps."""
-    S = first(by_mujoco(cases, Settings(steps=most)), "impulse")
+    S = first(by_mujoco(cases, MujocoSettings(steps=most)), "impulse")
     return {
-        n: _median(relative_errors(S, first(by_mujoco(cases, Settings(steps=n)), "impulse"))) for n in steps
+        n: _median(relative_errors(S, first(by_mujoco(cases, MujocoSettings(steps=n)), "impulse")))
+        for n in steps
     }
 
 
@@ -200,7 +201,7 @@ def over_tilt(count: int, tilts: Sequence[float], rng: np.random.Generator) -> d
 def default_errors(touches: Sequence[Scenario], friction: float = RUBBED) -> Spread:
     """Return the errors of impulses by the default contact, of touches of a floor with Coulomb's friction."""
     cases = [on_floor(case, ContactLaw.COULOMB, friction) for case in touches]
-    return spread(impulse_errors(cases, Settings()))
+    return spread(impulse_errors(cases, MujocoSettings()))
 
 
 def tilted_touch(tilt: float, slip: Array, restitution: float) -> Scenario:
@@ -240,7 +241,7 @@ def native_cone(
     restitution: float, tilts: Sequence[float], frictions: Sequence[float], slips: Sequence[float]
 ) -> NativeCone:
     """Map the restitution that a spring with MuJoCo's native friction gives."""
-    settings = Settings(friction=Friction.NATIVE)
+    settings = MujocoSettings(friction=Friction.NATIVE)
     cases = [
         on_floor(tilted_touch(tilt, np.array([slip, 0.0]), restitution), ContactLaw.COULOMB, mu)
         for tilt in tilts
@@ -284,7 +285,7 @@ def cone_formula(count: int, rng: np.random.Generator) -> ConeFormula:
         on_floor(case, ContactLaw.COULOMB, float(rng.uniform(0.05, 1.0)))
         for case in draw_touches(rng, count, RESTITUTIONS)
     ]
-    undamped = Settings(friction=Friction.NATIVE, slip_damping=0.0)
+    undamped = MujocoSettings(friction=Friction.NATIVE, slip_damping=0.0)
     found = by_mujoco(cases, CONTACTS["one step, native cone"])
     mu = np.array([case.floor.friction for case in cases])
     chi = np.array([case.floor.restitution for case in cases])

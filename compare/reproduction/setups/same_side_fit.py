@@ -60,7 +60,7 @@ class People:
 
 
 @dataclass(frozen=True)
-class Fit:
+class PeopleFit:
     """A distribution of p over people, fitted by maximum likelihood."""
 
     people: People
@@ -124,14 +124,14 @@ def _nodes(ends: tuple[float, float]) -> tuple[Array, Array]:
     return (edges[:-1, None] + half * (1 + x)).ravel(), (half * weights).ravel()
 
 
-def fit(flips: Flips, people: People) -> Fit:
+def fit(flips: Flips, people: People) -> PeopleFit:
     """Return the distribution of a family under which the counts are most likely."""
     found = _most_likely(
         lambda x: log_likelihoods(flips, people, x).sum(),
         people.start,
         [(1e-4, 1.0)] + [(0.0, 1.0)] * (len(people.start) - 1),
     )
-    return Fit(people, found, log_likelihoods(flips, people, found))
+    return PeopleFit(people, found, log_likelihoods(flips, people, found))
 
 
 def _most_likely(
@@ -152,7 +152,7 @@ def quantiles(people: People, parameters: Array, parts: Array) -> Array:
     return people.probability(parameters, people.latent.ppf(parts))
 
 
-def spread_of(found: Fit) -> float:
+def spread_of(found: PeopleFit) -> float:
     """Return the standard deviation of p over people."""
     latent, weights = _nodes(found.people.ends)
     of_latent = weights * found.people.latent.pdf(latent)
@@ -160,7 +160,7 @@ def spread_of(found: Fit) -> float:
     return float(np.sqrt(of_latent @ (p - of_latent @ p) ** 2))
 
 
-def interval(flips: Flips, found: Fit) -> Array:
+def interval(flips: Flips, found: PeopleFit) -> Array:
     """Return the interval of the first parameter by the likelihood ratio, the others at their best, (2,)."""
     best, rest = found.parameters[0], tuple(found.parameters[1:])
     least = found.log_likelihood - chi2.ppf(LEVEL, 1) / 2
@@ -180,7 +180,7 @@ def without(flips: Flips, person: int) -> Flips:
     return Flips(*(np.delete(counts, person) for counts in vars(flips).values()))
 
 
-def chance_of_spread(flips: Flips, found: Fit, rng: np.random.Generator, draws: int = 4000) -> float:
+def chance_of_spread(flips: Flips, found: PeopleFit, rng: np.random.Generator, draws: int = 4000) -> float:
     """Return how likely people as modelled differ among each other by as much as those who flipped.
 
     Args:

@@ -39,7 +39,7 @@ Counts = dict[str, Ends]
 """By the kind of toss."""
 
 
-class Kind(NamedTuple):
+class TossKind(NamedTuple):
     """What a toss was drawn from."""
 
     coin: str
@@ -88,9 +88,9 @@ def _ordered(counts: dict[str, Counter[str]]) -> Counts:
     return {name: dict(sorted(counts[name].items())) for name in sorted(counts)}
 
 
-def draw_toss(rng: np.random.Generator, coin: str) -> tuple[Kind, Scenario]:
+def draw_toss(rng: np.random.Generator, coin: str) -> tuple[TossKind, Scenario]:
     """Draw a toss from a hand's height: thick or thin coin, floor, air, restitution, friction and release."""
-    kind = Kind(coin, bool(rng.integers(2)), FLOORS[rng.integers(3)], bool(rng.integers(2)))
+    kind = TossKind(coin, bool(rng.integers(2)), FLOORS[rng.integers(3)], bool(rng.integers(2)))
     law, _, restitution_kind = kind.floor.partition(", ")
     described: dict[str, Any] = {
         "coin": paper_coin(thick=kind.thick, imperfect=coin == "imperfect"),
@@ -116,12 +116,12 @@ def _release(rng: np.random.Generator) -> dict[str, Any]:
     }
 
 
-def _toss(job: tuple[int, int, int]) -> tuple[Kind, Outcomes]:
+def _toss(job: tuple[int, int, int]) -> tuple[TossKind, Outcomes]:
     kind, scenario = draw_toss(np.random.default_rng(job), COINS[job[1]])
     return kind, analytic.toss_many(scenario, Releases.of(scenario, 1))
 
 
-def toss_by_mujoco(job: tuple[int, int, int]) -> tuple[Kind, Outcomes]:
+def toss_by_mujoco(job: tuple[int, int, int]) -> tuple[TossKind, Outcomes]:
     """Make a toss by MuJoCo on one of the floors `BY_BOTH`."""
     rng = np.random.default_rng(job)
     kind, scenario = draw_toss(rng, COINS[job[1]])
@@ -130,7 +130,7 @@ def toss_by_mujoco(job: tuple[int, int, int]) -> tuple[Kind, Outcomes]:
     return kind, coin_mj.toss_many(scenario, Releases.of(scenario, 1))
 
 
-def _name(kind: Kind) -> str:
+def _name(kind: TossKind) -> str:
     return ", ".join(
         (kind.coin, "thick" if kind.thick else "thin", kind.floor, "air" if kind.air else "vacuum")
     )

@@ -131,7 +131,7 @@ def eulers_disk(resistance: str) -> EulersDisk:
         [0, 0, r * np.sin(TILT), 0, 0, 0, *quaternion_from_angles((0.0, TILT, 0.0)), 0, turning, 0]
     )
     times, rows = np.linspace(0.0, longest, SAMPLES), np.empty((SAMPLES, len(start)))
-    tolerance = analytic.Settings().contact_tolerance
+    tolerance = analytic.AnalyticSettings().contact_tolerance
     sample_piece(body, friction, tolerance, Mode.STICKING.value, start, 0.0, times, rows)
     states = States(
         time=times,

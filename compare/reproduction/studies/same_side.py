@@ -21,8 +21,8 @@ from cointoss.compare.reproduction.setups.same_side_fit import (
     EXPONENTIAL,
     NORMAL,
     WOBBLING,
-    Fit,
     Flips,
+    PeopleFit,
     chance_of_spread,
     fit,
     interval,
@@ -157,7 +157,7 @@ def compute(progress: Progress, count: int = 3000, people: int = 8000, mujoco: i
     )
 
 
-def _models(flips: Flips, fits: list[Fit], rng: np.random.Generator) -> list[Model]:
+def _models(flips: Flips, fits: list[PeopleFit], rng: np.random.Generator) -> list[Model]:
     """Compare distributions of p with the first: by all people, without each, and by prediction of each."""
     others = [without(flips, person) for person in range(len(flips.flips))]
     refitted = [[fit(counts, found.people) for counts in others] for found in fits]
@@ -181,7 +181,7 @@ def _models(flips: Flips, fits: list[Fit], rng: np.random.Generator) -> list[Mod
     ]
 
 
-def _first_parameter(flips: Flips, found: Fit) -> Estimate:
+def _first_parameter(flips: Flips, found: PeopleFit) -> Estimate:
     low, high = interval(flips, found)
     return Estimate(float(found.parameters[0]), float(low), float(high), len(flips.flips), "people")
 

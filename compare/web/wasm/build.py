@@ -29,9 +29,9 @@ def build(out: Path) -> None:
     from cointoss.analytic import entries
     from cointoss.models.kernel.build.__main__ import asked_of
     from cointoss.models.kernel.build.linking import linked
-    from cointoss.models.kernel.build.lowering import Target, lowered, object_code
+    from cointoss.models.kernel.build.lowering import LlvmTarget, lowered, object_code
 
-    target, made_of = Target("wasm32-unknown-unknown", "+bulk-memory"), sources()
+    target, made_of = LlvmTarget("wasm32-unknown-unknown", "+bulk-memory"), sources()
     code = object_code(lowered(asked_of(entries, ENTRIES), target), target, {})
     exported = [f"-Wl,--export={name}" for name in (*ENTRIES, "malloc", "free")]
     options = ["-mexec-model=reactor", "-O3", *exported, "-Wl,--no-entry", "-Wl,--strip-all"]

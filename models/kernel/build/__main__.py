@@ -90,10 +90,10 @@ def asked_of(table: object, only: Collection[str] = ()) -> list[Any]:
     Raises:
         RuntimeError: where two entries have one name.
     """
-    from cointoss.models.kernel.build.lowering import Asked
+    from cointoss.models.kernel.build.lowering import EntryRequest
 
     asked = [
-        Asked(each.symbol_of(lacks), each.function, *each.kinds, lacks)
+        EntryRequest(each.symbol_of(lacks), each.function, *each.kinds, lacks)
         for each in entries_of(table)
         if not only or each.symbol in only
         for lacks in each.variants

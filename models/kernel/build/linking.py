@@ -7,7 +7,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
-from cointoss.models.kernel.build.lowering import Target
+from cointoss.models.kernel.build.lowering import LlvmTarget
 from cointoss.models.kernel.library import AVX2, RELEASE
 
 
@@ -20,10 +20,12 @@ class System(NamedTuple):
     """As ziglang names it: with the oldest C library or system that the library needs."""
 
     @property
-    def targets(self) -> dict[str, Target]:
+    def targets(self) -> dict[str, LlvmTarget]:
         """The kinds of its processor for which there is code, by what the symbols end with."""
-        plain = {"": Target(self.triple)}
-        return {**plain, AVX2: Target(self.triple, "+avx2")} if self.triple.startswith("x86_64") else plain
+        plain = {"": LlvmTarget(self.triple)}
+        return (
+            {**plain, AVX2: LlvmTarget(self.triple, "+avx2")} if self.triple.startswith("x86_64") else plain
+        )
 
 
 SYSTEMS = {

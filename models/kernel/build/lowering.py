@@ -38,7 +38,7 @@ from numba.core.untyped_passes import (
 from cointoss.models.kernel.build.musl import call_musl, link_musl
 from cointoss.models.kernel.build.runtime import of_runtime
 from cointoss.models.kernel.compiled import _Compiled
-from cointoss.models.kernel.kinds import Kind
+from cointoss.models.kernel.kinds import ValueKind
 
 C_LIBRARY = {"malloc", "free", "memcpy", "memset", "memmove"}
 """What the code may call of a system's C library."""
@@ -52,7 +52,7 @@ _OPTIONS = {
 }
 
 
-class Target(NamedTuple):
+class LlvmTarget(NamedTuple):
     """A processor and a system, as LLVM names them."""
 
     triple: str
@@ -73,19 +73,19 @@ class Target(NamedTuple):
         )
 
 
-class Asked(NamedTuple):
+class EntryRequest(NamedTuple):
     """A function that Python calls by its symbol."""
 
     symbol: str
     function: Any
     """A compiled one."""
-    given: tuple[Kind, ...]
-    returned: Kind
+    given: tuple[ValueKind, ...]
+    returned: ValueKind
     lacks: bool
     """Whether the number that may be None is None."""
 
 
-def lowered(asked: Sequence[Asked], target: Target) -> bytes:
+def lowered(asked: Sequence[EntryRequest], target: LlvmTarget) -> bytes:
     """Return LLVM's bitcode of one module: an entry for each function asked for, and all that they call.
 
     An entry takes the addresses of its numbers, of room for what it returns, and of room for an error's
@@ -127,7 +127,7 @@ def lowered(asked: Sequence[Asked], target: Target) -> bytes:
     return module.as_bitcode()
 
 
-def object_code(code: bytes, target: Target, symbols: Mapping[str, str]) -> bytes:
+def object_code(code: bytes, target: LlvmTarget, symbols: Mapping[str, str]) -> bytes:
     """Return an object file of a module that was lowered for addresses as wide, optimised as a whole.
 
     Args:
@@ -268,7 +268,7 @@ class _Dispatcher(CPUDispatcher):
         )
 
 
-def _change_numba(target: Target) -> None:
+def _change_numba(target: LlvmTarget) -> None:
     """Let numba compile for a target from here on, and make no machine code."""
     njit(lambda: None)()  # numba makes its own runtime for this machine when it first compiles
     context = cpu_target.target_context
@@ -313,7 +313,7 @@ def _spare_references(module: binding.ModuleRef, codegen: _Codegen) -> None:
     passes.run(module, codegen.plain_passes())
 
 
-def _numba_type(kind: Kind, lacks: bool) -> Any:
+def _numba_type(kind: ValueKind, lacks: bool) -> Any:
     """Return numba's type of a kind; of a number that may be None, None's if it `lacks`."""
     if kind.parts:
         of = None if kind.of is tuple else kind.of
@@ -327,7 +327,7 @@ def _numba_type(kind: Kind, lacks: bool) -> Any:
     return {float: types.float64, int: types.int64, bool: types.boolean}[kind.of]
 
 
-def _entry(asked: Asked, description: Any) -> ir.Module:
+def _entry(asked: EntryRequest, description: Any) -> ir.Module:
     """Return the code of an entry.
 
     Raises:

@@ -14,11 +14,11 @@ from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.landing import landing, time_to_landing
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.rest import rests, rolls_upright
-from cointoss.analytic.events import NO_LOSS, Setup, Spent, Verdict, hold_to_event
+from cointoss.analytic.events import NO_LOSS, Setup, Spent, TossEnd, hold_to_event
 from cointoss.analytic.flight.state_vector import state_of
 from cointoss.analytic.flight.touch_search import is_chattering
 from cointoss.analytic.runs import run
-from cointoss.analytic.settings import Settings, contact_limits
+from cointoss.analytic.settings import AnalyticSettings, contact_limits
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.perpetual import energy_history
 from cointoss.models.records import Ending, Outcome
@@ -133,7 +133,7 @@ ON_EDGE = {
 
 
 def test_a_spent_budget_of_contact_steps_ends_a_toss_by_its_name():
-    tossed = analytic.toss(scenario(**ON_EDGE), settings=Settings(contact_steps=3))
+    tossed = analytic.toss(scenario(**ON_EDGE), settings=AnalyticSettings(contact_steps=3))
     assert (tossed.outcome, tossed.ending) == (Outcome.UNDECIDED, Ending.CONTACT_STEPS)
     assert "contact_steps" in tossed.ending.sentence
     assert analytic.toss(scenario(**ON_EDGE)).outcome != Outcome.UNDECIDED
@@ -141,7 +141,7 @@ def test_a_spent_budget_of_contact_steps_ends_a_toss_by_its_name():
 
 def test_a_coin_whose_losses_could_be_judged_when_its_steps_are_spent_is_in_a_long_transient():
     def tossed(steps: int) -> tuple[Outcome, Ending]:
-        toss = analytic.toss(scenario(**LONG_TRANSIENT), settings=Settings(contact_steps=steps))
+        toss = analytic.toss(scenario(**LONG_TRANSIENT), settings=AnalyticSettings(contact_steps=steps))
         return toss.outcome, toss.ending
 
     assert tossed(100) == (Outcome.UNDECIDED, Ending.CONTACT_STEPS)
@@ -171,13 +171,13 @@ def test_a_coin_whose_face_is_settled_when_its_steps_are_spent_has_that_face():
         (1000, Outcome.UNDECIDED, Ending.CONTACT_STEPS),
         (20_000, Outcome.HEADS, Ending.PAPER),
     ):
-        tossed = analytic.toss(case, settings=Settings(contact_steps=steps))
+        tossed = analytic.toss(case, settings=AnalyticSettings(contact_steps=steps))
         assert (tossed.outcome, tossed.ending) == (outcome, ending)
 
 
 def test_steps_of_flights_and_events_after_the_first_contact_are_counted_and_none_before():
     case = scenario(**LONG_TRANSIENT)
-    log = run(case.body, case.rules, state_at_release(case.release), Settings(contact_steps=100))
+    log = run(case.body, case.rules, state_at_release(case.release), AnalyticSettings(contact_steps=100))
     after = log.start_times >= log.contacts[0, 0]
     flights = after & (log.modes == Mode.FLIGHT)
     assert np.sum(log.started.steps[~after]) > 10
@@ -193,12 +193,12 @@ def test_a_contact_that_no_step_is_short_enough_to_follow_has_no_solution():
     case = scenario(floor={"contact": "coulomb", "friction": 0.3})
     y = state_at_release(case.release)
     y[6:10], y[12] = (0.8, 0.6, 0.0, 0.0), np.inf
-    friction, limits = friction_in_contact(case.rules), contact_limits(Settings())
+    friction, limits = friction_in_contact(case.rules), contact_limits(AnalyticSettings())
     toss = Setup(case.body, case.rules, friction, limits, energy_history(NO_LOSS), False)
     with np.errstate(all="ignore"):
         passage = hold_to_event(toss, Mode.SLIDING.value, y, Spent(2.0, 0, 0))
     assert (passage.event, passage.spent) == (Event.NO_SOLUTION, Spent(2.0, 0, 0))
-    assert passage.verdict == Verdict(Outcome.UNDECIDED, Ending.NO_SOLUTION)
+    assert passage.verdict == TossEnd(Outcome.UNDECIDED, Ending.NO_SOLUTION)
 
 
 def test_a_coin_whose_axis_all_but_passes_the_vertical_slaps_down_on_the_other_side():
@@ -219,7 +219,7 @@ def test_a_coin_whose_axis_all_but_passes_the_vertical_slaps_down_on_the_other_s
             "angular_velocity": [24.692654152520984, -0.0076354518627679705, 0.0010798050343003407],
         },
     )
-    tossed = analytic.toss(case, settings=Settings(contact_steps=2000))
+    tossed = analytic.toss(case, settings=AnalyticSettings(contact_steps=2000))
     assert tossed.ending == Ending.SETTLED
     slap = np.argmax(tossed.impacts.time > tossed.contacts[0, 1] - 1e-9)
     assert tossed.impacts.contact_velocity_before[slap, 2] < -1
@@ -229,19 +229,21 @@ def test_a_coin_whose_axis_all_but_passes_the_vertical_slaps_down_on_the_other_s
 @pytest.mark.parametrize("steps", [0, 2.5])
 def test_settings_refuse_a_budget_that_is_no_number_of_steps(steps):
     with pytest.raises(ValueError, match=rf"contact_steps: given {steps}, accepted: a whole number >= 1"):
-        Settings(contact_steps=steps)
+        AnalyticSettings(contact_steps=steps)
 
 
 @pytest.mark.parametrize("tolerance", [1e-15, 1e-5, float("nan")])
 def test_settings_refuse_a_tolerance_beyond_rounding_or_too_coarse(tolerance):
     with pytest.raises(ValueError, match=rf"contact_tolerance: given {tolerance}, accepted: 1e-14 to 1e-06"):
-        Settings(contact_tolerance=tolerance)
+        AnalyticSettings(contact_tolerance=tolerance)
 
 
 def test_a_finer_tolerance_takes_more_of_a_lasting_contact_but_ends_it_alike():
     release = {"position": [0, 0, 0.5], "angles": [0, 0.8, 0], "angular_velocity": [0, 40.0, 0]}
     case = scenario(floor={"restitution": 0.5}, release=release)
-    coarse, fine = (analytic.toss(case, settings=Settings(contact_tolerance=t)) for t in (1e-9, 1e-13))
+    coarse, fine = (
+        analytic.toss(case, settings=AnalyticSettings(contact_tolerance=t)) for t in (1e-9, 1e-13)
+    )
     assert len(coarse.contacts) > 0
     assert coarse.outcome == fine.outcome
     assert coarse.contacts[0, 0] == fine.contacts[0, 0]

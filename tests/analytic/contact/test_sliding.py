@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cointoss.analytic.contact.automaton import Mode
-from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.floor_force import sliding_force
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.rim_contact import RimContact
@@ -30,6 +30,6 @@ def test_sliding_jams_where_friction_gives_the_point_more_than_the_normal_force_
     Q = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
     rows, v_A = matrix(Q @ K @ Q.T), vector(Q @ [0.6 * slip, 0.8 * slip, 0.0])
     A = RimContact(AXES, (0.0, 0.0, -0.01), AXES, rows, FALL, v_A)
-    assert jams(Contact(scenario().body, FloorFriction(mu), Mode.SLIDING.value, 1.0), A) == is_jammed
+    assert jams(SustainedContact(scenario().body, FloorFriction(mu), Mode.SLIDING.value, 1.0), A) == is_jammed
     pressing = sliding_force(rows, FALL, mu, (v_A[0] / abs(slip), v_A[1] / abs(slip)))[2]
     assert (pressing < 0) == is_jammed

@@ -7,7 +7,7 @@ from numpy.polynomial import Polynomial
 from cointoss.analytic.flight.gap_polynomials import (
     DEGREE,
     GapPolynomials,
-    Window,
+    TimeWindow,
     gap_polynomials,
     time_surely_clear,
 )
@@ -46,7 +46,7 @@ def clear_of(polynomial: Polynomial, rim: int = 0) -> float:
     coefficients[rim] = np.pad(polynomial.coef, (0, DEGREE + 1 - len(polynomial.coef)))
     body = scenario(coin=THIN).body if rim == 0 else scenario().body
     rims = GapPolynomials(coefficients, polynomial.degree(), ROUNDING)
-    return time_surely_clear(body, rims, 0.0, Window(0.0, 1.0, 1e-9))
+    return time_surely_clear(body, rims, 0.0, TimeWindow(0.0, 1.0, 1e-9))
 
 
 @pytest.mark.parametrize("rim", [0, 1])

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from cointoss.analytic.flight.equations_of_motion import derivative
-from cointoss.analytic.flight.gap_polynomials import DEGREE, Window, gap_polynomials, time_surely_clear
+from cointoss.analytic.flight.gap_polynomials import DEGREE, TimeWindow, gap_polynomials, time_surely_clear
 from cointoss.analytic.flight.integrated_flight import (
     first_step,
     flight_step,
@@ -104,7 +104,7 @@ def test_what_is_surely_clear_is_clear_and_a_touch_is_not(thickness):
         assert 0 < polynomials.rounding < 1e-12 * evaluate_gap(body, state_of(y)).gap
 
         def clear(inside: float, window: float, body=body, polynomials=polynomials) -> float:
-            return time_surely_clear(body, polynomials, 0.0, Window(inside, window, 0.0))
+            return time_surely_clear(body, polynomials, 0.0, TimeWindow(inside, window, 0.0))
 
         assert clear(0.0, length) <= 5e-3 * (1 + 1e-11)
         proved += clear(0.0, length) > 5e-3 * (1 - 1e-9)

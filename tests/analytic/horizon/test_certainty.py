@@ -5,11 +5,11 @@ import pytest
 
 from cointoss import analytic
 from cointoss.analytic.entries import certainty_of
-from cointoss.analytic.events import Verdict
+from cointoss.analytic.events import TossEnd
 from cointoss.analytic.horizon.certainty import start_of
 from cointoss.analytic.horizon.horizon import Horizon
 from cointoss.analytic.runs import horizon_of, run
-from cointoss.analytic.settings import MANY, Settings
+from cointoss.analytic.settings import MANY, AnalyticSettings
 from cointoss.analytic.toss import state_at_release
 from cointoss.compare.reproduction.studies.endings import COINS, draw_toss
 from cointoss.models.records import Ending, Outcome
@@ -71,7 +71,7 @@ def test_a_coin_that_lands_between_two_outcomes_is_not_certain(tie):
 @pytest.mark.parametrize("tolerance", [1e-9, 1e-6])
 def test_of_random_tosses_another_outcome_is_found_in_no_time(tolerance):
     """Where rounding alone decides, the toss made again from its last trusted impact ends otherwise."""
-    rng, found, settings = np.random.default_rng(7), [], Settings(contact_tolerance=tolerance)
+    rng, found, settings = np.random.default_rng(7), [], AnalyticSettings(contact_tolerance=tolerance)
     for number in range(150):
         _, case = draw_toss(rng, COINS[number % len(COINS)])
         tossed = analytic.toss(case, settings=settings)
@@ -104,7 +104,7 @@ def test_an_outcome_with_another_ending_or_none_to_change_is_not_certain():
     horizon = horizon_of(case.body, case.rules, log)
 
     def certainty(outcome, ending):
-        verdict = Verdict(outcome, ending)
+        verdict = TossEnd(outcome, ending)
         return certainty_of(case.body, case.rules, log.rows, log.started, verdict, horizon)
 
     assert certainty(log.outcome, log.ending).certain

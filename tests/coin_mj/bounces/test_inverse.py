@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from cointoss.coin_mj import solref, solref_of
-from cointoss.coin_mj.bounces.contact import HARDEST, INTEGRATORS, Contact
+from cointoss.coin_mj.bounces.contact import HARDEST, INTEGRATORS, ContactSettings
 from cointoss.coin_mj.bounces.inverse import formula_of
 
 
@@ -69,7 +69,7 @@ def test_a_time_constant_below_two_steps_counts_as_two_steps():
 
 
 def test_no_formula_is_claimed_for_one_step_of_another_integrator():
-    contact = Contact(solref=(0.0, -900.0), timestep=2e-3, integrator="RK4")
+    contact = ContactSettings(solref=(0.0, -900.0), timestep=2e-3, integrator="RK4")
     assert formula_of(contact) is None
     one = formula_of(replace(contact, integrator="Euler"))
     assert one is not None

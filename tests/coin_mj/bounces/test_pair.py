@@ -10,7 +10,7 @@ import pytest
 from cointoss.coin_mj import bounce, solref_of
 from cointoss.coin_mj.bounces import pair
 from cointoss.coin_mj.bounces.approach import Pair
-from cointoss.coin_mj.bounces.pair import Outcome
+from cointoss.coin_mj.bounces.pair import PairOutcome
 from cointoss.coin_mj.bounces.recipe import recipe_of
 from cointoss.compare.output.bounce_plot import bounce_table
 from cointoss.compare.reproduction.setups.mujoco_failures import leg
@@ -167,12 +167,12 @@ def test_the_energy_kept_is_that_of_both_bodies():
     two = '<body><freejoint/><geom name="a" size="0.1"/></body>' + ball(SET)
     found = bounce(model(two), "a", "b")
     assert found.energy_kept == pytest.approx((1 + 0.64) / 2, abs=5e-4)
-    assert {end for row in found.outcomes for end in row} == {Outcome.REBOUNDS}
+    assert {end for row in found.outcomes for end in row} == {PairOutcome.REBOUNDS}
 
 
 def test_a_point_whose_speed_changes_in_a_step_has_no_restitution():
     found = leg(recipe_of(0.8, DT, 40))
-    assert set(found.outcomes[-1]) <= {Outcome.CHANGES, Outcome.OTHER_SPEED}
+    assert set(found.outcomes[-1]) <= {PairOutcome.CHANGES, PairOutcome.OTHER_SPEED}
     assert np.isnan(found.restitutions[-1]).all()
     assert np.nanmax(found.energy_kept) < 1
     assert "take a shorter step" in bounce_table(found)
@@ -182,7 +182,7 @@ def test_a_point_whose_speed_changes_in_a_step_has_no_restitution():
 @pytest.mark.parametrize("how", COUPLED)
 def test_what_is_coupled_comes_along(how):
     found = bounce(model(SLIDES, more=COUPLED[how]), "b", "a")
-    assert {end for row in found.outcomes for end in row} == {Outcome.REBOUNDS}
+    assert {end for row in found.outcomes for end in row} == {PairOutcome.REBOUNDS}
     # Of what equality constraints hold, MuJoCo's own impedance of 0.9 to 0.95 lets a part through.
     assert found.restitutions == pytest.approx(0.8, abs=2e-3)
 
@@ -219,7 +219,7 @@ def test_a_ball_that_sticks_in_a_height_field_is_no_number(monkeypatch):
     monkeypatch.setattr(pair, "SPEEDS", (0.5,))
     monkeypatch.setattr(pair, "PHASES", 2)
     found = bounce(mujoco.MjModel.from_xml_string(FIELD.format(0.03)), "b", "a")
-    assert set(found.outcomes_with_gravity[0]) == {Outcome.STAYS}
+    assert set(found.outcomes_with_gravity[0]) == {PairOutcome.STAYS}
     assert "2 of 2 stay" in bounce_table(found)
     assert ((found.restitutions > 0.05) & (found.restitutions < 0.2)).all()
     with pytest.raises(ValueError, match="not above the height field"):
@@ -230,7 +230,7 @@ def test_a_contact_that_outlasts_the_measurement_is_no_rebound(monkeypatch):
     monkeypatch.setattr(pair, "LONGEST", 300)
     soft = ball('solref="-10 -0.5" priority="1" condim="1"')
     found = bounce(model(FLOOR + soft), "a", "b")
-    assert {end for row in found.outcomes for end in row} == {Outcome.LASTS}
+    assert {end for row in found.outcomes for end in row} == {PairOutcome.LASTS}
     assert np.isnan(found.restitutions).all()
 
 
@@ -291,8 +291,8 @@ def test_a_plate_beyond_the_middle_of_another_after_a_step_goes_through(v, monke
         mujoco.mj_step(built, data, nstep=20)
         passed += data.qpos[2] < 0
     found = bounce(built, "b", "a")
-    assert found.outcomes[0].count(Outcome.PASSES) == passed
-    assert set(found.outcomes[0]) == {Outcome.PASSES, Outcome.REBOUNDS}
+    assert found.outcomes[0].count(PairOutcome.PASSES) == passed
+    assert set(found.outcomes[0]) == {PairOutcome.PASSES, PairOutcome.REBOUNDS}
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ import pytest
 
 from cointoss.coin_mj import solref
 from cointoss.coin_mj.bounces.bodies import BALL, body_of
-from cointoss.coin_mj.bounces.contact import Contact, one_step_solref
+from cointoss.coin_mj.bounces.contact import ContactSettings, one_step_solref
 from cointoss.coin_mj.bounces.drops import SPEED, drops_of
 from cointoss.coin_mj.bounces.recipe import recipe_of
 from cointoss.models.records import ApproximationWarning
@@ -62,7 +62,9 @@ def test_the_model_bounces_as_it_says(restitution, spring):
 @pytest.mark.parametrize("speed", [0.3, 3.0, 3.1])
 def test_without_weight_a_contact_of_one_step_rebounds_by_the_closed_form(restitution, speed):
     """v' = -e v: the constraint's reference takes (1 + e) v away within the step."""
-    exact = Contact(solref=one_step_solref(restitution, 5e-4), timestep=5e-4, integrator="implicitfast")
+    exact = ContactSettings(
+        solref=one_step_solref(restitution, 5e-4), timestep=5e-4, integrator="implicitfast"
+    )
     model = BALL.compiled(exact, 0.51)
     assert rebound(model, 0.01, weight=False, speed=speed) == pytest.approx(restitution, abs=1e-11)
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from cointoss.coin_mj.bounces.bodies import BALL, body_of
-from cointoss.coin_mj.bounces.contact import Contact, one_step_solref, spring_solref
+from cointoss.coin_mj.bounces.contact import ContactSettings, one_step_solref, spring_solref
 from cointoss.coin_mj.bounces.recipe import recipe_of
 from cointoss.coin_mj.bounces.rest import depth_at_rest, rest_of
 
@@ -18,7 +18,7 @@ from cointoss.coin_mj.bounces.rest import depth_at_rest, rest_of
 @pytest.mark.parametrize(("e", "dt"), [(0.0, 2e-3), (0.8, 1e-5)])
 def test_without_a_stiffness_a_body_sinks_for_ever(e, dt):
     """A contact cancels all but 1 - d of the weight: v = (1 - d) g dt/(1 + e)."""
-    contact = Contact(solref=one_step_solref(e, dt), timestep=dt, integrator="implicitfast")
+    contact = ContactSettings(solref=one_step_solref(e, dt), timestep=dt, integrator="implicitfast")
     assert rest_of(contact).sinking == pytest.approx(1e-4 * 9.81 * dt / (1 + e), rel=1e-3)
 
 
@@ -79,7 +79,7 @@ def test_the_recipe_of_a_spring_rests_where_the_closed_form_says(e, steps):
 
 def test_the_hardest_spring_hops_for_ever():
     """As was recommended before: the contact carries all of the weight, and the spring pushes on."""
-    contact = Contact(solref=spring_solref(0.8, 1e-3, 40), timestep=1e-3, integrator="RK4")
+    contact = ContactSettings(solref=spring_solref(0.8, 1e-3, 40), timestep=1e-3, integrator="RK4")
     assert 2e-5 < rest_of(contact).hop < 1e-4
 
 

@@ -10,7 +10,7 @@ import cointoss.analytic.air.force
 from cointoss.coin_mj.entries import air_force, forward
 from cointoss.coin_mj.model.air import PowerLaw
 from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.settings import Settings
+from cointoss.coin_mj.model.settings import MujocoSettings
 from cointoss.coin_mj.steps import free_step as steps
 from cointoss.models.kernel.compiled import by_numba
 from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, draw_release, scenario
@@ -96,7 +96,7 @@ def coin_in_air(b, normal=LN, tangential=LT):
         air={"normal": normal, "tangential": tangential, "exponent": b},
         release=draw_release(np.random.default_rng(1)),
     )
-    return machine_of(case, Settings())
+    return machine_of(case, MujocoSettings())
 
 
 @pytest.mark.parametrize("b", [0.5, 1.0])

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from cointoss.coin_mj.model.scene import build, shape_thickness
-from cointoss.coin_mj.model.settings import Settings, rebound_of
+from cointoss.coin_mj.model.settings import MujocoSettings, rebound_of
 from cointoss.coin_mj.model.state import of_release
 from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, draw_release, scenario
 
 
 def built(case):
-    return build(case, rebound_of(case.floor.restitution, Settings()), 0.0, shape_thickness(case))
+    return build(case, rebound_of(case.floor.restitution, MujocoSettings()), 0.0, shape_thickness(case))
 
 
 def test_mass_and_inertia_are_the_scenarios():

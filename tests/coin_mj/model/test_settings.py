@@ -13,8 +13,8 @@ from cointoss.coin_mj.model.settings import (
     LEAST_LOSS,
     LOSS,
     MANY,
+    MujocoSettings,
     Realisation,
-    Settings,
     damping_ratio_of,
     rebound_of,
     resolved,
@@ -67,7 +67,7 @@ def test_a_restitution_out_of_reach_is_refused(restitution):
 
 
 def test_the_spring_has_the_stiffness_asked_for():
-    spring = rebound_of(0.5, Settings(stiffness=1e10, steps=20))
+    spring = rebound_of(0.5, MujocoSettings(stiffness=1e10, steps=20))
     assert spring.stiffness == 1e10
     assert spring.damping / (2 * np.sqrt(1e10)) == pytest.approx(damping_ratio_of(0.5), rel=1e-15)
     assert spring.duration == pytest.approx(np.pi * 1e-5, rel=1e-15)
@@ -76,14 +76,14 @@ def test_the_spring_has_the_stiffness_asked_for():
 
 @pytest.mark.parametrize("restitution", [0.0, 0.3, 1.0])
 def test_one_step_turns_a_speed_into_the_rebound(restitution):
-    one = rebound_of(restitution, Settings(contact=Realisation.ONE_STEP, step=1e-6))
+    one = rebound_of(restitution, MujocoSettings(contact=Realisation.ONE_STEP, step=1e-6))
     assert (one.stiffness, one.step, one.duration) == (0, 1e-6, 1e-6)
     assert 1 - one.damping * one.step == pytest.approx(-restitution, abs=1e-15)
 
 
 def test_softer_contacts_last_longer():
     for realisation, longer in ((Realisation.SPRING, 10**0.5), (Realisation.ONE_STEP, 10)):
-        settings = Settings(contact=realisation)
+        settings = MujocoSettings(contact=realisation)
         hard, soft = rebound_of(0.5, settings), rebound_of(0.5, settings.softened(10))
         assert soft.duration / hard.duration == pytest.approx(longer, rel=1e-12)
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.coin_mj import Friction, Realisation, Settings, impacts_of, toss
+from cointoss.coin_mj import Friction, MujocoSettings, Realisation, impacts_of, toss
 from cointoss.coin_mj.steps.coulomb import coulomb_force
 from cointoss.compare.metrics.impulses import match
 from cointoss.models.records import ApproximationWarning, Ending, Flag
@@ -71,7 +71,7 @@ def errors_and_kinds(rng, count, **settings):
     errors, kinds = [], []
     for _ in range(count):
         case, law = draw_single_impact(rng, "coulomb")
-        errors.append(match(law, impacts_of(case, settings=Settings(**settings))).impulse[0])
+        errors.append(match(law, impacts_of(case, settings=MujocoSettings(**settings))).impulse[0])
         before, after = law.contact_velocity_before[0, :2], law.contact_velocity_after[0, :2]
         sticks = np.hypot(*after) < 1e-9 * np.hypot(*before)
         kinds.append("sticks" if sticks else "slides" if before @ after > 0 else "turns")
@@ -166,16 +166,17 @@ def test_one_step_contacts_meet_newtons_law_down_to_restitution_0():
             floor={"restitution": restitution}, release=draw_release(rng), ending={"max_impacts": 1}
         )
         error = match(
-            analytic.toss(case).impacts, toss(case, settings=Settings(contact=Realisation.ONE_STEP)).impacts
+            analytic.toss(case).impacts,
+            toss(case, settings=MujocoSettings(contact=Realisation.ONE_STEP)).impacts,
         )
         assert error.impulse[0] < 3e-5
 
 
 def test_a_toss_of_one_step_contacts_ends():
     case = scenario(floor={"restitution": 0.5}, release=draw_release(np.random.default_rng(66)))
-    tossed = toss(case, settings=Settings(contact=Realisation.ONE_STEP))
+    tossed = toss(case, settings=MujocoSettings(contact=Realisation.ONE_STEP))
     assert tossed.ending == Ending.SETTLED
     names = {setting.name for setting in tossed.certificate}
     assert "length of the step" in names
     dead = case.replace("floor.restitution", 0.0)
-    assert toss(dead, settings=Settings(contact=Realisation.ONE_STEP)).ending == Ending.SETTLED
+    assert toss(dead, settings=MujocoSettings(contact=Realisation.ONE_STEP)).ending == Ending.SETTLED

@@ -7,7 +7,7 @@ from cointoss import analytic
 from cointoss.coin_mj.entries import forward
 from cointoss.coin_mj.model import state
 from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.settings import Settings
+from cointoss.coin_mj.model.settings import MujocoSettings
 from cointoss.coin_mj.path import MOTION, STEP, TIME
 from cointoss.coin_mj.toss import impacts_of, run, toss
 from cointoss.compare.metrics.impulses import match
@@ -21,7 +21,7 @@ set_motion = by_numba(state.set_motion)
 
 
 def first_impact(case, **settings):
-    return impacts_of(case, settings=Settings(**settings))
+    return impacts_of(case, settings=MujocoSettings(**settings))
 
 
 def test_first_impacts_meet_newtons_impulse():
@@ -107,7 +107,7 @@ def force_at(coin, knot):
 
 def test_the_impulse_is_the_integral_of_the_contact_force():
     case, _ = draw_single_impact(np.random.default_rng(43), least=0.2)
-    machine = machine_of(case, Settings(steps=160))
+    machine = machine_of(case, MujocoSettings(steps=160))
     answer = run(machine, case.rules)
     assert len(answer.rows) == 1
     pressed = answer.knots[answer.knots[:, STEP] > 0]

@@ -9,7 +9,7 @@ import pytest
 from cointoss import coin_mj
 from cointoss.coin_mj.model import state
 from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.settings import Friction, Settings
+from cointoss.coin_mj.model.settings import Friction, MujocoSettings
 from cointoss.coin_mj.steps import resistance, sustained_contact
 from cointoss.coin_mj.steps.resistance import PointMotion
 from cointoss.models.attitude import rotation_matrix
@@ -169,7 +169,7 @@ def eulers_disk(**floor):
             "angular_velocity": [0, rate, 0],
         },
     )
-    machine = machine_of(case, Settings())
+    machine = machine_of(case, MujocoSettings())
     coin, J, time, rows = machine.coin, np.array(case.body.inertia), 0.0, []
     while time < 1.6:
         x, v, e, w, _ = state_of(coin)

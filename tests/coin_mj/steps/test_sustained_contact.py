@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from cointoss import coin_mj
 from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.settings import Settings
+from cointoss.coin_mj.model.settings import MujocoSettings
 from cointoss.coin_mj.path import MOTION, STEP, TIME, Knots
 from cointoss.coin_mj.toss import run
 from cointoss.compare.metrics.estimates import chance_alike
@@ -29,7 +29,7 @@ DECIDED = {Outcome.HEADS, Outcome.TAILS, Outcome.EDGE, Outcome.PERPETUAL}
 
 def contact_of(case):
     """States of a toss in contact that lasts: time, and position, velocity, Euler parameters, spin, body."""
-    machine = machine_of(case, Settings())
+    machine = machine_of(case, MujocoSettings())
     answer = run(machine, case.rules)
     assert len(answer.contacts) == 1
     chosen = answer.knots[answer.knots[:, STEP] > 0]
@@ -91,7 +91,7 @@ def test_a_smooth_floor_takes_no_energy_and_no_spin_about_the_vertical(offset):
         },
         ending={"test": "paper", "max_time": 1.0},
     )
-    answer = run(machine_of(case, Settings()), case.rules)
+    answer = run(machine_of(case, MujocoSettings()), case.rules)
     start, end = answer.contacts[np.argmax(np.diff(answer.contacts, axis=1))]
     assert end - start > 0.2
     rows = answer.knots[(answer.knots[:, TIME] > start + 0.02) & (answer.knots[:, TIME] < end - 0.02)]

@@ -5,7 +5,7 @@ import numpy as np
 from cointoss.analytic import toss
 from cointoss.compare.fitting.misfit import Misfit, Predicted
 from cointoss.compare.fitting.observed import Observed
-from cointoss.compare.fitting.search import Minimum, Search
+from cointoss.compare.fitting.search import LeastSquaresSearch, Minimum
 from cointoss.compare.sweep.axes import Span
 from tests.helpers.draws import scenario
 
@@ -41,7 +41,7 @@ def test_a_better_minimum_met_while_intervals_are_measured_is_among_those_found(
         ),
         observed=Observed(touch_times=times, touch_sd=1e-3),
     )
-    search, values = Search(misfit, starts=1, seed=0), np.array([0.802, 0.4])
+    search, values = LeastSquaresSearch(misfit, starts=1, seed=0), np.array([0.802, 0.4])
     known = Minimum(
         values=values, predicted=misfit.predicted(values), covariance=np.diag([1e-6, 1e-6]), determined=2
     )

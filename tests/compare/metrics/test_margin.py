@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 from cointoss import analytic
-from cointoss.compare.basins.picture import MapAxis, Margins, draw_map
+from cointoss.compare.basins.picture import MapAxis, MapMargins, draw_map
 from cointoss.compare.engines import Engine
 from cointoss.compare.metrics.margin import (
     MANY,
@@ -159,7 +159,7 @@ def test_margins_of_a_map_after_impacts_are_of_the_face_there(tmp_path):
 def test_margins_are_drawn_in_colours_of_their_size(tmp_path):
     sizes = np.array([[1e-6, -1e-3, 1.0], [np.inf, 1e-6, -1e-3]])
     axis = MapAxis(name="a", unit="m", start=0.0, stop=1.0)
-    found = Margins(sizes, quantity="height", unit="mm", most=1e3)
+    found = MapMargins(sizes, quantity="height", unit="mm", most=1e3)
     figure = draw_map(np.array([[1, 2, 1], [2, 1, 2]]), x=axis, y=axis, margins=found)
     drawn = np.asarray(figure.axes[1].images[0].get_array())
     assert np.array_equal(drawn[0, 1], drawn[1, 2])

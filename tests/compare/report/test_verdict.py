@@ -8,7 +8,7 @@ import pytest
 
 from cointoss import coin_mj
 from cointoss.compare.report.comparison import Comparison
-from cointoss.compare.report.verdict import Kind, horizon_sentence, verdict_of
+from cointoss.compare.report.verdict import VerdictKind, horizon_sentence, verdict_of
 from cointoss.models.records import IMPACT_ROW, Ending, Face, Impacts, OtherOutcome, Outcome, TrustEnd
 from tests.helpers.films import MadePath
 from tests.helpers.films import made as made_by_formulas
@@ -150,7 +150,7 @@ def test_the_verdict_of_every_case(case):
     a, b, prefix, horizon, kind = first.split()
     text = re.sub("|".join(WORDS), lambda word: WORDS[word[0]], " ".join(map(str.strip, lines)))
     found = verdict_of(compared(TOSSES[a], TOSSES[b], int(prefix), int(horizon)))
-    assert found == (text, Kind[kind])
+    assert found == (text, VerdictKind[kind])
 
 
 def test_what_mujoco_cannot_toss_is_said():
@@ -159,7 +159,7 @@ def test_what_mujoco_cannot_toss_is_said():
     )
     assert verdict_of(alone) == (
         "Heads by the analytic engine alone: MuJoCo can't toss this coin on this floor.",
-        Kind.ALONE,
+        VerdictKind.ALONE,
     )
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from cointoss import analytic, coin_mj
-from cointoss.coin_mj import Friction, Realisation, Settings
+from cointoss.coin_mj import Friction, MujocoSettings, Realisation
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Tile
@@ -131,6 +131,6 @@ def test_a_pixel_by_mujoco_is_the_toss_with_the_settings_that_its_map_records(co
     assert recorded["contact"] == contact
     for row, y in enumerate(sweep.y.values):
         for column, x in enumerate(sweep.x.values):
-            one = coin_mj.toss(pixel_scenario(sweep, y, x), settings=Settings(**recorded))
+            one = coin_mj.toss(pixel_scenario(sweep, y, x), settings=MujocoSettings(**recorded))
             assert made.outcome[row, column] == one.outcome
             assert made.impacts[row, column] == len(one.impacts) > 0

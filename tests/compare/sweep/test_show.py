@@ -12,7 +12,7 @@ import pytest
 import xarray as xr
 from PIL import Image
 
-from cointoss.coin_mj import Realisation, Settings
+from cointoss.coin_mj import MujocoSettings, Realisation
 from cointoss.compare.basins.picture_style import PictureStyle
 from cointoss.compare.engines import Engine
 from cointoss.compare.film.back_end import ADVICE
@@ -105,7 +105,7 @@ def test_the_report_has_the_numbers_of_both_maps_and_the_command(coin, tmp_path,
         assert np.array_equal(np.asarray(ours), np.asarray(theirs))
 
     # The report's own toss is by the contact of the maps.
-    mujoco = compare(parse(COIN, "coin"), Settings(contact=Realisation(contact))).both[1]
+    mujoco = compare(parse(COIN, "coin"), MujocoSettings(contact=Realisation(contact))).both[1]
     assert found["tosses"][1]["impacts"][1]["impulse"] == mujoco.impacts.impulse[1].tolist()
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cointoss.coin_mj import Realisation, Settings
+from cointoss.coin_mj import MujocoSettings, Realisation
 from cointoss.coin_mj.bounces.contact import one_step_solref, spring_solref
 from cointoss.coin_mj.bounces.drops import restitutions_of_a_ball
 from cointoss.compare.reproduction import runner
@@ -119,7 +119,7 @@ def test_shorter_fixed_steps_make_a_coins_restitution_better(realisation, dt):
     cases = draw_touches(np.random.default_rng(4), 32, (0.2, 1.0))
     chi = np.array([case.floor.restitution for case in cases])
     # A spring so stiff that the coin hardly turns in its contact.
-    settings = Settings(contact=Realisation(realisation), stiffness=1e13)
+    settings = MujocoSettings(contact=Realisation(realisation), stiffness=1e13)
     errors = [np.abs(restitutions_of_coins(cases, settings, dt / part) - chi) for part in (1, 2, 4)]
     # A touch falls anywhere within a step: first order.
     for coarse, fine in pairwise(errors):

@@ -15,9 +15,9 @@ from cointoss.compare.reproduction.setups.same_side_fit import (
     EXPONENTIAL,
     NORMAL,
     WOBBLING,
-    Fit,
     Flips,
     People,
+    PeopleFit,
     chance_of_spread,
     fit,
     interval,
@@ -143,7 +143,7 @@ def test_people_who_differ_too_much_have_no_chance():
     flips, rng = drawn(WOBBLING, [0.2]), np.random.default_rng(4)
     found = fit(flips, WOBBLING)
     assert 0.05 < chance_of_spread(flips, found, rng) < 0.95
-    halved = Fit(WOBBLING, found.parameters / 2, found.log_likelihoods)
+    halved = PeopleFit(WOBBLING, found.parameters / 2, found.log_likelihoods)
     assert chance_of_spread(flips, halved, rng) < 0.01
 
 
