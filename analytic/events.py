@@ -49,10 +49,10 @@ class Setup(NamedTuple):
     body: Body
     rules: Rules
     friction: FloorFriction
-    """In sustained contact."""
+    """The floor's friction in sustained contact."""
     limits: ContactLimits
     history: EnergyHistory
-    """Kept up."""
+    """The energies so far, which the event loop keeps up."""
     with_graze: bool
     """Whether the flights before the first contact look for minima of the gap; they change nothing else."""
 
@@ -64,7 +64,7 @@ class Spent(NamedTuple):
     """Now [s]."""
     impacts: int
     steps: int
-    """From the first sustained contact on; an event counts as `_EVENT`."""
+    """The steps from the first sustained contact on; an event counts as `_EVENT`."""
 
 
 class TossEnd(NamedTuple):
@@ -79,11 +79,11 @@ class Passage(NamedTuple):
 
     event: Event
     spent: Spent
-    """Up to the event."""
+    """What the toss has spent up to the event."""
     verdict: TossEnd
-    """Of an event that ends the toss."""
+    """How the toss ends, where the event ends it."""
     flown: Flown
-    """Of a flight up to a touch, or `NOT_FLOWN`."""
+    """The flight up to a touch, or `NOT_FLOWN`."""
 
 
 GOES_ON = TossEnd(Outcome.UNDECIDED, Ending.NONE)
@@ -96,15 +96,15 @@ class Started(NamedTuple):
     """Where modes start, and where the toss ends."""
 
     times: Row
-    """(k,) [s]."""
+    """The times at which modes start, and the end of the toss, (k,) [s]."""
     states: Table
-    """(k, 13)."""
+    """The states at these times, (k, 13)."""
     modes: Codes
     """What starts there: `Mode`, (k,)."""
     steps: Row
-    """Of the flights, 0 of other modes, (k,)."""
+    """The steps of the flights, 0 of other modes, (k,)."""
     grazes: Row
-    """Of the flights, see `Flown`, (k,) [m]."""
+    """The `Flown.graze` of the flights, (k,) [m]."""
 
 
 @compiled

@@ -26,13 +26,13 @@ class Sightings(NamedTuple):
     """What tosses show, a row for each toss."""
 
     touch_times: Table
-    """Of the first touches, (n, most) [s]; the end of the toss in place of those that it does not make."""
+    """Times of the first touches, (n, most) [s]; the toss's end stands for those that it does not make."""
     up: Table
     """The vertical part of the normal ζ at each touch, (n, most); 0 where there is none."""
     states: Cube
-    """At the times asked for, in the order of a state vector, (n, m, 13)."""
+    """The states at the times asked for, in the order of a state vector, (n, m, 13)."""
     impacts: LongCounts
-    """How many the toss makes, (n,); -1 for a release that no scenario has."""
+    """The number of impacts, (n,); -1 for a release that no scenario has."""
 
 
 class SightingRequest(NamedTuple):
@@ -43,9 +43,9 @@ class SightingRequest(NamedTuple):
     friction: Row
     """μ, (n,)."""
     max_time: Row
-    """When it ends at the latest, (n,) [s]."""
+    """The time at which the toss ends at the latest, (n,) [s]."""
     times: Table
-    """When its states are asked for, rising, (n, m) [s]; before and after the toss its ends count."""
+    """Times of the states asked for, rising, (n, m) [s]; before and after the toss its ends count."""
 
 
 @compiled

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from cointoss.analytic.numerics.tolerances import CONTACT_STEP_ERROR, STEP_ERROR
 
 FINEST, COARSEST = 1e-14, 1e-6
-"""Of the tolerances accepted: rounding, and a motion that hardly keeps its energy."""
+"""The bounds of the tolerances accepted: rounding, and a motion that hardly keeps its energy."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -15,7 +15,7 @@ class AnalyticSettings:
     """What the tosses of this engine depend on beside their scenario."""
 
     tolerance: float = field(default=STEP_ERROR, init=False)
-    """Error allowed in a step of flight, relative; compiled in."""
+    """Error allowed in a step of flight, relative; it is compiled in and can't be set."""
     contact_tolerance: float = CONTACT_STEP_ERROR
     """Error allowed in a step of sustained contact, relative."""
     contact_steps: int = 250_000

@@ -36,13 +36,13 @@ class Pieces:
 
     body: Body
     friction: FloorFriction
-    """Of the floor, in contact."""
+    """The floor's friction in sustained contact."""
     contact_tolerance: float
     """Error allowed in a step of contact, relative."""
     start_times: Array
-    """(n,) [s]."""
+    """The times at which flights and contacts start, (n,) [s]."""
     start_states: Array
-    """(n, 13)."""
+    """The states at these times, (n, 13)."""
     modes: NDArray[np.int8]
     """`Mode`, (n,)."""
 

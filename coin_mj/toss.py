@@ -54,7 +54,7 @@ class MujocoRun(NamedTuple):
     rows: np.ndarray
     """Impacts, (n,) of `IMPACT_ROW`."""
     knots: Array
-    """Of the path, see `Knots`."""
+    """The table of the path, see `Knots`."""
     contacts: Array
     """Start and end of every sustained contact, (n, 2) [s]."""
     outcome: Outcome

@@ -37,9 +37,9 @@ class Body(NamedTuple):
     inertia_largest: float
     air: AirLaw
     drag: Drag
-    """Of linear air: of use where `is_linear`."""
+    """The coefficients of linear air; they are used where `is_linear`."""
     sliding_share: float
-    """See `cointoss.models.drag.sliding_share`; of use where `drag` is."""
+    """The share of `cointoss.models.drag.sliding_share`; it is used where `drag` is."""
     gravity: float
 
 
@@ -47,12 +47,12 @@ class OwnCode(NamedTuple):
     """A contact law of one's own, as compiled code calls it."""
 
     address: int
-    """Of its machine code, see `cointoss.models.kernel.address`; 0 where there is none."""
+    """The address of its machine code, see `cointoss.models.kernel.address`; 0 where there is none."""
     may_add_energy: bool
     may_pull: bool
     """Whether S_z may be negative."""
     tolerance: float
-    """Against |S|, |K S| and |S| |v_A|: up to it the law's impulses err."""
+    """The error of the law's impulses, at most, against |S|, |K S| and |S| |v_A|."""
 
 
 EXACT = 1e-10
@@ -64,7 +64,7 @@ class Rules(NamedTuple):
     """How a scenario's coin meets the floor and when its toss ends; in compiled code words are integers."""
 
     law: Annotated[ContactLaw, int]
-    """Where there is a law of one's own: `SHARP_EDGE`, which no sustained contact follows."""
+    """The contact law; `SHARP_EDGE`, which no sustained contact follows, stands for a law of one's own."""
     own: OwnCode
     restitution: float
     restitution_threshold: float

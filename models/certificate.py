@@ -46,9 +46,9 @@ class InContact(NamedTuple):
     """What an engine finds of the sustained contacts of a toss."""
 
     energies: Array
-    """At start and end of stretches of them, (n, 2) [J]."""
+    """The energies at start and end of stretches of sustained contact, (n, 2) [J]."""
     gaps: Array
-    """In them, see `gaps`, (k,) [m]."""
+    """The gaps in sustained contact, see `gaps`, (k,) [m]."""
 
 
 def measurements(

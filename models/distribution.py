@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 DISTRIBUTION = "cointoss-dynamics"
-"""As in pyproject.toml; the index has another project under `cointoss`."""
+"""The name in pyproject.toml; the index has another project under `cointoss`."""
 
 
 def versions_of(packages: Iterable[str]) -> dict[str, str]:

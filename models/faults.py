@@ -17,9 +17,9 @@ from cointoss.models.making import Cylinder
 from cointoss.models.state import State
 
 FASTEST_SPIN, FASTEST_DRAG = 1e5, 1e4
-"""Beyond all tosses, which would take hours to follow; against √(g/r)."""
+"""Rates against √(g/r) beyond all tosses, which would take hours to follow."""
 NORM_ERROR = 1e-3
-"""Of the Euler parameters of a release."""
+"""The largest error of the norm of a release's Euler parameters."""
 _SYMMETRY, _LEAST_MOMENT, _LARGEST_MOMENT = 1e-12, 1e-6, 1e6
 _BELOW = 1e-12  # of the radius: rounding
 

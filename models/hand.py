@@ -53,9 +53,9 @@ class Hand:
     """
 
     height: float = 1.0
-    """Of C [m]."""
+    """The height of C at the release [m]."""
     speed: float = 2.0
-    """Of C, upwards [m/s]."""
+    """The speed of C upwards at the release [m/s]."""
     spin: float = 120.0
     """L/J_ξ, the rate at which the normal goes round L; of a spun coin its angular velocity [rad/s]."""
     psi: float = math.pi / 2

@@ -8,7 +8,7 @@ from cointoss.models.kernel.vectors import Matrix, Vector, dot
 # A thin coin's principal moments obey A + B = C exactly, so rounding alone can break the inequality.
 TRIANGLE_TOLERANCE = 1e-12
 _SWEEPS = 20
-"""Of Jacobi's rotations, which converge quadratically: after four to six none is left to do."""
+"""The most of Jacobi's rotations, which converge quadratically: after four to six none is left to do."""
 
 
 @compiled

@@ -16,7 +16,7 @@ AXES = {
     "body": ("body_axis", ("xi", "eta", "zeta")),
     "attitude": ("parameter", ("e0", "e1", "e2", "e3")),
 }
-"""Of a vector's components: the name of the dimension, and that of each component."""
+"""The name of the dimension of a vector's components, and the name of each component."""
 
 
 def column(

@@ -21,7 +21,7 @@ class Frame:
     page: str
     """HTML that needs no other file."""
     height: int
-    """[px]"""
+    """The height of the frame [px]."""
 
     def __repr__(self) -> str:
         """Return what is shown, and where."""

@@ -3,7 +3,7 @@
 HEADS, TAILS = "#F5AB1F", "#0D5CA8"
 """The coin's faces, gold and blue, as in models/coin.xml; they differ in brightness too."""
 EDGE, PERPETUAL, TRANSIENT, UNDECIDED = "#009E73", "#CC79A7", "#56B4E9", "#FFFFFF"
-"""Of Okabe and Ito's colours, which the colour-blind can distinguish; and white, as paper."""
+"""Four of Okabe and Ito's colours, which the colour-blind can distinguish; and white, as paper."""
 COLORS = {
     "undecided": UNDECIDED,
     "heads": HEADS,
@@ -12,4 +12,4 @@ COLORS = {
     "perpetual": PERPETUAL,
     "transient": TRANSIENT,
 }
-"""By the word for the outcome."""
+"""The colours of the outcomes, by their words."""

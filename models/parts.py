@@ -249,7 +249,7 @@ class Floor(Part):
     rolling_friction: Annotated[float, _quantity("m"), _not_negative] = 0.0
     """δ: the moment against rolling in sustained contact, over the normal force [m]."""
     pivoting_friction: Annotated[float, _quantity("m"), _not_negative] = 0.0
-    """p: likewise against pivoting about the vertical [m]."""
+    """p: the moment against pivoting about the vertical, over the normal force [m]."""
     restitution_kind: Annotated[RestitutionKind, BeforeValidator(_named(RestitutionKind)), _AS_WORD] = (
         RestitutionKind.KINEMATIC
     )
@@ -268,9 +268,9 @@ class Release(Part):
     """The state at time 0."""
 
     position: Position
-    """Of C, space frame [m]."""
+    """The position of C, space frame [m]."""
     velocity: Speeds = _ZERO
-    """Of C, space frame [m/s]."""
+    """The velocity of C, space frame [m/s]."""
     angles: Angles | None = None
     """ψ, θ, φ, the classical Euler angles (z-x-z) [rad]; a flat coin, heads up, by default."""
     quaternion: EulerParameters | None = None

@@ -28,11 +28,11 @@ class EnergyHistory(NamedTuple):
     """The energies of a toss at its last checks; the arrays are written to as it goes on."""
 
     start: Array
-    """When the coin came into sustained contact for the first time, infinite before, (1,) [s]."""
+    """The time of the first sustained contact, infinite before it, (1,) [s]."""
     next_check: Array
     """Time of the next check, infinite before that contact, (1,) [s]."""
     energies: Array
-    """At the last checks, the oldest first, infinite where there was none, (6,) [J]."""
+    """The energies at the last checks, the oldest first, infinite where there was none, (6,) [J]."""
     no_loss: float
     """A loss in the time √(r/g) that the engine cannot tell from none, against the energy."""
 

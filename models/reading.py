@@ -16,11 +16,11 @@ from cointoss.models.scenario import Scenario
 from cointoss.models.unused import warn_of_unused_fields
 
 MOST_BYTES = 1 << 16
-"""Of a scenario's file."""
+"""The largest size of a scenario's file [bytes]."""
 LONGEST_LINE = 2000
 """Characters: what takes one line, as a key, could be nested too deeply for the memory."""
 FORMAT = 1
-"""Of the file of a scenario or a hand, its field `format`; a file without one is of format 1."""
+"""The field `format` of the file of a scenario or a hand; a file without one is of format 1."""
 
 ScenarioSource = Scenario | str | PathLike[str]
 """A scenario, the path of its file, or the name of one that comes with the package."""

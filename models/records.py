@@ -61,7 +61,7 @@ class Ending(Word):
     sentence: str
     """What the ending means."""
     proviso: str
-    """With what reserve the outcome is said; empty where the ending proves it."""
+    """The reserve with which the outcome is said; empty where the ending proves it."""
 
     def __new__(cls, value: int, sentence: str, proviso: str = "so far") -> "Ending":
         """Make a member of its integer and its words."""
@@ -139,33 +139,33 @@ class Impacts:
     """The impacts of a toss, one row each, in order of time; arrays are read-only."""
 
     time: Array = column(unit="s")
-    """Of first touch, (n,) [s]."""
+    """The time of first touch, (n,) [s]."""
     face: NDArray[np.int8] = column(kind=np.int8, long_name="face up", labels=Face.by_value())
     """The `Face` up at the touch, (n,)."""
     impulse: Array = column("space", "N s")
-    """S, of the floor on the coin, space frame, (n, 3) [N s]."""
+    """The impulse S of the floor on the coin, space frame, (n, 3) [N s]."""
     point: Array = column("body", "m")
-    """A from B, body frame, (n, 3) [m]."""
+    """The contact point A from B, body frame, (n, 3) [m]."""
     position: Array = column("space", "m")
-    """Of C at the touch, space frame, (n, 3) [m]."""
+    """The position of C at the touch, space frame, (n, 3) [m]."""
     quaternion: Array = column("attitude", "")
     """Euler parameters at the touch, body to space, (n, 4)."""
     velocity_before: Array = column("space", "m/s")
-    """Of C, space frame, (n, 3) [m/s]."""
+    """The velocity of C before the impact, space frame, (n, 3) [m/s]."""
     velocity_after: Array = column("space", "m/s")
-    """Of C, space frame, (n, 3) [m/s]."""
+    """The velocity of C after the impact, space frame, (n, 3) [m/s]."""
     angular_velocity_before: Array = column("body", "rad/s")
-    """ω, body frame, (n, 3) [rad/s]."""
+    """ω before the impact, body frame, (n, 3) [rad/s]."""
     angular_velocity_after: Array = column("body", "rad/s")
-    """ω, body frame, (n, 3) [rad/s]."""
+    """ω after the impact, body frame, (n, 3) [rad/s]."""
     contact_velocity_before: Array = column("space", "m/s")
-    """v_A, space frame, (n, 3) [m/s]."""
+    """v_A before the impact, space frame, (n, 3) [m/s]."""
     contact_velocity_after: Array = column("space", "m/s")
-    """v_A, space frame, (n, 3) [m/s]."""
+    """v_A after the impact, space frame, (n, 3) [m/s]."""
     energy: Array = column(unit="J")
-    """After the impact: kinetic and m g z_C, (n,) [J]."""
+    """The energy after the impact: kinetic and m g z_C, (n,) [J]."""
     energy_change: Array = column(unit="J")
-    """Of the impact, (n,) [J]; positive where the law feeds the coin."""
+    """The change of the energy in the impact, (n,) [J]; positive where the law feeds the coin."""
 
     def __post_init__(self) -> None:
         """Check every array's shape and make it read-only."""
@@ -210,11 +210,11 @@ class States:
     """States of the coin at several times; arrays are read-only."""
 
     time: Array = column(unit="s")
-    """(n,) [s]."""
+    """The times of the states, (n,) [s]."""
     position: Array = column("space", "m")
-    """Of C, space frame, (n, 3) [m]."""
+    """The position of C, space frame, (n, 3) [m]."""
     velocity: Array = column("space", "m/s")
-    """Of C, space frame, (n, 3) [m/s]."""
+    """The velocity of C, space frame, (n, 3) [m/s]."""
     quaternion: Array = column("attitude", "")
     """Euler parameters, body to space, (n, 4)."""
     angular_velocity: Array = column("body", "rad/s")
@@ -244,7 +244,7 @@ class States:
         space and ω in the body frame.
 
         Args:
-            scenario: of the coin, whose mass centre may lie off B.
+            scenario: the coin's, whose mass centre may lie off B.
         """
         rows = np.hstack([self.position, self.velocity, self.quaternion, self.angular_velocity])
         motions = joint_of_states(scenario.body, rows)
@@ -253,10 +253,10 @@ class States:
     def lowest_points(self, scenario: Scenario) -> Array:
         """Return the coin's lowest point A, space frame, (n, 3) [m]: the point of contact where it touches.
 
-        Of a coin that lies flat it is the point of the face under C.
+        Where a coin lies flat, it is the point of the face under C.
 
         Args:
-            scenario: of the coin.
+            scenario: the coin's.
         """
         return lowest_points(scenario.body, self.position, self.quaternion, self.angular_velocity)
 
@@ -328,9 +328,9 @@ class OtherOutcome:
 
     outcome: Outcome
     change: float
-    """Of the coin's state, against its scales: r, √(g r) + |v|, 1 and √(g/r) + |ω|."""
+    """The size of the change against the scales of the coin's state: r, √(g r) + |v|, 1 and √(g/r) + |ω|."""
     impact: int
-    """The change is made just after so many impacts; 0 for the release."""
+    """The number of impacts after which the change is made; 0 for the release."""
 
     @property
     def told(self) -> str:
@@ -351,11 +351,11 @@ class Toss:
     outcome: Outcome
     ending: Ending
     end_time: float
-    """When the toss stopped [s]."""
+    """The time at which the toss stopped [s]."""
     outcome_certain: bool | None
     """Whether the engine's own errors can't change the outcome; None where it does not find that out."""
     other_outcome: OtherOutcome | None
-    """That these errors may lead to, where one was found."""
+    """Another outcome that the engine's own errors may lead to; None where none was found."""
     trusted_impacts: int
     """How many leading impacts the engine's own errors can't have changed; see the engine's `toss`."""
     trust_end: TrustEnd

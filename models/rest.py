@@ -8,7 +8,7 @@ from cointoss.models.kernel.vectors import Matrix, Vector, apply, dot
 from cointoss.models.state import State
 
 SLOW = 1e-3
-"""Against √(g/r): a spin slower than this is as good as none."""
+"""A spin slower than this part of √(g/r) is as good as none."""
 
 
 @compiled

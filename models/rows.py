@@ -56,11 +56,11 @@ def _in_table(table: str) -> dict[str, _Place]:
 
 
 PLACES: dict[str, _Place] = {"gravity": ("gravity",)}
-"""Of each field in a scenario file."""
+"""The place of each field in a scenario file."""
 for _table in _TABLES:
     PLACES |= _in_table(_table)
 FIELDS = tuple(PLACES)
-"""By their places in a row of numbers, where what a scenario does not have is not a number."""
+"""The fields in the order of a row of numbers, in which NaN stands for what a scenario does not have."""
 
 
 def fields_of(scenario: Scenario) -> dict[str, float | str]:
@@ -110,7 +110,7 @@ def _first_places() -> tuple[int, ...]:
 
 
 FIRST = _first_places()
-"""For each field that may be left out, the place of the first number of its list; -1 for the others."""
+"""The place of the first number of the list of each field that may be left out; -1 for the other fields."""
 
 
 EXAMINED = ("fault", "limit", "barrier")

@@ -32,7 +32,7 @@ class Stage:
     detail: Callable[[], str] = str
     """Returns how far it is, in words; empty where none are known."""
     clock: Callable[[], float] = time.perf_counter
-    """Of the wall [s]."""
+    """The clock of the wall [s]."""
 
     def __post_init__(self) -> None:
         """Begin."""
@@ -75,7 +75,7 @@ class Stages:
 
 
 stages = Stages()
-"""Of this process."""
+"""The stages of this process."""
 
 
 @contextmanager

@@ -11,9 +11,9 @@ class State(NamedTuple):
     """A state of a coin, with its rotation matrix."""
 
     position: Vector
-    """Of C, space frame [m]."""
+    """The position of C, space frame [m]."""
     velocity: Vector
-    """Of C, space frame [m/s]."""
+    """The velocity of C, space frame [m/s]."""
     attitude: Quaternion
     """Euler parameters, body to space."""
     spin: Vector

@@ -9,7 +9,7 @@ from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector
 
 FAR = 1.5
-"""Beyond so many radii the instantaneous centre is far enough for the series."""
+"""The instantaneous centre is far enough for the series beyond this number of radii."""
 
 
 @compiled

@@ -15,11 +15,11 @@ class VelocityField:
     """Points of one surface and their velocities, body frame; arrays are read-only."""
 
     point: Array
-    """From B, (n, 3) [m]; eqs (60), (62), (64)."""
+    """The points of the surface from B, (n, 3) [m]; eqs (60), (62), (64)."""
     normal: Array
     """Outward unit vectors, (n, 3); eq. (57)."""
     velocity: Array
-    """(n, 3) [m/s]; Fig. 14(a)."""
+    """The velocities of the points, (n, 3) [m/s]; Fig. 14(a)."""
     outward: Array
     """The normal part of the velocity where it points outwards, else 0, (n, 3) [m/s]; there pressure acts,
     eq. (58), Figs 14(c), 15(a)."""
@@ -46,7 +46,7 @@ class SurfaceFields(NamedTuple):
     lower: VelocityField
     """The face ζ = -h/2, of A_2; for a thin coin its velocities are those of the upper face, eq. (75)."""
     wall: VelocityField
-    """Of A_3; without points for a thin coin."""
+    """The wall, of A_3; without points for a thin coin."""
 
 
 def velocity_fields(

@@ -28,9 +28,9 @@ class PhiSeries(NamedTuple):
     """The coefficients of Φ for one b."""
 
     near: NDArray[np.float64]
-    """Of F(-b/2, 1; 3/2; y), which is Φ/(x |T|^b), as a series of y = x²/(x² + B²)."""
+    """The series of F(-b/2, 1; 3/2; y), which is Φ/(x |T|^b), in y = x²/(x² + B²)."""
     far: NDArray[np.float64]
-    """Of Φ/x^(b+1) as a series of (B/x)², but for the second, which `_logarithm` has."""
+    """The series of Φ/x^(b+1) in (B/x)², but for the second term, which `_logarithm` has."""
     beyond: float
     """What Φ has beside that series for B = 1, so that its forms meet."""
 
@@ -39,17 +39,17 @@ class StripChange(NamedTuple):
     """Integrals over z of the second derivatives of |T|^(b+2)/(b+2), T = (T_θ, T_ζ)."""
 
     around: float
-    """Twice by T_θ."""
+    """The integral of the second derivative by T_θ."""
     around_z: float
     """The same times z."""
     around_zz: float
     """The same times z²."""
     mixed: float
-    """By T_θ and T_ζ."""
+    """The integral of the derivative by T_θ and T_ζ."""
     mixed_z: float
     """The same times z."""
     along: float
-    """Twice by T_ζ."""
+    """The integral of the second derivative by T_ζ."""
 
 
 @compiled

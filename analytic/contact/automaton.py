@@ -23,16 +23,16 @@ class Mode(IntEnum):
 
     FLIGHT = 0
     SLIDING = 1
-    """In contact at one rim point A, which slips; friction acts against the slip."""
+    """The coin touches at one rim point A, which slips; friction acts against the slip."""
     INCIPIENT_SLIP = 2
-    """In contact at A, whose slip is below `SLOW` and outside what friction can hold."""
+    """The coin touches at A, whose slip is below `SLOW` and outside what friction can hold."""
     STICKING = 3
-    """In contact at A, which does not slip."""
+    """The coin touches at A, which does not slip."""
     UPRIGHT = 4
-    """In contact at both rims."""
+    """The coin touches at both rims."""
     ENDED = 5
     TOUCHING = 6
-    """On the floor at one rim, for no time: which mode of contact starts is still to be found."""
+    """The coin touches at one rim, for no time: which mode of contact starts is still to be found."""
 
 
 class Event(IntEnum):
@@ -51,7 +51,7 @@ class Event(IntEnum):
     FACE_LANDS = 4
     """A face comes down to the floor: a touch of the opposite rim point follows."""
     FALLS_FLAT = 5
-    """Likewise, of a coin so flat already that no step of the contact is left."""
+    """A face comes down to the floor, of a coin so flat already that no step of the contact is left."""
     SLIDES = 6
     """A slips faster than `SLOW`, or goes on slipping faster than half of it; or the floor is smooth."""
     SLIP_STARTS = 7

@@ -40,7 +40,7 @@ _CAUTION = 0.94
 # The end of a mode is first sought on the cubic through both ends of a step, to this part of it.
 _CUBIC = 1e-4
 END_ROW = STAGES
-"""After the rows of the stages: the rate of change at the end of a step."""
+"""The row after those of the stages: the rate of change at the end of a step."""
 # The state there, and the length that suited the last step.
 _NEW_ROW, _LENGTH_ROW, _ROWS = STAGES + 1, STAGES + 2, STAGES + 3
 
@@ -49,13 +49,13 @@ class ContactStep(NamedTuple):
     """A step of a contact that was made."""
 
     elapsed: float
-    """How long it took [s]."""
+    """The time that the step took [s]."""
     next_dt: float
     """A length for the next [s]."""
     is_over: bool
     """Whether the mode came to its end."""
     event: Event
-    """Of a landing, or of a step that has no solution; else `NONE`."""
+    """The event of a landing, or of a step that has no solution; else `NONE`."""
 
 
 @compiled

@@ -26,7 +26,7 @@ class FloorFriction(NamedTuple):
 
 
 FRICTIONLESS = FloorFriction(0.0)
-"""Of a floor that acts on a coin in contact by its normal force alone."""
+"""The friction of a floor that acts on a coin in contact by its normal force alone."""
 
 
 @compiled

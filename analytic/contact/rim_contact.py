@@ -42,7 +42,7 @@ class RimMotion(NamedTuple):
     up: Vector
     """The upward unit vector."""
     arm: Vector
-    """From C to A [m]."""
+    """The arm from C to A [m]."""
     velocity: Vector
     """v_A [m/s]."""
     free_acceleration: Vector
@@ -57,7 +57,7 @@ class RimContact(NamedTuple):
     R: Matrix
     """Rotation matrix, body to space."""
     arm: Vector
-    """From C to A [m]."""
+    """The arm from C to A [m]."""
     spins: Matrix
     """Changes of ω by unit impulses at A along x, y and z, body frame, row by row [rad/(N s²)]; the last one
     with the resistance that comes with it."""

@@ -43,7 +43,7 @@ class RimForces(NamedTuple):
     normal: tuple[float, float]
     """The vertical parts, on tails' rim and on heads'."""
     total: Vector
-    """Both with their friction, space frame."""
+    """The sum of both forces with their friction, space frame."""
     spin_gained: Vector
     """The rate of change, or the change, of the angular velocity, body frame."""
 

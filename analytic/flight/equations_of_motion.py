@@ -17,9 +17,9 @@ class Flight(NamedTuple):
 
     state: State
     velocity: Vector
-    """Of C [m/s]."""
+    """The velocity of C [m/s]."""
     force: Vector
-    """Of the air [N]."""
+    """The force of the air [N]."""
     spin_rate: Vector
     """dω/dt [rad/s²]."""
 

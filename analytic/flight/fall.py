@@ -57,14 +57,14 @@ class Piece(NamedTuple):
     first: Vector
     """The normal at its start, space frame."""
     second: Vector
-    """Towards which it turns."""
+    """The unit vector towards which the normal turns."""
     axis: Vector
     slowing: float
     """δ [1/s]."""
     length: float
-    """By the clock [s]."""
+    """The length of the piece by the clock [s]."""
     order: int
-    """Of the series: the rest is nothing."""
+    """The order of the series: the rest is nothing."""
 
 
 @compiled

@@ -45,7 +45,7 @@ class Bounds(NamedTuple):
     up: float
     """Upward acceleration of C [m/s²]."""
     jerk: float
-    """Its change [m/s³]."""
+    """The rate of change of that acceleration [m/s³]."""
     normal: float
     """|n_z''| [1/s²]."""
     square: float
@@ -58,7 +58,7 @@ class HeightAndTilt(NamedTuple):
     """Height and tilt at one time."""
 
     z: float
-    """Of C [m]."""
+    """The height of C [m]."""
     z_rate: float
     z_acceleration: float
     normal: Vector
@@ -67,7 +67,7 @@ class HeightAndTilt(NamedTuple):
     normal_acceleration: float
     """n_z'' [1/s²]."""
     sine: float
-    """Of the tilt."""
+    """The sine of the tilt."""
 
 
 @compiled
@@ -143,13 +143,13 @@ class TouchBound(NamedTuple):
     lower: float
     """±1, of the face whose rim is the lower one."""
     F: float
-    """Of that rim [m²]."""
+    """F of the lower rim [m²]."""
     F_rate: float
     """F'/2 [m²/s]."""
     ahead: float
-    """So long the coin is surely clear [s]."""
+    """The time for which the coin is surely clear [s]."""
     latest: float
-    """By then F has passed zero if its rise is bent by less than F_rate²/F; 0 where that is not known [s]."""
+    """When F has passed zero, if its rise is bent by less than F_rate²/F; 0 where that is not known [s]."""
     rise: float
     """F''/2 is at most that up to `latest` [m²/s²]."""
     third: float

@@ -29,10 +29,10 @@ class GapPolynomials(NamedTuple):
     """F of tails' and of heads' rim as polynomials of the time since the start of a step."""
 
     coefficients: Array
-    """(2, DEGREE + 1)."""
+    """The coefficients of the two polynomials, (2, DEGREE + 1)."""
     degree: int
     rounding: float
-    """By how much rounding changes F at most [m²]."""
+    """The most by which rounding changes F [m²]."""
 
 
 class TimeWindow(NamedTuple):

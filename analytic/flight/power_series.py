@@ -43,7 +43,7 @@ ORDER = 24
 # them, is then below the rounding of the sum.
 _SMALLEST = 2e-16
 ROWS, _WORK = ORDER + 2, ORDER + 1
-"""Of a series: one for each order, and one of work space."""
+"""Rows of a series: one for each order, and one of work space."""
 # Where vectors of four numbers start in the columns of a series. The first of `_TURNED` has the ξ components
 # of the rows of R, of which the last is u, and of U, which ω turns alike; the next have those along η and ζ.
 _TURNED, UP = (0, 4, 8), (2, 6, 10)

@@ -31,23 +31,23 @@ class LeastFlight(NamedTuple):
     """A flight too low to be told from contact."""
 
     time: float
-    """In which a touching coin hardly sinks [s]."""
+    """The time in which a touching coin hardly sinks [s]."""
     speed: float
-    """With which it would start [m/s]."""
+    """The speed with which such a flight would start [m/s]."""
     acceleration: float
-    """Largest of the gap in that time [m/s²]."""
+    """The largest acceleration of the gap in that time [m/s²]."""
 
 
 class Flown(NamedTuple):
     """A flight to its first touch, or as long as was wanted."""
 
     time: float
-    """How long it was [s]."""
+    """The duration of the flight [s]."""
     touches: bool
     evaluations: int
-    """Of the gap."""
+    """The number of gap evaluations."""
     steps: int
-    """Or pieces, which make the errors of the state at its end."""
+    """The number of steps or pieces, which make the errors of the state at the flight's end."""
     graze: float
     """No minimum of the gap on the way is below half of this height, unless it is above a tenth of the radius
     [m]; infinite where there is none, or none was looked for."""
@@ -57,11 +57,11 @@ class Lowest(NamedTuple):
     """The lowest minimum of the gap so far, and where the coin was last seen."""
 
     graze: float
-    """See `Flown`."""
+    """The lowest minimum so far, as in `Flown`."""
     height: float
-    """Of the gap, last [m]."""
+    """The gap where the coin was last seen [m]."""
     speed: float
-    """Its rate, last [m/s]."""
+    """The rate of the gap where the coin was last seen [m/s]."""
 
 
 @compiled

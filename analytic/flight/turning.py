@@ -27,9 +27,9 @@ class Turning(NamedTuple):
     axis: Vector
     """Unit vector, space frame."""
     rate: float
-    """Of φ [rad/s]."""
+    """The rate of φ [rad/s]."""
     spin: float
-    """Of the coin about ζ beside the turning about the axis [rad/s]."""
+    """The spin of the coin about ζ beside the turning about the axis [rad/s]."""
     mean: Vector
     """Space frame, as the next two."""
     cosine: Vector

@@ -25,11 +25,11 @@ from cointoss.models.kernel.vectors import norm
 from cointoss.models.records import IMPACT_ROW, Array, Ending, Outcome
 
 FAR = 30.0
-"""So many standard deviations of its errors are its neighbours away."""
+"""The distance of a toss's neighbours, in standard deviations of its errors."""
 LEAST = 1e-9
-"""And so far at least, against the scales of the coin: as a step of sustained contact errs."""
+"""The least distance of a neighbour against the scales of the coin: as a step of sustained contact errs."""
 PAIRS = 2
-"""Of neighbours, on opposite sides."""
+"""Pairs of neighbours, on opposite sides."""
 CONTACT_ERROR = CONTACT_STEP_ERROR / 100
 """Error allowed in their steps of sustained contact, relative: far below the toss's own. With its tolerance
 they would repeat its errors, and agree with it where those have changed its outcome."""
@@ -49,11 +49,11 @@ class NeighbourStart(NamedTuple):
     """Where the neighbours of a toss start beside it."""
 
     impact: int
-    """After so many impacts."""
+    """The number of impacts before the start."""
     state: Array
-    """Of the toss, (13,)."""
+    """The state of the toss, (13,)."""
     rules: Rules
-    """With what the toss has left of its budgets."""
+    """The rules, with what the toss has left of its budgets."""
 
 
 class Certainty(NamedTuple):
@@ -61,11 +61,11 @@ class Certainty(NamedTuple):
 
     certain: bool
     outcome: Outcome
-    """Of that neighbour."""
+    """The outcome of that neighbour."""
     pair: int
-    """Its number."""
+    """The number of that neighbour's pair."""
     side: float
-    """1 or -1."""
+    """The side of its pair on which that neighbour is: 1 or -1."""
 
 
 @compiled

@@ -36,7 +36,7 @@ from cointoss.models.kernel.vectors import (
 from cointoss.models.state import State
 
 COARSE, FINE = 0.2, 1e-8
-"""How exactly a growth is wanted, of its own size: by the horizon of trust, and where it is measured."""
+"""Accuracy of a growth against its own size: for the horizon of trust, and where it is measured."""
 LONGEST_STEP = 0.8
 """The longest step, as the angle that the coin turns and the part of its motion that the air takes [rad]."""
 # Slower is no change at all [1/s].
@@ -58,13 +58,13 @@ class Change(NamedTuple):
     """A small change of the coin's state, seen from the coin."""
 
     place: Vector
-    """Of C [m]."""
+    """The change of the place of C [m]."""
     velocity: Vector
-    """Of U [m/s]."""
+    """The change of U [m/s]."""
     turn: Vector
-    """Of the attitude, θ [rad]."""
+    """The change of the attitude, θ [rad]."""
     spin: Vector
-    """Of ω [rad/s]."""
+    """The change of ω [rad/s]."""
 
 
 class Linear(NamedTuple):

@@ -41,7 +41,7 @@ STEP_ERROR = 1e-15
 """Error that one step adds to height, velocity and spin, relative to the scales of the coin: truncation and
 rounding. Against 113-bit arithmetic 99 of 100 flights stayed below 1.5e-15, one half below 1e-16."""
 TURN_ERROR = 3e-15
-"""Likewise for the Euler parameters; the largest measured was 2.7e-15, one half stayed below 1.2e-15."""
+"""Error that a step adds to the Euler parameters; the largest measured is 2.7e-15, one half below 1.2e-15."""
 CLOSED_FORM = 0.2
 """Part of these errors that a step in closed form makes: in 99 of 100 flights at most 5e-16 of the motion; of
 the attitude at most 3e-15, which grows with the angle turned and is carried by the error of the spin."""
@@ -51,9 +51,9 @@ extended precision the root mean square of what the gap was then is 0.74 of that
 SAFETY = 2.0
 """The carried standard deviations are taken so many times."""
 TIME_ERROR = 1e-7
-"""Within the horizon the time of an impact is good to this [s]."""
+"""The time of an impact within the horizon is good to this [s]."""
 IMPULSE_ERROR = 1e-5
-"""Within the horizon an impulse is good to this part of it."""
+"""An impulse within the horizon is good to this part of it."""
 MOST_CARRIED, TOUCH_COST, DRAG_COST = 3e6, 20.0, 400.0
 """Errors are carried through so many steps, which takes seconds. An impact costs as much as the second; a
 step in air with b > 0 as much as the third number of others."""
@@ -75,9 +75,9 @@ class Horizon(NamedTuple):
     """How far a toss can be trusted."""
 
     impacts: int
-    """So many leading ones."""
+    """The number of leading impacts that can be trusted."""
     errors: Table
-    """Of the state after the last of them, from its height on, and of its time: vectors, one in each row, of
+    """The errors of the state after the last of them, from its height on, and of its time: row vectors, of
     which the outer products add up to the covariance, (12, 12)."""
 
 

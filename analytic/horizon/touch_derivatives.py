@@ -30,7 +30,7 @@ of the derivative; where Coulomb friction is integrated, by 1e-8."""
 TO_KINK = 1e-2
 """A change stays below this part of the distance to a state at which the impact is not smooth."""
 LEAST_STEP = 1e-11
-"""Smaller changes drown in rounding."""
+"""The least change of the state: smaller ones drown in rounding."""
 WIDER, AGREES = 4.0, 1e-3
 """What a law of one's own does beside a touch is trusted where differences by wider changes give its
 derivatives to this part: it may have a kink that this engine knows nothing of."""
@@ -49,17 +49,17 @@ class TouchDerivatives(NamedTuple):
     closing: float
     """Rate of the gap before the impact, v_Az [m/s]."""
     rate: Array
-    """Of the state with time, before the impact, (13,)."""
+    """The rate of the state with time, before the impact, (13,)."""
     gap: Array
-    """Of the gap, (13,)."""
+    """Derivatives of the gap, (13,)."""
     up: Array
-    """Of the upward unit vector in the body frame, (3, 13)."""
+    """Derivatives of the upward unit vector in the body frame, (3, 13)."""
     contact_velocity: Array
-    """Of the velocity of the contact point, space frame, (3, 13)."""
+    """Derivatives of the velocity of the contact point, space frame, (3, 13)."""
     impulse: Array
-    """Of the impulse, space frame, (3, 13)."""
+    """Derivatives of the impulse, space frame, (3, 13)."""
     after: Array
-    """Of the state after the impact, (13, 13)."""
+    """Derivatives of the state after the impact, (13, 13)."""
 
 
 @compiled

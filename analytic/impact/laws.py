@@ -36,7 +36,7 @@ class ImpactPoint(NamedTuple):
     R: Matrix
     """Rotation matrix, body to space."""
     arm: Vector
-    """From C to A, space frame [m]."""
+    """The arm from C to A, space frame [m]."""
     tau: Vector
     """Unit vector along the coin's edge at A, space frame; zero where the coin lands flat without turning."""
     velocity: Vector

@@ -27,7 +27,7 @@ from cointoss.models.scenario import Scenario, euler_parameters, vector
 FORM = "a function (K, v_A, tau, chi, mu) -> (S_x, S_y, S_z) of plain arithmetic"
 _DECORATE = " (decorate that function with @numba.njit)"
 AGREES = 1e-9
-"""To this part of |S|, or its tolerance, the compiled law gives what the function gives as it is written."""
+"""Part of |S| up to which the compiled law gives what its function gives, where its tolerance is no more."""
 COARSEST = 1e-3
 """The largest tolerance accepted."""
 _ACCEPTED = {
@@ -43,9 +43,9 @@ class LawArguments(NamedTuple):
 
     K: Matrix
     velocity: Vector
-    """v_A."""
+    """v_A before the impact [m/s]."""
     tau: Vector
-    """Zero where the coin lands flat without turning."""
+    """The unit vector along the coin's edge at A; zero where the coin lands flat without turning."""
     chi: float
     mu: float
 
@@ -88,7 +88,7 @@ class OwnLaw:
     max_restitution: float = field(default=1.0, kw_only=True)
     tolerance: float = field(default=EXACT, kw_only=True)
     code: OwnCode = field(init=False, repr=False, compare=False)
-    """For compiled code of this process."""
+    """The law as compiled code of this process calls it."""
 
     def __post_init__(self) -> None:
         """Compile the function and try it."""

@@ -40,7 +40,7 @@ class SlipStop(NamedTuple):
     exponent: float
     """γ."""
     end: int
-    """Of the rows of the series; 0 where slip does not die away, or it converges too slowly."""
+    """The number of rows of the series; 0 where slip does not die away, or it converges too slowly."""
 
 
 class StopEquations(NamedTuple):
@@ -49,7 +49,7 @@ class StopEquations(NamedTuple):
     H: tuple[float, float, float, float]
     """Coefficients of H/m."""
     G: tuple[float, float, float, float, float, float]
-    """Those of G, the last 0."""
+    """Coefficients of G, the last 0."""
     mu: float
     """Coefficient of friction μ."""
     m: float

@@ -23,7 +23,7 @@ class Bracket(NamedTuple):
     """The other end."""
     old_value: float
     share: float
-    """Of the way from `new` to `old`, where to try next."""
+    """The part of the way from `new` to `old` at which to try next."""
 
 
 @compiled

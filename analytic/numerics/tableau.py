@@ -119,6 +119,6 @@ END, ERROR_5, ERROR_3 = range(STAGES, len(_ROWS))
 TERMS = np.array([len(weights) for weights in _ROWS])
 """How many slopes have a weight in each row, (STAGES + 3,)."""
 WEIGHTED = np.array([_packed(weights) for weights in _ROWS], dtype=np.int64)
-"""Their numbers, row by row, `TERMS` of them in each, (STAGES + 3, STAGES)."""
+"""The numbers of the slopes that have a weight, row by row, `TERMS` of them in each, (STAGES + 3, STAGES)."""
 WEIGHTS = np.array([_packed(weights.values()) for weights in _ROWS])
-"""Their weights, as `WEIGHTED`."""
+"""The weights of the slopes in `WEIGHTED`, in the same places."""

@@ -6,15 +6,15 @@ STEP_ERROR = 1e-13
 """Error allowed in one step of the integrator, relative to the scales of the coin."""
 
 CONTACT_STEP_ERROR = 1e-9
-"""Likewise in sustained contact, by default. Contacts come after the horizon of trust: what comes before them
-has made errors far larger than those of their own steps."""
+"""Error allowed in a step of sustained contact, by default. Contacts come after the horizon of trust: what
+comes before them has made errors far larger than those of their own steps."""
 
 TOUCH = 1e-14
 """A gap below this part of the radius is zero within rounding."""
 CLOSED_TOUCH = 2e-15
-"""Likewise where the flight is in closed form, whose rounding is less."""
+"""A gap below this part of the radius is zero where the flight is in closed form, whose rounding is less."""
 SINK = 1e-13
-"""In a step forced at a grazing point, each of three causes may lower the gap by this part of the radius."""
+"""Each of three causes may lower the gap by this part of the radius in a step forced at a grazing point."""
 TIME_STEP = 2.3e-16
 """Time of flight has no finer step than this part of it."""
 CHATTERING = 1e-2

@@ -19,7 +19,7 @@ TRIES = 200
 TURN = 0.2
 """The largest of these moves [m or rad]."""
 HALVINGS = 60
-"""By which the distance to a height field is found."""
+"""Halvings by which the distance to a height field is found."""
 CLOSED = 1e-10
 """Error of an equality constraint that is met [m or rad]."""
 HELD = 1e-6

@@ -24,7 +24,7 @@ MODEL = """<mujoco>
 </mujoco>"""
 """A body over a plane."""
 SIZES = {"sphere": 1, "box": 3, "cylinder": 2, "capsule": 2, "ellipsoid": 3}
-"""How many numbers a size has."""
+"""The number of numbers in the size of each type."""
 ACCEPTED = (
     "a type and its size [m] as in a <geom>, such as sphere 0.1, box 0.1 0.1 0.002, cylinder 0.05 0.001, "
     "capsule 0.02 0.1 or ellipsoid 0.1 0.1 0.05"
@@ -37,11 +37,11 @@ class FlatBody:
 
     kind: str
     size: tuple[float, ...]
-    """As MuJoCo has it: radius, or half sizes [m]."""
+    """The size in MuJoCo's order: radius, or half sizes [m]."""
 
     @property
     def height(self) -> float:
-        """Of the body's middle where it touches [m]."""
+        """The height of the body's middle where it touches [m]."""
         return sum(self.size) if self.kind == "capsule" else self.size[-1]
 
     @property

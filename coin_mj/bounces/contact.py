@@ -12,7 +12,7 @@ DEFAULT = "0.9 0.95 0.001 0.5 2"
 DEFAULT_SOLREF = (0.02, 1.0)
 """MuJoCo's own solref: time constant [s] and damping ratio."""
 INTEGRATORS = ("Euler", "RK4", "implicit", "implicitfast", "discrete")
-"""Of MuJoCo, by their names in a model and in the order of its numbers."""
+"""MuJoCo's integrators, by their names in a model and in the order of its numbers."""
 STIFFENED = 1e-3
 """k dt² of the stiffness beside the damping of a contact of one step, which lifts what would sink."""
 CARRIED = 0.1 * math.pi
@@ -28,9 +28,9 @@ class ContactSettings:
     solref: tuple[float, float]
     """Positive: time constant [s] and damping ratio; else -stiffness [1/s²] and -damping [1/s]."""
     timestep: float
-    """[s]."""
+    """The step of the simulation [s]."""
     integrator: str
-    """By its name in a model."""
+    """The integrator by its name in a model."""
     solimp: str = HARDEST
     exact: bool = True
     """Whether the flag diagexact is set."""

@@ -17,15 +17,15 @@ from cointoss.models.records import Array
 LONGEST = 2000
 """A contact that goes on for more steps is no rebound."""
 MOST_STEPS = 20_000
-"""Of a contact that is measured."""
+"""The most steps of a contact that is measured."""
 SLOW, LYING = 1e-3, 100
 """A body that is slower than this part of its speed for so many steps has come to lie."""
 PHASES = 16
 """Heights of release, spread over the way of one step: a touch falls anywhere between two steps."""
 SPEED = 2.0
-"""Of the body [m/s]."""
+"""The speed of the body at the touch [m/s]."""
 GRAVITY = 9.81
-"""[m/s²]."""
+"""The acceleration of weight [m/s²]."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Drops:
     restitutions: Array
     """Speed after over that before, both where the body meets the plane; 0 where it does not leave, (n,)."""
     durations: Array
-    """For which the contacts push [s], (n,)."""
+    """The times for which the contacts push, (n,) [s]."""
     depth: float
     """The greatest [m]."""
 

@@ -11,9 +11,9 @@ import numpy as np
 from cointoss.coin_mj.bounces.unlogged import unlogged
 
 SPIN = 2 * math.pi * 10
-"""Of the body [rad/s]: ten turns a second."""
+"""The spin of the body [rad/s]: ten turns a second."""
 DURATION = 0.5
-"""Of the flight [s]."""
+"""The duration of the flight [s]."""
 MODEL = """<mujoco>
   <option timestep="{timestep!r}" integrator="{integrator}" gravity="0 0 0">
     <flag energy="enable"/>

@@ -21,7 +21,7 @@ TWO = "two numbers as in a <geom>: both above 0, or both at most 0, such as 0.02
 SOFTEST, HARDEST_IMPEDANCE = 1e-4, 0.9999
 """Impedances to which MuJoCo limits those of a solimp."""
 HALVINGS = 60
-"""By which a depth is found."""
+"""Halvings by which a depth is found."""
 _PAIR = """<mujoco>
   <worldbody>
     <geom type="sphere" size="1" {one}/>
@@ -36,9 +36,9 @@ class Formula:
 
     restitution: float
     duration: float
-    """Of a contact [s]."""
+    """The duration of a contact [s]."""
     depth: float
-    """At 1 m/s [m]."""
+    """The depth at 1 m/s [m]."""
     rest: float
     """Depth at rest [m]; infinite where nothing holds a body there."""
 
@@ -48,27 +48,27 @@ class Rebounds:
     """What a ball does on a plane with given settings of MuJoCo."""
 
     solref: tuple[float, float]
-    """As MuJoCo mixes it from those of both geoms."""
+    """The solref that MuJoCo mixes from those of both geoms."""
     solimp: str
-    """Likewise."""
+    """The solimp that MuJoCo mixes from those of both geoms."""
     timestep: float
-    """[s]."""
+    """The step of the simulation [s]."""
     integrator: str
     restitution: float
-    """In the mean over `PHASES` touches at `SPEED` without weight, anywhere between two steps."""
+    """Mean restitution of `PHASES` touches at `SPEED` without weight, anywhere between two steps."""
     lowest: float
-    """Of these touches."""
+    """The lowest restitution of these touches."""
     highest: float
     restitution_with_weight: float
-    """In the mean, of a ball that touches at `SPEED` under `GRAVITY`."""
+    """Mean restitution of a ball that touches at `SPEED` under `GRAVITY`."""
     duration: float
-    """Of a contact without weight, in the mean [s]."""
+    """Mean duration of a contact without weight [s]."""
     depth: float
-    """At 1 m/s, at most, without weight [m]."""
+    """The greatest depth at 1 m/s without weight [m]."""
     rest: Rest
     """What the ball does when its bounces have ended."""
     formula: Formula | None
-    """None where none is known: of a contact of about a step by RK4 or discrete."""
+    """What theory says; None where no formula is known: of a contact of about a step by RK4 or discrete."""
 
 
 def solref_of(

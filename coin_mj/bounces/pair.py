@@ -22,9 +22,9 @@ from cointoss.models.errors import FieldError
 from cointoss.models.records import Array
 
 SPEEDS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
-"""At which the geoms come together [m/s]."""
+"""Speeds at which the geoms come together [m/s]."""
 PHASES = 8
-"""Of the touch between two steps."""
+"""Phases of the touch between two steps."""
 LONGEST = 4000
 """A contact that goes on for more steps is no rebound."""
 AHEAD = 2
@@ -34,7 +34,7 @@ SLOW, LYING = 1e-3, 100
 MISSED = 60
 """Geoms that have not touched after so many steps do not touch."""
 SHARE = 0.1
-"""Of a speed, by which it may differ at the touch from the speed asked for and from that a step beside it."""
+"""A speed may differ at the touch by this part from the speed asked for and from that a step beside it."""
 
 
 class PairOutcome(StrEnum):
@@ -62,33 +62,33 @@ class PairBounce:
 
     geoms: tuple[str, str]
     timestep: float
-    """[s]."""
+    """The step of the simulation [s]."""
     integrator: str
     solref: tuple[float, float]
-    """Of their contact, as MuJoCo mixes it."""
+    """The solref that MuJoCo mixes for their contact."""
     solimp: str
     condim: int
     friction: float
     thinnest: float
     """Half of the thickness of the thinner geom, where it is thinnest; a plane has none [m]."""
     speeds: Array = field(default_factory=lambda: np.array(SPEEDS))
-    """[m/s], (n,)."""
+    """The speeds at which the geoms come together, (n,) [m/s]."""
     restitutions: Array
     """Without gravity: the normal speed of the points that touched first, where both geoms touch, after over
     before, (n, `PHASES`). 0 where they stay; NaN where they neither rebound nor stay."""
     with_gravity: Array
-    """The same under the model's gravity."""
+    """The restitutions under the model's gravity, (n, `PHASES`)."""
     outcomes: tuple[tuple[PairOutcome, ...], ...]
-    """Of each touch without gravity, (n, `PHASES`)."""
+    """What came of each touch without gravity, (n, `PHASES`)."""
     outcomes_with_gravity: tuple[tuple[PairOutcome, ...], ...]
-    """Of each touch under the model's gravity, (n, `PHASES`)."""
+    """What came of each touch under the model's gravity, (n, `PHASES`)."""
     energy_kept: Array
     """Share of the model's kinetic energy that is left after the contact, without gravity, (n, `PHASES`);
     NaN where the geoms do not part. Of a turning body it is what the restitution of a point does not show."""
     durations: Array
-    """For which the geoms push, without gravity [s], (n, `PHASES`)."""
+    """The time for which the geoms push, without gravity, (n, `PHASES`) [s]."""
     depths: Array
-    """The greatest, without gravity [m], (n,)."""
+    """The greatest depths, without gravity, (n,) [m]."""
     notes: tuple[str, ...]
     """What else of the model the numbers depend on, in words."""
 
@@ -209,7 +209,7 @@ class _Come(NamedTuple):
 
     points: "_Points"
     speed: float
-    """[m/s]."""
+    """The speed at which the geoms come together [m/s]."""
     energy: float
     """Kinetic, a step before [J]."""
 

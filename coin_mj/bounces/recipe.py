@@ -28,7 +28,7 @@ SPRING_STEPS = 40
 LEAST = 0.01
 """Restitution by a spring."""
 SHORTEST_STEP, LONGEST_STEP = 1e-7, 0.1
-"""[s]."""
+"""The bounds of a simulation's step [s]."""
 STEP_ACCEPTED = "a number of seconds from 1e-7 to 0.1, such as 0.002"
 
 
@@ -37,9 +37,9 @@ class Bounce:
     """Settings of MuJoCo that give a restitution, and what a body does with them."""
 
     restitution: float
-    """That asked for, e."""
+    """The restitution asked for, e."""
     timestep: float
-    """[s]."""
+    """The step of the simulation [s]."""
     integrator: str
     solref: tuple[float, float]
     """-stiffness and -damping."""
@@ -47,14 +47,14 @@ class Bounce:
     backend: Backend
     """What steps the model; what follows was measured by MuJoCo itself."""
     body: str
-    """That comes down flat on a plane: its type and size in a <geom>."""
+    """The body that comes down flat on a plane: its type and size in a <geom>."""
     error: float
     """Largest |e' - e| over `PHASES` touches without weight, anywhere between two steps."""
     error_with_weight: float
-    """That of a body which touches at `SPEED` under `GRAVITY`, as its heights have it; at others about as
+    """Largest error of a body which touches at `SPEED` under `GRAVITY`, as its heights have it; at others as
     1/v, see `weight_cost`."""
     depth: float
-    """How deep a body goes into the floor at 1 m/s, at most, whatever its mass [m]."""
+    """The depth to which a body goes into the floor at 1 m/s, at most, whatever its mass [m]."""
     rest: Rest
     """What the body does when its bounces have ended."""
     flight: float

@@ -16,7 +16,7 @@ from cointoss.coin_mj.bounces.drops import GRAVITY
 from cointoss.coin_mj.bounces.unlogged import unlogged
 
 STEPS = 20_000
-"""After so many a body that can come to rest has done so."""
+"""A body that can come to rest has done so after this number of steps."""
 LOOKED_AT = STEPS // 4
 """The last of them."""
 FALL = 50.0
@@ -63,11 +63,11 @@ class Rest:
     """What a body does under its own weight; under n times its weight it lies or sinks n times as deep."""
 
     depth: float
-    """In the plane, in the mean over the last quarter of the steps [m]."""
+    """The depth in the plane, in the mean over the last quarter of the steps [m]."""
     hop: float
-    """From its lowest to its highest position then, without what it sinks [m]; 0 where it is still."""
+    """Rise from its lowest to its highest position then, without what it sinks [m]; 0 where it is still."""
     sinking: float
-    """Speed at which it sinks in the mean [m/s]; 0 where it lies still."""
+    """The mean speed at which the body sinks [m/s]; 0 where it lies still."""
 
 
 def rest_of(contact: ContactSettings, body: FlatBody = BALL, gravity: float = GRAVITY) -> Rest:

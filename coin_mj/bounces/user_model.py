@@ -17,7 +17,7 @@ from cointoss.coin_mj.bounces.unlogged import unlogged
 from cointoss.models.errors import FieldError
 
 MOST_POINTS = 10_000_000
-"""Of a height field; MuJoCo's loader ends in an error without a message, or never, beyond the memory."""
+"""The most points of a height field; beyond the memory MuJoCo's loader fails without a message, or hangs."""
 UNBOUNDED = ("_aabb", "_range", "_ctrlrange", "_forcerange", "_actrange", "_actfrcrange", "_lengthrange")
 """Endings of names of fields in which infinity may stand for no bound."""
 

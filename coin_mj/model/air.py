@@ -40,7 +40,7 @@ class ScaledMotion(NamedTuple):
     half: float
     """Half the thickness."""
     v: Vector
-    """Of B, body frame."""
+    """The velocity of B, body frame."""
     w: Vector
     """Body frame."""
 

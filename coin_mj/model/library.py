@@ -13,7 +13,7 @@ from cointoss.coin_mj.model.mujoco_coin import Functions
 from cointoss.models.records import UnusableEngineError
 
 PATH = str(next(Path(mujoco.__file__).parent.glob("*mujoco.*")))
-"""Of the library that the bindings have loaded already."""
+"""The path of the library that the bindings have loaded already."""
 
 
 @cache

@@ -50,9 +50,9 @@ class Machine(NamedTuple):
     model: mujoco.MjModel
     data: mujoco.MjData
     settings: MujocoSettings
-    """As `resolved`."""
+    """The settings as `resolved` returns them."""
     mass_unit: float
-    """In which MuJoCo tells masses, forces and energies: a power of 2, so that no digit changes [kg]."""
+    """Unit of masses, forces and energies in MuJoCo: a power of 2, so that no digit changes [kg]."""
     coin: MujocoCoin
     plastic: MujocoCoin
     """The same coin where a touch is plastic: one step with χ = 0, which no spring has."""

@@ -37,20 +37,20 @@ class Addresses(NamedTuple):
     model: int
     data: int
     time: int
-    """Of mjData, for those who wait [s]; no step reads it."""
+    """The time of mjData, for those who wait [s]; no step reads it."""
     timestep: int
     solref: int
-    """Of the normal force: minus the contact's stiffness [1/s²] and damping [1/s]."""
+    """The solref of the normal force: minus the contact's stiffness [1/s²] and damping [1/s]."""
     solreffriction: int
-    """Of MuJoCo's own friction, likewise; 0 where that is not asked for."""
+    """The solref of MuJoCo's own friction: the same two numbers; 0 where that friction is not asked for."""
     margin: int
     """Height up to which a contact is one [m]."""
     xmat: int
-    """Of the coin: its rotation matrix, (3, 3)."""
+    """The rotation matrix of the coin, (3, 3)."""
     nefc: int
     """Number of constraint rows."""
     efc_J: int
-    """Where the arrays of these rows are now, each an address."""
+    """The address at which the address of this array of the rows is now, as of the next ones."""
     efc_pos: int
     efc_D: int
     efc_R: int
@@ -95,7 +95,7 @@ class MujocoCoin(NamedTuple):
     shape: Body
     """The body with the thickness of its shape, and bounds of its inertia for its flight, see `shape_of`."""
     floor_height: float
-    """Of MuJoCo's floor [m]."""
+    """The height of MuJoCo's floor [m]."""
     rebound: Rebound
     friction: float
     """Coefficient of friction μ of the floor."""

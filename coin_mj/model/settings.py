@@ -62,7 +62,7 @@ class MujocoSettings:
     step: float = 1e-7
     """Length of the one step [s]."""
     slip_damping: float | None = None
-    """With which MuJoCo's own friction damps the slip, by default that of the normal motion [1/s]."""
+    """The damping of the slip by MuJoCo's own friction, by default that of the normal motion [1/s]."""
     flight_angle: float = 0.05
     """Largest turn of the coin in a step of free flight [rad]; of a coin that is no balanced symmetric top at
     most `cointoss.coin_mj.model.machine.UNSYMMETRIC`."""
@@ -120,9 +120,9 @@ class MujocoSettings:
 
 
 FINE = MujocoSettings()
-"""Of one toss."""
+"""The settings of one toss."""
 MANY = MujocoSettings(stiffness=1e11, steps=3, flight_angle=0.8)
-"""Of many tosses: a softer spring, fewer and larger steps."""
+"""The settings of many tosses: a softer spring, fewer and larger steps."""
 
 
 LARGE = 44.0
@@ -134,7 +134,7 @@ that takes less than `LOSS` gets a harder spring, up to `HARDEST`, and smaller s
 LEAST_LOSS = 2.5e-3
 HARDEST = FINE.stiffness
 STEPS_OF_LOSS = 3
-"""So many steps in half a period change the energy by 7e-4, a hundredth of `LOSS`: an error of order 5."""
+"""Steps in half a period that change the energy by 7e-4, a hundredth of `LOSS`: an error of order 5."""
 
 
 def resolved(settings: MujocoSettings, restitution: float, rate: float) -> MujocoSettings:
@@ -169,11 +169,11 @@ class Rebound(NamedTuple):
     damping: float
     """d [1/s]."""
     slip_damping: float
-    """With which MuJoCo's own friction damps the slip [1/s]."""
+    """The damping of the slip by MuJoCo's own friction [1/s]."""
     step: float
     """Length of a step in contact [s]."""
     duration: float
-    """Of a contact: half a period of the undamped spring, π/√k, or the one step [s]."""
+    """The duration of a contact: half a period of the undamped spring, π/√k, or the one step [s]."""
 
 
 def rebound_of(restitution: float, settings: MujocoSettings) -> Rebound:

@@ -39,7 +39,7 @@ class Constraint(NamedTuple):
     frequency: float
     """Half the damping of the spring [1/s]; 0 in an impact, which has a spring of its own."""
     lift: float
-    """Its stiffness over `frequency` [1/s]: as large where the spring is critically damped, else smaller."""
+    """The spring's stiffness over `frequency` [1/s]: as large where critically damped, else smaller."""
     level: float
     """Height above the lowest point up to which others, that land slowly, are held too [m]."""
     feels_air: bool
@@ -47,9 +47,9 @@ class Constraint(NamedTuple):
 
 
 TOUCH = Constraint(0.0, 0.0, 0.0, True)
-"""In an impact the contact's own spring acts alone."""
+"""The touch of an impact: the contact's own spring acts alone."""
 IMPACT = Constraint(0.0, 0.0, 0.0, False)
-"""Likewise after the touch: the air, a quadrature of a millisecond, hardly changes its impulse meanwhile."""
+"""An impact after its touch: the air, a quadrature of a millisecond, hardly changes its impulse meanwhile."""
 
 
 @compiled

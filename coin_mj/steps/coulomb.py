@@ -6,7 +6,7 @@ from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 
 PARTS = 512
-"""Of a step in which the slip may turn or stop."""
+"""Parts of a step in which the slip may turn or stop."""
 STEADY = 0.1
 """Slip that changes by less than this part of itself does not turn much."""
 ROUNDS = 60

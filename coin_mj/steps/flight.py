@@ -29,7 +29,7 @@ class FlightExit(IntEnum):
     CAUGHT = 1
     """C has come down to the height of the catch."""
     BUDGET = 2
-    """Of time or of steps."""
+    """The budget of time or of steps is spent."""
 
 
 TOUCH_STEP = 1e-4

@@ -22,7 +22,7 @@ class StepKind(IntEnum):
     FLIGHT = 0
     IMPACT = 1
     CONTACT = 2
-    """Of a sustained contact."""
+    """A step of a sustained contact."""
 
 
 class Recorded(NamedTuple):
@@ -31,7 +31,7 @@ class Recorded(NamedTuple):
     table: Array
     """Knots, with room for more, (m, 15); (0, 15) where the path is not kept."""
     size: int
-    """Of the knots."""
+    """The number of the knots."""
 
 
 @compiled

@@ -21,7 +21,7 @@ from cointoss.models.rest import slow_spin
 PointMotion = tuple[float, float, float, float, float, float]
 """Velocity of the contact point, and ω."""
 PARTS = 64
-"""Of a step in which slip, roll or pivoting starts, stops or turns far."""
+"""Parts of a step in which slip, roll or pivoting starts, stops or turns far."""
 TURN = 0.25
 """A motion that changes by less than this part of itself keeps to its mean direction."""
 SWEEPS, SAME = 400, 1e-12
@@ -29,7 +29,7 @@ SWEEPS, SAME = 400, 1e-12
 STOPPED = 1e-9
 """A motion below this part of what the floor can stop in the step has been stopped."""
 _LAWS = ((0, 1), (3, 4), (5, 2))
-"""Where the components of slip, roll and pivoting are; the vertical one of the second is not used."""
+"""The places of the components of slip, roll and pivoting; the vertical one of the second is not used."""
 
 
 class Laws(NamedTuple):
@@ -38,7 +38,7 @@ class Laws(NamedTuple):
     g: Array
     """Part of each that the normal force gives way to, (6,)."""
     G: Array
-    """From each to the change of the motion in a time, (6, 6)."""
+    """The change of the motion by each in a time, (6, 6)."""
     coefficients: tuple[float, float, float]
     """μ, δ [m] and p [m]."""
 

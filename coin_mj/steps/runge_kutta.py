@@ -40,7 +40,7 @@ TSITOURAS = np.array(
 )
 """Tsitouras 2011: of fifth order, in 6 stages."""
 TSITOURAS_NODES = TSITOURAS.sum(axis=1)
-"""When its stages are, in steps."""
+"""The times of its stages, in steps."""
 
 
 @compiled

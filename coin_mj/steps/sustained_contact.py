@@ -55,7 +55,7 @@ class ContactExit(IntEnum):
     """How a sustained contact ended."""
 
     DECIDED = 0
-    """With the toss."""
+    """The toss is decided."""
     LIFT_OFF = 1
     RIM_LANDS = 2
     """Another rim point touches: of the other face's rim, or opposite on this one."""

@@ -38,11 +38,11 @@ class Arc(NamedTuple):
     """
 
     coefficients: Array
-    """Of height, upward vector and ω_F, (7, 6)."""
+    """The coefficients of height, upward vector and ω_F, (7, 6)."""
     frame: TurningFrame
-    """Of the step."""
+    """The turning frame of the step."""
     duration: float
-    """Of the step [s]."""
+    """The duration of the step [s]."""
     fastest: float
     """Largest horizontal speed of B at either end [m/s]."""
 

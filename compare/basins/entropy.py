@@ -31,7 +31,7 @@ class BasinEntropy:
     boxes: int
     """Boxes used."""
     boundary_boxes: int
-    """Of these, boxes with more than one outcome."""
+    """Boxes with more than one outcome, of those used."""
 
     @property
     def log_2_test(self) -> Log2Test:

@@ -31,17 +31,17 @@ from cointoss.models.records import Outcome
 
 PLAIN = PictureStyle()
 PANEL_SIZE = (5.0, 4.5)
-"""Of one map, width and height [inches]."""
+"""Width and height of one map [inches]."""
 COMPARISON_SIZE = (3 * PANEL_SIZE[0], PANEL_SIZE[1])
-"""Of three maps side by side, width and height [inches]."""
+"""Width and height of three maps side by side [inches]."""
 MARGINS_SIZE = (2 * PANEL_SIZE[0] + 0.8, PANEL_SIZE[1])
-"""Of a map and its margins, width and height [inches]."""
+"""Width and height of a map and its margins [inches]."""
 _ENTRY_WIDTH = 1.3  # of the legend [inches]
 _MARGINS, _NO_MARGIN = "cividis", GRID
 _TAIL = 0.005
-"""Of the margins at either end, so many share the last colour."""
+"""The part of the margins at either end that shares the last colour."""
 _HATCH_SIDE, _HATCH_PERIOD, _HATCH_WIDTH = 1200, 24, 6
-"""Of a hatch over a panel: dots along both sides, and the distance and the width of its lines [dots]."""
+"""A hatch over a panel: dots along both sides, and the distance and the width of its lines [dots]."""
 _HATCH_TINT = 0.3
 """Opacity between its lines, so that a single pixel is seen there too."""
 _SAME, _DIFFERENT = "#e6e9ed", VERMILION
@@ -70,9 +70,9 @@ class MapAxis:
     name: str
     unit: str
     start: float
-    """At the first pixel's centre."""
+    """The field's value at the first pixel's centre."""
     stop: float
-    """At the last pixel's centre."""
+    """The field's value at the last pixel's centre."""
 
 
 class MapMargins(NamedTuple):

@@ -12,7 +12,7 @@ from cointoss.compare.sweep.layers import NOT_TOSSED
 from cointoss.compare.sweep.run import toss_part
 
 SIDE = 32
-"""Of a tile, in pixels of the finer map."""
+"""Side of a tile, in pixels of the finer map."""
 FINEST = 30
 """Levels; at each a pixel is cut in two along both axes."""
 

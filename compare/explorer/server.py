@@ -27,7 +27,7 @@ from cointoss.models.records import UnsupportedError
 
 ADDRESS = "127.0.0.1"
 LONGEST_TARGET = 1000
-"""Of a request, in characters."""
+"""The longest target of a request, in characters."""
 _KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 _NUMBER = re.compile(r"[+-]?([0-9]{1,40}(\.[0-9]{0,40})?|\.[0-9]{1,40})([eE][+-]?[0-9]{1,3})?", re.ASCII)
 _COUNT = re.compile(r"[0-9]{1,12}", re.ASCII)
@@ -93,7 +93,7 @@ class Request(BaseHTTPRequestHandler):
     server: Explorer  # pyright: ignore[reportIncompatibleVariableOverride]
     server_version, sys_version = "cointoss", ""
     timeout = 30
-    """For a client to send its request [s]."""
+    """The longest that a client may take to send its request [s]."""
 
     def setup(self) -> None:
         """Know the client."""

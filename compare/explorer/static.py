@@ -18,17 +18,17 @@ from cointoss.models.notebook import Frame
 from cointoss.models.stages import counted
 
 MOST_BYTES = 10_000_000
-"""Of the file."""
+"""The largest size of the file."""
 MOST_PIXELS = 200_000
-"""Of the map in it."""
+"""The most pixels of the map in it."""
 TOSSED = 12, 9
 """Columns and rows of the pixels that are tossed, at most."""
 TOSSED_IN_FRAME = 8, 6
-"""In a notebook one waits for them, and saves them with it."""
+"""Columns and rows in a notebook, at most, where one waits for the tosses and saves them with it."""
 SAMPLES = 300
-"""Of the path of each toss."""
+"""Samples of the path of each toss."""
 HEIGHT = 860
-"""Of its frame in a notebook [px]."""
+"""Height of its frame in a notebook [px]."""
 
 
 def write_static(map_path: Path, out: Path) -> None:

@@ -52,9 +52,9 @@ class Caption(NamedTuple):
     label: str
     """The face that is up, or the outcome of a toss that has ended."""
     ground: Color
-    """Of the label."""
+    """The colour of the label's ground."""
     ink: Color
-    """Of the label."""
+    """The colour of the label's letters."""
     lines: Sequence[Line]
 
 

@@ -18,24 +18,24 @@ from cointoss.compare.film.visual_model import build_visual_model
 from cointoss.models.records import Array, Ending
 
 IMPULSE_COLOR, FORCE_COLOR = (0.72, 0.10, 0.44), (0.00, 0.45, 0.32)
-"""Of the arrows: red, green and blue, from 0 to 1."""
+"""Colours of the arrows: red, green and blue, from 0 to 1."""
 LONGEST_NEAR, LONGEST_FAR = 0.23, 0.15
 """Length of the arrow of the toss's largest impulse, and of a force of twice the coin's weight or more, in
 heights of the picture: where the camera follows the coin, and where it is at rest."""
 THICKEST, THICKNESS = 0.04, 0.15
-"""Of an arrow: in longest arrows, and in its own length."""
+"""Thickness of an arrow: at most in longest arrows, and in its own length."""
 HAND_COLOR, HAND_SIZE = (0.88, 0.68, 0.55), (1.5, 0.1)
-"""Of the palm that catches a coin: its radius, and half its thickness, in the coin's radii."""
+"""The palm that catches a coin: its colour, and its radius and half its thickness in the coin's radii."""
 HAND_COMES = 0.3, 0.1
 """A hand appears so long before the catch, in such a time [s]."""
 IN_FRONT = 0.6
 """An arrow is drawn in this part of its distance from the camera, before the coin."""
 TRAIL_CORNERS, TRAIL_WIDTH, TRAIL_COLOR = 200, 2.0, (0.3, 0.35, 0.4)
-"""Of the path in the pictures of a camera at rest; the width in pixels."""
+"""The path in the pictures of a camera at rest: its corners, its width in pixels and its colour."""
 MARGIN = 1.1
 """A camera at rest sees so many times what it must."""
 FIELD_OF_VIEW = 40.0
-"""Of coin.xml's cameras, up and down [deg]."""
+"""Vertical field of view of coin.xml's cameras [deg]."""
 
 Color = tuple[float, float, float]
 
@@ -44,11 +44,11 @@ class Camera(StrEnum):
     """From where a toss is looked at; always so far from above that no sky is seen."""
 
     OVERVIEW = "overview"
-    """At rest, from the side; it sees the whole path."""
+    """A camera at rest, from the side; it sees the whole path."""
     CLOSE_UP = "close-up"
-    """From the side; it follows the coin."""
+    """A camera from the side; it follows the coin."""
     TOP = "top"
-    """At rest, from straight above and from afar; it sees the whole path."""
+    """A camera at rest, from straight above and from afar; it sees the whole path."""
 
 
 class View(NamedTuple):
@@ -59,7 +59,7 @@ class View(NamedTuple):
     aim: float
     """How far below the middle of the picture stands what it aims at, under the captions [heights]."""
     part: float
-    """Of the picture's height that the coin fills, or its whole path where the camera is at rest."""
+    """The part of the picture's height that the coin fills, or its whole path where the camera is at rest."""
 
 
 VIEWS = {
@@ -73,9 +73,9 @@ class Box(NamedTuple):
     """What a camera at rest must see: the coin all along its path, and the floor below."""
 
     low: Array
-    """(3,) [m]."""
+    """The lowest coordinates, (3,) [m]."""
     high: Array
-    """(3,) [m]."""
+    """The highest coordinates, (3,) [m]."""
 
 
 def box_of(plays: Sequence[Play]) -> Box:

@@ -6,21 +6,21 @@ from cointoss.compare.film.slow_motion import LONGEST
 
 
 class Format(NamedTuple):
-    """Of a film."""
+    """The size and the speed of a film."""
 
     width: int
-    """[pixels]."""
+    """The width of a picture [pixels]."""
     height: int
-    """[pixels]."""
+    """The height of a picture [pixels]."""
     frames_per_second: int
     longest: float = LONGEST
     """A film that would take longer is sped up to this length [s]."""
 
 
 FULL, SMALL = Format(1280, 720, 30), Format(960, 540, 24, longest=12.5)
-"""Of a film that stands alone, and of one in a page, whose reader waits for it."""
+"""The formats of a film that stands alone, and of one in a page, whose reader waits for it."""
 GIF = Format(640, 360, 20, longest=15.0)
-"""Of a film without compression in time."""
+"""The format of a film without compression in time."""
 
 
 class Encoding(NamedTuple):
@@ -28,11 +28,11 @@ class Encoding(NamedTuple):
 
     codec: str
     form: Format
-    """Of a film that stands alone."""
+    """The format of a film that stands alone."""
     rate: float | None
     """Constant rate factor: the larger, the smaller the file."""
     arguments: str = ""
-    """Further ones, of ffmpeg."""
+    """Further arguments of ffmpeg."""
 
 
 ENCODINGS = {
@@ -40,4 +40,4 @@ ENCODINGS = {
     ".webm": Encoding("libvpx-vp9", FULL, 31, "-deadline good -cpu-used 5 -row-mt 1"),
     ".gif": Encoding("gif", GIF, None),
 }
-"""By the suffix of the file."""
+"""The encodings by the suffix of the file."""

@@ -25,11 +25,11 @@ class Shown(NamedTuple):
     """An impulse of the floor on the coin that is still shown."""
 
     point: Array
-    """Where it acted, space frame, (3,) [m]."""
+    """The point at which it acted, space frame, (3,) [m]."""
     impulse: Array
     """S, space frame, (3,) [N s]."""
     freshness: float
-    """From 1 at the impact to 0 when it is shown no more."""
+    """A number that falls from 1 at the impact to 0 when it is shown no more."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -38,13 +38,13 @@ class Play:
 
     filmed: Filmed
     times: Array
-    """Of the motion; after its end it stays as it ended, (n,) [s]."""
+    """The times of the motion; after its end it stays as it ended, (n,) [s]."""
     states: States
-    """At these times, (n,)."""
+    """The states of the coin at these times, (n,)."""
     forces: Array
-    """Of the floor in sustained contacts; elsewhere, and on a still coin, 0; space frame, (n, 3) [N]."""
+    """The floor's forces in sustained contacts; 0 elsewhere and on a still coin; space frame, (n, 3) [N]."""
     largest_impulse: float
-    """Of the toss [N s]."""
+    """The largest impulse of the toss [N s]."""
 
     @property
     def toss(self) -> Toss:

@@ -13,7 +13,7 @@ from cointoss.models.parts import Coin
 THICKNESS = 0.01
 """How far the shadow stands above the floor, in the coin's radii: neither is drawn through the other."""
 DARKNESS = 0.2
-"""Of each of its two sides, through both of which the floor is seen."""
+"""The darkness of each of its two sides, through both of which the floor is seen."""
 
 
 def add_shadow(scene: mujoco.MjvScene, data: mujoco.MjData, coin: Coin) -> None:

@@ -7,7 +7,7 @@ from cointoss.compare.fitting.misfit import Misfit
 from cointoss.models.records import Array
 
 STEP = 1e-7
-"""Of the derivatives, in parts of the span."""
+"""Step of the derivatives, in parts of the span."""
 LONGEST = 0.25
 """Step of the least squares, in parts of the span."""
 TOGETHER = 1 << 22

@@ -30,7 +30,7 @@ AT_END = 1e-6
 """A value nearer to an end of its span than this part of it is at the end."""
 _FREE = '{"floor.restitution": (0.4, 0.9)}'
 MOST_FIELDS = 12
-"""That are free; more are not found from one toss."""
+"""The most free fields; more are not found from one toss."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,27 +63,27 @@ class Fit:
 
     observed: Observed
     scenario: Scenario
-    """With the values that were found in its fields."""
+    """The scenario with the values that were found in its fields."""
     values: tuple[Fitted, ...]
-    """Of the free fields, in their order; the clock, if it was free, too."""
+    """The free fields and their values, in their order; the clock, if it was free, too."""
     covariance: Array
-    """Of these, (k, k); infinite variances of what is not determined."""
+    """Covariance of these values, (k, k); infinite variances of what is not determined."""
     residuals: Array
     """What was seen less what this toss shows, in standard deviations, (n,): touches, faces, heights, tilts,
     and three components of the rotation for each attitude."""
     times: Array
-    """When each of them was seen, (n,) [s]."""
+    """The time at which the number of each residual was seen, (n,) [s]."""
     tested: NDArray[np.bool_]
-    """Which of them lie within the horizon of trust; others test nothing, (n,)."""
+    """Which residuals lie within the horizon of trust; others test nothing, (n,)."""
     touch_times: Array
-    """Of the touches that were seen, by the observer's clock, NaN where this toss makes none, [s]."""
+    """Times of the touches seen, by the observer's clock, (m,) [s]; NaN where this toss makes none."""
     chi_square: float
     """Sum of the squares of the tested residuals."""
     degrees: int
     """Tested numbers less the values that they determine; no more than 0 where nothing is left to test the
     model."""
     clock: float
-    """Of the observer, at the release [s]."""
+    """The observer's clock at the release [s]."""
     others: "tuple[Fit, ...]"
     """Other values in the spans that explain what was seen too, the best first; any may be the true ones."""
 

@@ -31,9 +31,9 @@ class Known(NamedTuple):
     """Points that explain what was seen until some time, in parts of the spans."""
 
     points: Array
-    """(n, k)."""
+    """The points, (n, k)."""
     information: Array
-    """How well that determines them, the inverse of each one's covariance, (n, k, k)."""
+    """The inverse of the covariance of each point, (n, k, k): how well what was seen determines it."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,7 +22,7 @@ CLOCK = "clock"
 _OF_FLOOR = ("restitution", "friction")
 """What of the floor may differ between tosses that are made together, as their releases may."""
 FACE_SD = 0.02
-"""By how much the normal's vertical part may be on the wrong side of 0 where a face was seen: 1 degree."""
+"""The normal's vertical part may be this far on the wrong side of 0 where a face was seen: 1 degree."""
 MISSING = 10.0
 """Standard deviations that a touch misses at least by which the toss does not make."""
 IMPOSSIBLE = 1e6
@@ -40,9 +40,9 @@ class Predicted:
     residuals: Array
     """What was seen less what the toss shows, in standard deviations, (n,) in the order of `Misfit.times`."""
     is_tested: NDArray[np.bool_]
-    """Which of these the horizon of trust includes, (n,)."""
+    """Which residuals the horizon of trust includes, (n,)."""
     touch_times: Array
-    """Of the touches that were seen, by the observer's clock, NaN where the toss makes none, (m,) [s]."""
+    """Times of the touches seen, by the observer's clock, (m,) [s]; NaN where the toss makes none."""
     trusted: int
     """How many leading impacts are within the horizon of trust."""
 

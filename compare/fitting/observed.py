@@ -14,9 +14,9 @@ from cointoss.models.records import Array, Face
 MOST = 20_000
 """Touches, and frames, that are fitted."""
 LEAST_SD = 1e-12
-"""In SI; nothing is measured better."""
+"""The least standard deviation, in SI units; nothing is measured better."""
 NORM_ERROR = 0.05
-"""Of Euler parameters that were measured; they are brought to norm 1."""
+"""The largest error of the norm of measured Euler parameters; they are brought to norm 1."""
 
 
 @dataclass(frozen=True, init=False, eq=False)
@@ -30,23 +30,23 @@ class Observed:
     """
 
     touch_times: Array
-    """Of the touches of the floor, by the observer's clock, (n,) [s]."""
+    """The times of the touches of the floor, by the observer's clock, (n,) [s]."""
     touch_sd: Array
-    """Standard deviations of these, (n,) [s]."""
+    """Standard deviations of the times of the touches, (n,) [s]."""
     touch_numbers: NDArray[np.int64]
     """Which touch of the coin each is, from 1, (n,); by default they are all that there were, in turn."""
     faces: NDArray[np.int8]
     """The `Face` up at each touch, 0 where it was not seen, (n,); a text such as "HT?" is accepted."""
     times: Array
-    """Of the frames, by the same clock, (m,) [s]."""
+    """The times of the frames, by the same clock, (m,) [s]."""
     heights: Array
-    """Of C above the floor, (m,) [m]."""
+    """The heights of C above the floor, (m,) [m]."""
     height_sd: Array
-    """Standard deviations of these, (m,) [m]."""
+    """Standard deviations of the heights, (m,) [m]."""
     tilts: Array
     """Angle from the vertical to the normal ζ on the side of heads, 0 to π, (m,) [rad]."""
     tilt_sd: Array
-    """Standard deviations of these, (m,) [rad]."""
+    """Standard deviations of the tilts, (m,) [rad]."""
     quaternions: Array
     """Euler parameters, body to space, (m, 4); their sign has no meaning."""
     quaternion_sd: Array

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 DRAWN = 800
 """Times of a path."""
 MARGIN = 0.05
-"""Of the time that is drawn, after what was seen last."""
+"""The part of the time that is drawn after what was seen last."""
 
 
 def plot_fit(fit: "Fit", ax: Axes | None = None) -> Axes:

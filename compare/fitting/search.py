@@ -34,7 +34,7 @@ APART = 1.0
 NEAR, FEW = 50.0, 512
 """What is fitted next misses by so much more in χ² than the best of the points, at most, at a few of them."""
 SPREAD = 1.0
-"""Of neighbours, in standard deviations."""
+"""Spread of neighbours, in standard deviations."""
 TOGETHER = 256
 """Starts that are tossed together."""
 GROWTH, SLOWEST = 1.6, 64
@@ -49,7 +49,7 @@ SURELY, REACH = 5.0, 5.0
 """Standard deviations of the first touch by which what was seen is surely before it, and of a value by that
 alone, beyond which no end of an interval is looked for."""
 LEVEL = 0.99
-"""Of the intervals."""
+"""Level of the intervals."""
 ABOVE = float(chi2.ppf(LEVEL, 1))
 """χ² above its least, up to which a value is in its interval."""
 AGAIN, GAIN = 3, 1e-3
@@ -67,10 +67,10 @@ class Minimum:
     """Values with the least squares around them, and what they explain."""
 
     values: Array
-    """(k,)."""
+    """The values, (k,)."""
     predicted: Predicted
     covariance: Array
-    """(k, k); infinite variances of what is not determined."""
+    """Covariance of the values, (k, k); infinite variances of what is not determined."""
     determined: int
     """How many combinations of the values what was seen determines: at most k."""
 
@@ -91,7 +91,7 @@ class Minima(NamedTuple):
     minima: tuple[Minimum, ...]
     """The best first."""
     ends: Array
-    """Of the interval of each value, (k, 2)."""
+    """The ends of the interval of each value, (k, 2)."""
 
 
 class LeastSquaresSearch:

@@ -7,7 +7,7 @@ from cointoss.models.records import UnusableEngineError
 from cointoss.models.scenario import Scenario
 
 MOST_BYTES = 2_000_000
-"""Of the file."""
+"""The largest size of the file."""
 
 
 def lab_page(scenario: Scenario) -> str:

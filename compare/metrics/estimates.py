@@ -17,7 +17,7 @@ Z = float(norm.ppf((1 + LEVEL) / 2))
 FEWEST = 20
 """Values of a sample whose median is compared by a bootstrap."""
 PARTS = 20
-"""Of a sample, each left out in turn by `jackknife`."""
+"""Parts of a sample, each left out in turn by `jackknife`."""
 
 
 def share(met: ArrayLike, counted: str = "tosses") -> Estimate:

@@ -20,9 +20,9 @@ class FirstSide:
     """Which tosses show the side that was up at their release."""
 
     touches: tuple[NDArray[np.bool_], ...]
-    """At each of `TOUCHES`, or in the end where a toss ended before, (n,)."""
+    """Whether that side is up at each of `TOUCHES`, or in the end where a toss ended before, (n,)."""
     at_rest: NDArray[np.bool_]
-    """Of those that end on a face, (m,)."""
+    """Whether that side is up at the end of the tosses that end on a face, (m,)."""
 
 
 def first_side(scenario: Scenario, start: Releases, engine: Engine) -> FirstSide:

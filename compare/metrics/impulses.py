@@ -15,7 +15,7 @@ class Differences:
     """Differences of impacts matched by their number, of a against b; arrays are read-only."""
 
     time: Array
-    """Of the touches, a - b, (n,) [s]."""
+    """Time of the touches, a - b, (n,) [s]."""
     impulse: Array
     """|S_a - S_b|/|S_a|, (n,)."""
     angular_velocity: Array

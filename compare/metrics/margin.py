@@ -30,7 +30,7 @@ class SearchResolution:
     """How closely changes are searched."""
 
     per_decade: int
-    """Changes that are tried."""
+    """Changes that are tried in each decade."""
     bisections: int
     """The change that is found is cut down so many times by `CUTS`."""
 
@@ -41,9 +41,9 @@ class SearchResolution:
 
 
 FINE = SearchResolution(per_decade=4, bisections=8)
-"""For one toss."""
+"""The resolution for one toss."""
 MANY = SearchResolution(per_decade=2, bisections=2)
-"""For many: a third of the tosses."""
+"""The resolution for many tosses: a third of the tosses."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Quantity:
     name: str
     unit: str
     factor: float
-    """Of the unit in one SI unit."""
+    """The number of its units in one SI unit."""
     change: Callable[[Releases, Array], Releases]
     """Adds numbers, in SI units, to releases of one coin."""
 
@@ -64,7 +64,7 @@ class Margin:
 
     quantity: Quantity
     change: float
-    """With its sign, in the quantity's unit; infinite where none up to 1 SI unit does."""
+    """The change with its sign, in the quantity's unit; infinite where none up to 1 SI unit does."""
     proved: float = 0.0
     """No smaller change to either side does, in the quantity's unit, rounded down to two digits; 0 where that
     is not proved."""

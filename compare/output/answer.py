@@ -30,12 +30,12 @@ PATH_COLUMNS = {
 }
 """Columns of a path's CSV file, by the fields of `States`."""
 POINT_COLUMNS = ("A_x [m]", "A_y [m]", "A_z [m]")
-"""Its columns of the coin's lowest point."""
+"""Columns of the coin's lowest point in a path's CSV file."""
 MOST_LINES = 20
 """Impacts that are printed for a person who did not ask for all; a coin may bounce thousands of times."""
 ROWS_PER_SECOND = 1000
 MOST_ROWS = 1_000_000
-"""Beyond it a path's CSV file has hundreds of megabytes."""
+"""The most rows of a path's CSV file: more would be hundreds of megabytes."""
 
 
 def as_json(toss: Toss) -> dict[str, Any]:

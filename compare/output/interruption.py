@@ -11,7 +11,7 @@ from typing import NoReturn
 
 _NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
 SIGNALS: tuple[signal.Signals, ...] = tuple(getattr(signal, name) for name in _NAMES if hasattr(signal, name))
-"""Those that this system has; Ctrl-Break is Windows' own."""
+"""The signals that this system has; Ctrl-Break is Windows' own."""
 SOON = 0.1
 """How long after a child process stopped the signal that stopped it may be heeded here [s]."""
 PATIENCE = 0.3

@@ -11,12 +11,12 @@ from cointoss.models.records import Outcome
 BLUE, VERMILION, GREEN = "#0072B2", "#D55E00", EDGE
 PURPLE, ORANGE, SKY = PERPETUAL, "#E69F00", TRANSIENT
 INK, GREY, PALE, GRID = "#1b2430", "#5b6675", "#9aa4b0", "#d9dee5"
-"""Of letters, of axes, of what stands behind the rest, and of the grid."""
+"""The colours of letters, of axes, of what stands behind the rest, and of the grid."""
 OUTCOMES = {outcome: COLORS[str(outcome)] for outcome in Outcome}
 ANALYTIC, MUJOCO = BLUE, VERMILION
 """The engines."""
 SHARE_OF_HEADS = LinearSegmentedColormap.from_list("share of heads", [TAILS, "#FFFFFF", HEADS])
-"""From 0 to 1."""
+"""The colours of a share of heads from 0 to 1."""
 
 STYLE: Any = {
     "font.size": 9.5,

@@ -8,7 +8,7 @@ from itertools import zip_longest
 from cointoss.compare.output.tables import cells
 
 GAP = "  "
-"""Between two columns."""
+"""The gap between two columns."""
 _TIED = "\N{NO-BREAK SPACE}"
 
 

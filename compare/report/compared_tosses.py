@@ -23,13 +23,13 @@ class Together:
     """Both paths at the same times, as far as both tosses last; arrays are read-only."""
 
     time: Array
-    """(n,) [s]."""
+    """The times at which the paths are compared, (n,) [s]."""
     distance: Array
-    """Between the mass centres, (n,) [m]."""
+    """The distance between the mass centres, (n,) [m]."""
     attitude_angle: Array
-    """Of the rotation from one attitude to the other, (n,) [rad]."""
+    """The angle of the rotation from one attitude to the other, (n,) [rad]."""
     parting_time: float | None
-    """When the distance first exceeds `PARTED` r [s]."""
+    """The time at which the distance first exceeds `PARTED` r [s]."""
 
     def __post_init__(self) -> None:
         """Make the arrays read-only."""
@@ -42,7 +42,7 @@ class ComparedTosses:
     """The numbers of a `cointoss.compare.report.comparison.Comparison`, without what shows them."""
 
     name: str
-    """Of the scenario."""
+    """The name of the scenario."""
     text: str
     """The scenario's TOML."""
     analytic: Toss
@@ -50,7 +50,7 @@ class ComparedTosses:
     not_realisable: str | None = None
     """Why MuJoCo can't toss the scenario, where it can't."""
     settings: EngineSettings
-    """MuJoCo's."""
+    """MuJoCo's settings."""
 
     @property
     def scenario(self) -> Scenario:
@@ -71,7 +71,7 @@ class ComparedTosses:
 
     @cached_property
     def differences(self) -> Differences:
-        """Of the impacts, MuJoCo against analytic."""
+        """The differences of the impacts, MuJoCo against analytic."""
         a, b = self.both
         return match(a.impacts, b.impacts)
 

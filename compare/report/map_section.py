@@ -11,5 +11,6 @@ class MapSection:
     picture: bytes
     """PNG: the map by the analytic engine, that by MuJoCo, and where they differ."""
     numbers: dict[str, Any]
-    """As in numbers.json under `map`: `axes`, `after`, `fractions` and `settings` by engine, `agreement`, the
-    share that is `untrusted` by the analytic engine or None, and the `command` that makes the maps anew."""
+    """The dictionary `map` of numbers.json: `axes`, `after`, `fractions` and `settings` by engine,
+    `agreement`, the share that is `untrusted` by the analytic engine or None, and the `command` that makes
+    the maps anew."""

@@ -9,7 +9,7 @@ from cointoss.compare.web.playable import coin_of, path_of, rounded
 from cointoss.models.records import Array, Toss
 
 SAMPLES = 2000
-"""Of a path."""
+"""Samples of a path."""
 MOST_TOUCHES = 2000
 """Impacts that are marked in the plots."""
 ROUNDING = 1e-16

@@ -9,7 +9,7 @@ from cointoss.models.records import Ending, Outcome, Toss, TrustEnd
 REPORT_IT = "One engine is wrong: please report it"
 TINY_ERRORS = "tiny errors decide, and neither engine is wrong"
 MUJOCOS_ERRORS = "MuJoCo’s own errors decide what it shows"
-"""Where those of the analytic engine change nothing."""
+"""The sentence for a toss in which the analytic engine's errors change nothing."""
 OFF_THE_LAW = (TrustEnd.SECOND_POINT, TrustEnd.RESTITUTION)
 """Ends of MuJoCo's trust where its impulse is not that of the contact law, however well the toss is known."""
 

@@ -13,9 +13,9 @@ from cointoss.models.records import Array, Toss
 from cointoss.models.scenario import Scenario
 
 SAMPLES = 1200
-"""Of a path that is played."""
+"""Samples of a path that is played."""
 MOST_SYMBOLS = 200
-"""Of a sequence that is shown."""
+"""The most symbols of a sequence that is shown."""
 
 
 def shown_outcomes() -> dict[int, dict[str, str]]:

@@ -12,7 +12,7 @@ POLICY = (
 )
 """The Content-Security-Policy of a page of one file: it loads nothing."""
 ENGINE_POLICY = POLICY.replace("script-src", "script-src 'wasm-unsafe-eval'")
-"""That of one that holds the engine, which it compiles."""
+"""The Content-Security-Policy of a page of one file that holds the engine, which it compiles."""
 _SCRIPT = re.compile(r'<script type="module" src="([\w.]+)"></script>')
 _IMPORTED = re.compile(r"""(from\s*["'])\./([\w.]+\.js)(["'])""")
 

@@ -20,7 +20,7 @@ _SIZE = 9 + 3 + 3 + 2
 _ENTRY = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)
 """A function of its numbers, one after the other, and of room for its answer."""
 _placed: dict[int, tuple[Function, Any]] = {}
-"""By its address, what Python calls, and the code: kept as long as the process, as a thread may still run."""
+"""What Python calls, and its code, by the code's address; kept for good, as a thread may still run it."""
 
 
 class NotCompiledError(ValueError):

@@ -22,15 +22,15 @@ class ValueKind(NamedTuple):
     of: Any = None
     """float, int, bool or an enum; a tuple's class; an array's dtype."""
     parts: "tuple[ValueKind, ...]" = ()
-    """Of a tuple."""
+    """The kinds of a tuple's parts."""
     dimensions: int = 0
-    """Of an array."""
+    """The number of an array's dimensions."""
     may_lack: bool = False
     """Whether the number may be None, for which numba compiles apart."""
 
 
 NOTHING = ValueKind("")
-"""Of what returns None."""
+"""The kind of what returns None."""
 
 
 def kinds_of(function: Callable[..., Any]) -> tuple[tuple[ValueKind, ...], ValueKind]:
@@ -142,7 +142,7 @@ def _write_parts(kind: ValueKind, value: Any, form: list[str], numbers: list[Any
 
 
 _written: dict[int, tuple[Any, ValueKind, str, list[Any], bool]] = {}
-"""By its address, a tuple that was written; kept with it, its address stays its own."""
+"""The tuples that were written, by address; a tuple that is kept here keeps its address to itself."""
 _MOST_REMEMBERED = 64
 
 

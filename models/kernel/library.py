@@ -22,11 +22,11 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 CARRIED = Path(__file__).with_name("engines")
-"""Where a wheel carries the libraries."""
+"""The folder in which a wheel carries the libraries."""
 SYSTEM = f"{sys.platform}-{platform.machine()}".lower()
 """This system and processor."""
 SUFFIX = ".so"
-"""Of a library, on every system."""
+"""The suffix of a library, on every system."""
 MANIFEST = f"{SUFFIX}.json"
 """Suffix of the file beside a library that says what it was made of."""
 LACKS = ".lacks"
@@ -187,11 +187,11 @@ class Made(NamedTuple):
     module: str
     system: str
     digest: str
-    """Of the library."""
+    """The digest of the library."""
     sources: dict[str, str]
     """The digests of the project's files that the build has read, by their paths."""
     forms: dict[str, str]
-    """Of each symbol, see `Entry.form`."""
+    """The form of each symbol, see `Entry.form`."""
 
     @classmethod
     def read(cls, file: Path, *, is_carried: bool = False) -> "Made | None":

@@ -14,7 +14,7 @@ from cointoss.models.kernel.vectors import apply, cross, dot
 from cointoss.models.records import Array
 
 PHASES = 48
-"""In so many phases of its roll a coin on its edge is tried."""
+"""A coin on its edge is tried in this number of phases of its roll."""
 
 
 @compiled

@@ -10,7 +10,7 @@ from cointoss.models.records import Toss
 from cointoss.models.title import title_of_toss
 
 HEIGHT = 860
-"""Of the frame [px]."""
+"""Height of the frame [px]."""
 
 
 def play(toss: Toss, other: Toss | None = None) -> Frame:

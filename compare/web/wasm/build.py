@@ -13,7 +13,7 @@ from cointoss.models.kernel.building import NEEDED
 from cointoss.models.kernel.digests import digest_of_parts
 
 ENTRIES = ("examine", "toss_each", "toss_one", "sample_path")
-"""Those of the analytic engine that a page calls."""
+"""The entries of the analytic engine that a page calls."""
 STACK = 1 << 20
 """Bytes of the stack."""
 

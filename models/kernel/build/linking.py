@@ -15,9 +15,9 @@ class System(NamedTuple):
     """A system and processor for which an engine is linked."""
 
     triple: str
-    """As LLVM names it."""
+    """The system's name in LLVM."""
     zig: str
-    """As ziglang names it: with the oldest C library or system that the library needs."""
+    """The system's name in ziglang, with the oldest C library or system that the library needs."""
 
     @property
     def targets(self) -> dict[str, LlvmTarget]:
@@ -35,7 +35,7 @@ SYSTEMS = {
     "darwin-x86_64": System("x86_64-apple-macosx10.15.0", "x86_64-macos.10.15"),
     "win32-amd64": System("x86_64-pc-windows-gnu", "x86_64-windows-gnu"),
 }
-"""By their names, see `cointoss.models.kernel.library.SYSTEM`."""
+"""The systems by their names, see `cointoss.models.kernel.library.SYSTEM`."""
 _HAS_AVX2 = """
 #include <cpuid.h>
 

@@ -57,7 +57,7 @@ class LlvmTarget(NamedTuple):
 
     triple: str
     features: str = ""
-    """Of the processor, that its plainest kind does not have."""
+    """The features that the processor's plainest kind does not have."""
 
     @property
     def is_narrow(self) -> bool:
@@ -211,7 +211,7 @@ class _Codegen(JITCPUCodegen):
 
 
 class _Nothing:
-    """In the place of what would make and run machine code."""
+    """What stands in the place of what would make and run machine code."""
 
     def __getattr__(self, name: str) -> Any:
         return lambda *_, **__: 0

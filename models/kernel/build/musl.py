@@ -22,12 +22,12 @@ from llvmlite import binding
 from cointoss.models.kernel.base_folder import base_folder, write_whole
 
 PREFIX = "musl."
-"""How the names of the functions begin in LLVM's code."""
+"""The beginning of the functions' names in LLVM's code."""
 FUNCTIONS = (
     *("acos", "acosh", "asin", "asinh", "atan", "atan2", "atanh", "cos", "exp", "exp2", "expm1"),
     *("hypot", "lgamma", "log", "log1p", "log2", "pow", "sin"),
 )
-"""Those that compiled functions may call."""
+"""The functions of musl that compiled functions may call."""
 _EXACT = {
     *("ceil", "copysign", "fabs", "floor", "fmod", "maxnum", "minnum", "nearbyint", "rint", "round", "sqrt"),
     "trunc",

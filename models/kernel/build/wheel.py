@@ -19,7 +19,7 @@ PLATFORMS = {
     "darwin-x86_64": "macosx_10_15_x86_64",
     "win32-amd64": "win_amd64",
 }
-"""By the name of a system, as a wheel's name has it."""
+"""The platforms in a wheel's name, by the name of the system."""
 
 
 class Engines(BuildHookInterface[Any]):
