@@ -6,7 +6,17 @@ from cointoss.analytic.settings import FINE, MANY, AnalyticSettings
 from cointoss.analytic.toss import require_supported, toss
 from cointoss.models.kernel.vectors import solve
 
-__all__ = ["FINE", "MANY", "OwnLaw", "AnalyticSettings", "require_rows", "require_supported", "solve", "toss", "toss_rows"]
+__all__ = [
+    "FINE",
+    "MANY",
+    "OwnLaw",
+    "AnalyticSettings",
+    "require_rows",
+    "require_supported",
+    "solve",
+    "toss",
+    "toss_rows",
+]
 
 if __name__ == "analytic":  # by its bare name, in a checkout
     from cointoss.bare_names import open_as_part

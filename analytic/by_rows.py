@@ -11,7 +11,6 @@ from cointoss.analytic.flight.state_vector import STATE_SIZE, position_of, spin_
 from cointoss.analytic.horizon.certainty import certainty_of
 from cointoss.analytic.horizon.horizon import MOST_CARRIED, STEP_ERROR, TURN_ERROR, ErrorsMade, find_horizon
 from cointoss.analytic.settings import MANY, ContactLimits, contact_limits
-from cointoss.models.answers import REFUSED
 from cointoss.models.barriers import energy
 from cointoss.models.body import NO_CODE, OwnCode, with_budgets, with_own_law
 from cointoss.models.faults import Fault
@@ -22,6 +21,7 @@ from cointoss.models.making import MOST_LOSSLESS
 from cointoss.models.records import IMPACT_ROW
 from cointoss.models.rows import (
     AIR_EXPONENT,
+    REFUSED,
     bodies_alike,
     body_of,
     examine_each,

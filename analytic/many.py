@@ -1,6 +1,5 @@
 """Many tosses by the analytic engine, on all cores."""
 
-
 import numpy as np
 
 from cointoss.analytic.by_rows import CERTAIN, NO_TRUST, TRUST
@@ -12,8 +11,8 @@ from cointoss.models.batch import PLACE, scenario_of_row
 from cointoss.models.body import NO_CODE
 from cointoss.models.errors import require_type
 from cointoss.models.kernel.arrays import Array
-from cointoss.models.rows import has_linear_air
 from cointoss.models.making import MOST_LOSSLESS
+from cointoss.models.rows import has_linear_air
 from cointoss.models.scenario import MOST_KEPT, keeping_all
 from cointoss.models.tiles import in_tiles
 

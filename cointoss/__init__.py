@@ -120,7 +120,6 @@ def _brought(home: str, name: str) -> Callable[..., Any]:
 _views = import_module("cointoss.models.views").views
 _views.plot_toss = _brought("cointoss.compare.output.plots", "plot_toss")
 _views.play_toss = _brought("cointoss.compare.web.play.frame", "play")
-_views.plot_outcomes = _brought("cointoss.compare.output.plots", "plot_outcomes")
 
 
 def __getattr__(name: str) -> Any:

@@ -4,8 +4,8 @@ from enum import StrEnum
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol, cast
 
-from cointoss.models.distribution import versions_of
 from cointoss.models.answers import Answers
+from cointoss.models.distribution import versions_of
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.reading import ScenarioSource
 from cointoss.models.records import Toss, UnsupportedError

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.labelled import meanings_of
 from cointoss.models.records import Ending, Face, Outcome
+from cointoss.models.rows import NOT_TOSSED as NOT_TOSSED
+from cointoss.models.rows import REFUSED as REFUSED
 
 Trust = Literal["impacts", "certain"]
 """What is found of how far a toss can be trusted: how many impacts; or these, and whether its outcome is certain."""
-NOT_TOSSED, REFUSED = -1, -2
-"""In place of an outcome: of a toss that was not made, and of numbers that make no scenario."""
 ANSWER = ("outcome", "ending", "impacts", "last_face", "end_time", "trusted_impacts", "outcome_certain")
 """Columns of what compiled code answers of a toss; -1 where that was not asked for."""
 _MISSING = {NOT_TOSSED: "not_tossed", REFUSED: "refused"}

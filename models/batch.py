@@ -23,7 +23,8 @@ STATE = tuple(
 """The fields of a state at release, in the order of a state vector, (13,)."""
 STATE_PLACES = [PLACE[field] for field in STATE]
 _ANGLES, _QUATERNION = (
-    [PLACE[f"{path}.{name}"] for name in COMPONENTS[path]] for path in ("release.angles", "release.quaternion")
+    [PLACE[f"{path}.{name}"] for name in COMPONENTS[path]]
+    for path in ("release.angles", "release.quaternion")
 )
 _INERTIA = [PLACE[field] for field in FIELDS if field.startswith("coin.inertia.")]
 

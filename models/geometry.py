@@ -71,9 +71,9 @@ def gap(body: Body, z: float, up: Vector) -> float:
 def lowest_point(body: Body, up: Vector, w: Vector) -> tuple[Vector, bool]:
     """Return the point of the coin that is lowest, or about to be.
 
-    On the rim, unless a face lies flat or the coin stands on its edge. The whole rim of a flat face is
+    It is on the rim, unless a face lies flat or the coin stands on its edge. The whole rim of a flat face is
     lowest: if the coin turns, the point that moves down fastest is given; if it does not, the point of the
-    face under C. Likewise for the line on which a thick coin stands.
+    face under C. The same holds for the line on which a thick coin stands.
 
     Args:
         body: the coin.

@@ -11,9 +11,9 @@ from typing import Any, Literal
 import numpy as np
 
 from cointoss.models.attitude import quaternion_from_angles
+from cointoss.models.batch import STATE
 from cointoss.models.body import Body
 from cointoss.models.errors import FieldError, ScenarioError
-from cointoss.models.batch import STATE
 from cointoss.models.reading import ScenarioSource, plain_text, scenario_of, tables_of
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario

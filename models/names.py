@@ -41,8 +41,10 @@ def _accepted(name: str, known: list[str], ends: list[str]) -> str:
     components = [field for field in known if field.startswith(f"{name}.")]
     last = {field.rpartition(".")[2]: field for field in known}
     near = difflib.get_close_matches(name, of_table or known, n=1)
-    near = near or [last.get(word, _ALIASES.get(word, "")) for word in
-                    difflib.get_close_matches(name, [*last, *_ALIASES], n=1)]
+    near = near or [
+        last.get(word, _ALIASES.get(word, ""))
+        for word in difflib.get_close_matches(name, [*last, *_ALIASES], n=1)
+    ]
     found = ends or components or near
     others = of_table if 0 < len(of_table) <= MOST_NAMED else [f"numbers of {', '.join(tables)}, and gravity"]
     hint = f" (did you mean {near[0]}?)" if near and not ends else ""

@@ -36,6 +36,8 @@ WORDED: dict[str, type[Word]] = {
     "ending.test": EndingTest,
 }
 """Fields that are a word, in a row its integer."""
+NOT_TOSSED, REFUSED = -1, -2
+"""In place of an outcome: of a toss that was not made, and of numbers that make no scenario."""
 _Place = tuple[str | int, ...]
 
 

@@ -11,8 +11,6 @@ class Views:
     """Plots a toss in matplotlib's Axes and returns them."""
     play_toss: Callable[..., Any]
     """Returns the frame of a notebook that plays a toss, and beside it another or None."""
-    plot_outcomes: Callable[..., Any]
-    """Plots how many tosses had each outcome in matplotlib's Axes and returns them."""
 
 
 views = Views()

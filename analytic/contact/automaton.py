@@ -124,7 +124,7 @@ def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
 
 @inlined
 def inlined_flow(contact: SustainedContact, y: Array, dy: Array) -> float:
-    """As `flow`, for what every step of a contact does: a call copies all numbers of the coin."""
+    """Return what `flow` does, inlined: a call in each step would copy all numbers of the coin."""
     if contact.mode == Mode.STICKING:
         return sticking.flow(contact, y, dy)
     if contact.mode == Mode.INCIPIENT_SLIP:

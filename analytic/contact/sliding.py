@@ -43,7 +43,7 @@ def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
 
 @inlined
 def flow_with_friction(contact: SustainedContact, y: Array, dy: Array) -> float:
-    """As `flow`, whatever μ; it is 0 on a floor that resists rolling or pivoting alone."""
+    """Return what `flow` does, for any μ; it is 0 on a floor that resists rolling or pivoting alone."""
     body, friction, mu = contact.body, contact.friction, contact.friction.sliding
     flight = flight_of(body, y)
     A = rim_motion(body, friction, flight, contact.rim)
@@ -111,7 +111,7 @@ def project(contact: SustainedContact, y: Array) -> None:
 
 @compiled
 def project_with_friction(contact: SustainedContact, y: Array) -> None:
-    """As `project`, whatever the coefficient of friction."""
+    """Do what `project` does, for any coefficient of friction."""
     body, A = contact.body, put_on_floor(contact, y)
     along = normal_with_friction(A, contact.friction.sliding)
     rise = rise_gained(body, A, along, spin_gained_at(body, FRICTIONLESS, A, along))

@@ -216,8 +216,8 @@ def out_of_budget(
     Args:
         coin: MuJoCo's.
         upright: whether it is on both rims.
-        outcome: of a coin that does not roll on its edge.
-        ending: likewise.
+        outcome: that of a coin which does not roll on its edge.
+        ending: that of such a coin.
     """
     if upright and coin.resists:
         return Outcome.EDGE, Ending.ROLLING

@@ -57,7 +57,10 @@ def wilson(met: ArrayLike, count: ArrayLike) -> tuple[Array, Array, Array]:
     k, n = np.broadcast_arrays(np.asarray(met, dtype=float), np.asarray(count, dtype=float))
     with np.errstate(invalid="ignore", divide="ignore"):
         share = k / n
-    middle, wide = (k + Z**2 / 2) / (n + Z**2), Z * np.sqrt(k * (n - k) / np.maximum(n, 1) + Z**2 / 4) / (n + Z**2)
+    middle, wide = (
+        (k + Z**2 / 2) / (n + Z**2),
+        Z * np.sqrt(k * (n - k) / np.maximum(n, 1) + Z**2 / 4) / (n + Z**2),
+    )
     return share, np.where(k == 0, 0.0, middle - wide), np.where(k == n, 1.0, middle + wide)
 
 

@@ -56,6 +56,11 @@ def in_codes(dataset: xr.Dataset) -> xr.Dataset:
     return _mapped(dataset, codes_of, flagged=True)
 
 
+def opened(path: Path) -> xr.Dataset:
+    """Return the dataset of a store, which is read as it is asked for; its words are codes."""
+    return xr.open_zarr(path, chunks=None)
+
+
 def _mapped(dataset: xr.Dataset, change: Any, *, flagged: bool) -> xr.Dataset:
     new = {}
     for name in WORDED:
@@ -120,7 +125,9 @@ class Tosses:
                 raise SweepError(f"along: {dim!r}, accepted: {', '.join(map(str, dims))}")
         codes = xr.DataArray(self.codes, dims=dims)
         over = [dim for dim in dims if dim not in along]
-        counts = xr.concat([(codes == one).sum(over) for one in Outcome], "outcome").transpose(*along, "outcome")
+        counts = xr.concat([(codes == one).sum(over) for one in Outcome], "outcome").transpose(
+            *along, "outcome"
+        )
         kept = {name: one for name, one in self._dataset.coords.items() if set(one.dims) <= set(along)}
         words = list(Outcome.by_value().values())
         return shares_of(counts.values, (*along, "outcome"), {**kept, "outcome": words}, self._dataset.attrs)
@@ -129,7 +136,9 @@ class Tosses:
         """Return a table of pandas, a row for each toss, in words, with units in `attrs["units"]`."""
         frame = in_words(self._dataset).to_dataframe().reset_index()
         frame.attrs["units"] = {
-            str(name): one.attrs["units"] for name, one in self._dataset.variables.items() if one.attrs.get("units")
+            str(name): one.attrs["units"]
+            for name, one in self._dataset.variables.items()
+            if one.attrs.get("units")
         }
         return frame
 

@@ -117,7 +117,9 @@ class Batch:
         at = dict(zip(self.sizes, np.unravel_index(toss, self.shape), strict=True))
         values = [(one, one.values[tuple(at[dim] for dim in one.dims)]) for one in self.varied[:3]]
         told = [f"{one.field} = {one.words[int(x)] if one.words else f'{x:g}'}" for one, x in values]
-        where = ", ".join(f"{dim} {i}" for dim, i in at.items() if dim not in [one.field for one in self.varied])
+        where = ", ".join(
+            f"{dim} {i}" for dim, i in at.items() if dim not in [one.field for one in self.varied]
+        )
         return f" (at {', '.join(filter(None, [where, *told]))})"
 
     def tried(self) -> Iterator[NDArray[np.intp]]:
@@ -180,7 +182,9 @@ def batch_of(scenario: ScenarioSource, vary: Mapping[str, Any] | None = None) ->
     """
     described = scenario_of(scenario)
     if not isinstance(vary, Mapping | None):
-        raise SweepError(f'vary: {shown(vary)}, accepted: a dict such as {{"floor.restitution": "0.4:0.9:6"}}')
+        raise SweepError(
+            f'vary: {shown(vary)}, accepted: a dict such as {{"floor.restitution": "0.4:0.9:6"}}'
+        )
     given: dict[str, Any] = {}
     for name, value in (vary or {}).items():
         for field, part in _components(named(name, _KNOWN), value):
@@ -212,7 +216,9 @@ def _batch(described: Scenario, given: Mapping[str, Any]) -> Batch:
     for one in varied:
         for dim, size in zip(one.dims, one.values.shape, strict=True):
             if sizes.setdefault(dim, size) != size:
-                raise SweepError(f"{one.field}: {size} along {dim}, accepted: {sizes[dim]}, as the others have")
+                raise SweepError(
+                    f"{one.field}: {size} along {dim}, accepted: {sizes[dim]}, as the others have"
+                )
             if not size:
                 raise SweepError(f"{one.field}: empty, accepted: one value or more")
     if math.prod(sizes.values()) > MOST_ROWS:
@@ -254,7 +260,11 @@ def _is_one(field: str, value: Any) -> bool:
     """Return whether a value is the same for all tosses."""
     if isinstance(value, Part) or field in _PARTS or field in COMPONENTS:
         return True
-    return not _is_range(value) and not hasattr(value, "dims") and (isinstance(value, str) or np.ndim(value) == 0)
+    return (
+        not _is_range(value)
+        and not hasattr(value, "dims")
+        and (isinstance(value, str) or np.ndim(value) == 0)
+    )
 
 
 def _is_range(value: Any) -> bool:

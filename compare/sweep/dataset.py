@@ -31,7 +31,11 @@ def dataset_of(batch: Batch, how: How, answers: Mapping[str, NDArray[Any]]) -> "
 
     dims = tuple(batch.sizes)
     variables = {
-        name: (dims, array, {key: value for key, value in COLUMNS[name].attributes.items() if key != "flag_values"})
+        name: (
+            dims,
+            array,
+            {key: value for key, value in COLUMNS[name].attributes.items() if key != "flag_values"},
+        )
         for name, array in answers.items()
     }
     coordinates = {one.field: _coordinate(one, batch.scenario) for one in batch.varied}

@@ -127,7 +127,6 @@ def make(job: Job, say: Say) -> Iterator[str]:
     for sweep in sweeps.values():
         check(sweep)
         run.require_room(sweep, job.out.parent, maps=len(sweeps), drawn=drawn)
-    layouts = {path: store.layout_of_map(sweep, job.text) for path, sweep in sweeps.items()}
     with _tosser(job.scheduler, say) as tosser:
         for path, sweep in sweeps.items():
             with store.opened(path, store.layout_of_map(sweep, job.text), overwrite=job.overwrite) as map_:

@@ -22,6 +22,7 @@ from zarr.errors import ZarrUserWarning
 
 from cointoss.compare.output.files import UnwritableError, beside, naming, remove, written_whole
 from cointoss.compare.output.interruption import undoing
+from cointoss.compare.sweep.batch import Batch, attributes_of
 from cointoss.compare.sweep.form import (
     FORMAT,
     MARGIN_ALONG,
@@ -32,7 +33,6 @@ from cointoss.compare.sweep.form import (
     require_arrays,
     require_chunk,
 )
-from cointoss.compare.sweep.batch import Batch, attributes_of
 from cointoss.compare.sweep.grid import MOST_TILES, Sweep, numbers_in, tile_shape, tiles, tosses_in_tile
 from cointoss.compare.sweep.layers import LAYERS, OF_TOSSES, Layer, axis_attributes, holds_tosses, layers_of
 from cointoss.compare.sweep.pieces import How
@@ -150,9 +150,7 @@ class Store:
             for name in sorted(layers, key=lambda name: name == "outcome"):
                 self._put(name, tile, inside, layers[name])
 
-    def _put(
-        self, name: str, tile: tuple[slice, ...], inside: tuple[Any, ...], values: NDArray[Any]
-    ) -> None:
+    def _put(self, name: str, tile: tuple[slice, ...], inside: tuple[Any, ...], values: NDArray[Any]) -> None:
         """Write a part of a tile; a file around it that is damaged holds nothing else."""
         array = self._array(name)
         shape = [part.stop - part.start for part in tile]
@@ -370,7 +368,8 @@ def _same(path: Path, target: Path, mode: Literal["r", "r+"], layout: Layout) ->
         stored = read_attributes(target)
     due = layout.attributes
     made_by, ours = (
-        {name: one for name, one in each["versions"].items() if name not in _READERS} for each in (stored, due)
+        {name: one for name, one in each["versions"].items() if name not in _READERS}
+        for each in (stored, due)
     )
     try:
         same_scenario = parse(stored["scenario"], str(path)) == parse(due["scenario"], str(path))
@@ -394,7 +393,9 @@ def _same(path: Path, target: Path, mode: Literal["r", "r+"], layout: Layout) ->
                 if not np.array_equal(found.whole(field), one.values)
             ]
     if missing or unlike_grid:
-        _refuse_other(path, f"grid in {layout.coordinates[missing[0]].dims[0] if missing else unlike_grid[0]}")
+        _refuse_other(
+            path, f"grid in {layout.coordinates[missing[0]].dims[0] if missing else unlike_grid[0]}"
+        )
     if made_by != ours:
         _refuse_other(path, f"set of versions, {json.dumps(made_by)}")
     return replace(found, path=path)

@@ -104,9 +104,7 @@ def toss_many(
             "takes more"
         )
     check(batch, how)
-    answers = {
-        name: np.full(len(batch), COLUMNS[name].missing, COLUMNS[name].kind) for name in how.names
-    }
+    answers = {name: np.full(len(batch), COLUMNS[name].missing, COLUMNS[name].kind) for name in how.names}
     done = 0
     with stage(f"tossing by {how.engine}", "tosses", total=len(batch), shown=progress) as tell:
         try:
@@ -124,10 +122,7 @@ def _into_store(
     batch: Batch, how: How, path: Path, progress: bool | None, *, resume: bool, overwrite: bool
 ) -> "xr.Dataset":
     """Toss a batch into a store, and return its dataset; the arguments are those of `toss_many`."""
-    import xarray
-
-    from cointoss.compare.sweep import accessor as _  # registers `Dataset.cointoss`
-    from cointoss.compare.sweep import store
+    from cointoss.compare.sweep import accessor, store
     from cointoss.compare.sweep.run import fill
 
     if how.law is not None:
@@ -147,7 +142,7 @@ def _into_store(
         except KeyboardInterrupt:
             left = sum(kept.missing(tile).size for tile in kept.tiles)
             _warn_of_interruption(len(batch) - left, len(batch))
-    return xarray.open_zarr(path, chunks=None)
+    return accessor.opened(path)
 
 
 def _warn_of_interruption(made: int, count: int) -> None:

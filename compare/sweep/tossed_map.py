@@ -123,7 +123,9 @@ def map_of(dataset: "xr.Dataset") -> TossedMap:
     dims = coded["outcome"].dims if "outcome" in coded else ()
     names = [_field_of(coded, str(dim)) for dim in dims]
     if len(dims) != 2 or not all(names) or "scenario" not in about:
-        raise SweepError("dataset: accepted: one of tosses over two fields of a scenario, as of cointoss.basin")
+        raise SweepError(
+            "dataset: accepted: one of tosses over two fields of a scenario, as of cointoss.basin"
+        )
     scenario = parse(about["scenario"], "attribute scenario")
     engine, stride = Engine(about["engine"]), int(about.get("stride", 1))
     whole = json.loads(about["axes"]) if stride > 1 else [None, None]
