@@ -7,9 +7,9 @@ from typing import Any
 class Word(IntEnum):
     """One word of a list.
 
-    It prints as its word and equals it: `toss.outcome == "heads"`. Else it is its integer, as in arrays and
-    in compiled code: `outcomes.outcome == Outcome.HEADS`. `Outcome("heads")` and `Outcome(1)` make it of
-    either.
+    It prints as its word and equals it: `toss.outcome == "heads"`. Else it is its integer, as in compiled code
+    and in arrays of codes; `array == Outcome.HEADS` holds of the word and of the code. `Outcome("heads")` and
+    `Outcome(1)` make it of either.
     As a key and in a set it stands for its integer, not for its word, which `str(toss.outcome)` is.
     """
 
@@ -41,10 +41,18 @@ class Word(IntEnum):
     # codes from arrays are looked up among members.
     __hash__ = IntEnum.__hash__
 
+    # NumPy leaves the comparison of an array with a word to the word.
+    __array_ufunc__ = None
+
     def __eq__(self, other: Any) -> Any:
         """Return whether the other is this word, or equals its integer; of an array, for each."""
-        return str(self) == other if isinstance(other, str) else int(self) == other
+        return (str(self) if _is_text(other) else int(self)) == other
 
     def __ne__(self, other: Any) -> Any:
         """Return the opposite of `==`."""
-        return str(self) != other if isinstance(other, str) else int(self) != other
+        return (str(self) if _is_text(other) else int(self)) != other
+
+
+def _is_text(value: Any) -> bool:
+    """Return whether a value is a text, or an array of texts."""
+    return isinstance(value, str) or getattr(getattr(value, "dtype", None), "kind", "") in ("U", "T")

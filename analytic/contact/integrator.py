@@ -12,12 +12,12 @@ from cointoss.analytic.contact.sliding import slip_time
 from cointoss.analytic.flight.integrated_flight import first_step
 from cointoss.analytic.flight.runge_kutta import end_point, stage_point, step_error, step_factor
 from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, normalise
-from cointoss.analytic.numerics.roots import Bracket, bracket_between, is_narrow, narrowed, next_try
 from cointoss.analytic.numerics.tableau import STAGES
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.geometry import FACE_SINE, tilt_sine_of
 from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.roots import Bracket, bracket_between, is_narrow, narrowed, next_try
 from cointoss.models.records import Array
 
 # The end of a contact is bracketed to this part of a step, or where its margin is no more than rounding, in

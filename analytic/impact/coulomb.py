@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cointoss.analytic.impact.slip_stop import SlipStop, expand_stop, impulse_until, room_for_stop
-from cointoss.analytic.numerics.roots import bracket_between, is_narrow, narrowed, next_try
+from cointoss.models.kernel.roots import bracket_between, is_narrow, narrowed, next_try
 from cointoss.models.kernel.arrays import Array, copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector, apply, norm

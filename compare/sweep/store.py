@@ -378,10 +378,10 @@ def _same(path: Path, target: Path, mode: Literal["r", "r+"], layout: Layout) ->
     others = (stored.keys() | due.keys()) - {"scenario", "versions", "name"}
     unlike = next((name for name in [*_CALLED, *sorted(others)] if stored.get(name) != due.get(name)), None)
     if not same_scenario:
-        _refuse_other(path, "scenario")
+        _refuse_other(path, due, "scenario")
     if unlike is not None:
         value = f", {json.dumps(stored.get(unlike))}" if unlike == "engine_settings" else ""
-        _refuse_other(path, f"{_CALLED.get(unlike, unlike)}{value}")
+        _refuse_other(path, due, f"{_CALLED.get(unlike, unlike)}{value}")
     with _readable(path):
         missing = [field for field in layout.coordinates if not (target / field).is_dir()]
         if not missing:
@@ -397,12 +397,13 @@ def _same(path: Path, target: Path, mode: Literal["r", "r+"], layout: Layout) ->
             path, f"grid in {layout.coordinates[missing[0]].dims[0] if missing else unlike_grid[0]}"
         )
     if made_by != ours:
-        _refuse_other(path, f"set of versions, {json.dumps(made_by)}")
+        _refuse_other(path, due, f"set of versions, {json.dumps(made_by)}")
     return replace(found, path=path)
 
 
-def _refuse_other(path: Path, what: str) -> NoReturn:
-    raise UnwritableError(f"{path}: is a store with another {what}; {_WAYS_OUT}")
+def _refuse_other(path: Path, due: dict[str, Any], what: str) -> NoReturn:
+    kind = "map" if "cointoss_map" in due else "store of tosses"
+    raise UnwritableError(f"{path}: is a {kind} with another {what}; {_WAYS_OUT}")
 
 
 @contextmanager

@@ -73,12 +73,12 @@ def begun(coin, out, *extra, most=TILES):
     script = (
         "import threading, time; from pathlib import Path; from cointoss.compare.engines import Engine\n"
         "from cointoss.compare.sweep import grid, run\n"
-        f"grid.TILE_TOSSES[Engine.ANALYTIC], toss = {SMALL}, run.toss_pixels\n"
-        "def toss_pixels(*tile):\n"
+        f"grid.TILE_TOSSES[Engine.ANALYTIC], known = {SMALL}, run.pixels_of\n"
+        "def pixels_of(*tossed):\n"
         f"    made = [entry for entry in Path({str(out)!r}).glob('outcome/c/*/*') if not entry.suffix]\n"
         f"    threading.Event().wait(None if len(made) >= {most} else 0.05)\n"
-        "    return toss(*tile)\n"
-        "run.toss_pixels = toss_pixels\n"
+        "    return known(*tossed)\n"
+        "run.pixels_of = pixels_of\n"
         "from cointoss.compare.cli import main; main()"
     )
     return started("-c", script, "basin", coin, *AXES, "--out", out, *extra)

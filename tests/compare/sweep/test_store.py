@@ -19,8 +19,9 @@ from cointoss.coin_mj import Realisation
 from cointoss.compare.engines import Engine
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.sweep import grid, run
+from cointoss.compare.sweep.grid import numbers_in
 from cointoss.compare.sweep.layers import holds_tosses
-from cointoss.compare.sweep.store import Map, opened, require_place
+from cointoss.compare.sweep.store import Store, layout_of_map, opened, require_place
 from cointoss.models.records import Outcome
 from tests.helpers.basin_runs import (
     AXES,
@@ -73,15 +74,14 @@ def in_tiles(tmp_path_factory):
 
 def tosses_of(monkeypatch, resumed):
     """Count the pixels that a call of `resumed` tosses."""
-    count, toss = [0], run.toss_pixels
+    count, known = [0], run.pixels_of
 
-    def counted(*arguments):
-        tossed = toss(*arguments)
-        count[0] += tossed.outcome.size
-        return tossed
+    def counted(sweep, numbers, answers):
+        count[0] += len(numbers)
+        return known(sweep, numbers, answers)
 
     with monkeypatch.context() as patched:
-        patched.setattr(run, "toss_pixels", counted)
+        patched.setattr(run, "pixels_of", counted)
         answered = resumed()
     assert answered.exit_code == 0, answered.stderr
     return count[0]
@@ -142,17 +142,17 @@ def test_a_killed_map_is_resumed_to_the_same_pixels(undisturbed, coin, tmp_path,
 
 def test_a_new_map_is_known_to_be_empty_without_reading_its_tiles(tmp_path, monkeypatch):
     monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, SMALL)
-    read, reads = Map.read, []
-    monkeypatch.setattr(Map, "read", lambda map_, *asked: reads.append(asked) or read(map_, *asked))
+    read, reads = Store.read, []
+    monkeypatch.setattr(Store, "read", lambda kept, *asked: reads.append(asked) or read(kept, *asked))
     sweep = map_sweep()
-    with opened(tmp_path / "map.zarr", sweep, SCENARIO, overwrite=False) as map_:
-        assert map_.is_empty
-        assert run.missing(map_) == map_.tiles
+    with opened(tmp_path / "map.zarr", layout_of_map(sweep, SCENARIO), overwrite=False) as kept:
+        assert kept.is_empty
+        assert [kept.missing(tile).size for tile in kept.tiles] == [SMALL] * TILES
         assert {name for _, name in reads} == {sweep.x.field, sweep.y.field}
-        last = map_.tiles[-1]
-        map_.write(last, run.toss_pixels(sweep, last))
-        assert not map_.is_empty
-        assert run.missing(map_) == map_.tiles[:-1]
+        last = numbers_in(kept.tiles[-1], sweep.shape).ravel()
+        kept.write(last, run.toss_part(sweep, last))
+        assert not kept.is_empty
+        assert [kept.missing(tile).size for tile in kept.tiles] == [*[SMALL] * (TILES - 1), 0]
         assert {name for _, name in reads} > {sweep.x.field, sweep.y.field}
 
 
@@ -267,16 +267,16 @@ def test_a_map_is_replaced_only_where_asked(in_tiles, coin, tmp_path):
 )
 def test_a_map_of_something_else_is_not_gone_on_with(tmp_path, change, named):
     out = tmp_path / "map.zarr"
-    with opened(out, map_sweep(), SCENARIO, overwrite=False):
+    with opened(out, layout_of_map(map_sweep(), SCENARIO), overwrite=False):
         pass
     with pytest.raises(UnwritableError, match=f"is a map with another {named}"):
-        opened(out, map_sweep(**change), change.get("case", SCENARIO), overwrite=False).__enter__()
-    with opened(tmp_path / "trust.zarr", map_sweep(trust=True), SCENARIO, overwrite=False):
+        opened(out, layout_of_map(map_sweep(**change), change.get("case", SCENARIO)), overwrite=False).__enter__()
+    with opened(tmp_path / "trust.zarr", layout_of_map(map_sweep(trust=True), SCENARIO), overwrite=False):
         pass
     with pytest.raises(UnwritableError, match=r"another set of arrays \(--trust\)"):
-        opened(tmp_path / "trust.zarr", map_sweep(), SCENARIO, overwrite=False).__enter__()
+        opened(tmp_path / "trust.zarr", layout_of_map(map_sweep(), SCENARIO), overwrite=False).__enter__()
     same = SCENARIO + "# another word for the same coin\n"
-    with opened(out, map_sweep(case=same, name="another file"), same, overwrite=False) as map_:
+    with opened(out, layout_of_map(map_sweep(case=same, name="another file"), same), overwrite=False) as map_:
         assert (map_.group.attrs["scenario"], map_.group.attrs["name"]) == (SCENARIO, "")
 
 
@@ -296,7 +296,7 @@ def test_a_map_of_other_versions_or_that_lost_an_axis_is_not_gone_on_with(in_til
 def test_a_map_with_another_contact_is_refused_before_the_first_toss(coin, tmp_path, made, asked):
     second = tmp_path / "map-mujoco.zarr"
     settings = replace(coin_mj.MANY, contact=Realisation(made))
-    with opened(second, map_sweep(engine=Engine.MUJOCO, settings=settings), SCENARIO, overwrite=False):
+    with opened(second, layout_of_map(map_sweep(engine=Engine.MUJOCO, settings=settings), SCENARIO), overwrite=False):
         pass
     assert xr.open_zarr(second, chunks=None).attrs["engine_settings"]["contact"] == made
     both = ("--compare", "--contact", asked, "--out", tmp_path / "map.zarr")
@@ -330,7 +330,7 @@ def test_only_a_place_for_a_map_is_accepted(tmp_path):
     (tmp_path / "link.zarr").symlink_to(tmp_path / "empty.zarr")
     for name, overwrite in (("new.zarr", False), ("link.zarr", True)):
         require_place(tmp_path / name, resume=False, overwrite=overwrite)
-        with opened(tmp_path / name, map_sweep(), SCENARIO, overwrite=overwrite):
+        with opened(tmp_path / name, layout_of_map(map_sweep(), SCENARIO), overwrite=overwrite):
             pass
     assert (tmp_path / "link.zarr").is_symlink()
     assert (tmp_path / "empty.zarr" / "outcome").is_dir()

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from cointoss.analytic.numerics.roots import bracket_between, is_narrow, narrowed, next_try
+from cointoss.models.kernel.roots import bracket_between, is_narrow, narrowed, next_try
 
 CASES = {
     "line": (lambda x: 0.3 - x, 0.3),
