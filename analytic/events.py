@@ -7,7 +7,7 @@ import numpy as np
 from cointoss.analytic.contact.automaton import Event, Mode, contact_at, margin_event, mode_after
 from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.edge.guards import comes_upright, stands_for_good
-from cointoss.analytic.contact.floor_laws import friction_in_contact, supports_contact
+from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.integrator import ContactStep, contact_work, step_contact
 from cointoss.analytic.contact.periodic import record_tilt, repeats, start_tilt_history
 from cointoss.analytic.contact.resets import (
@@ -27,6 +27,7 @@ from cointoss.analytic.flight.state_vector import STATE_SIZE, state_of
 from cointoss.analytic.flight.touch_search import Flown, is_chattering
 from cointoss.analytic.settings import ContactLimits
 from cointoss.models.body import Body, Rules, is_to_be_caught
+from cointoss.models.contact_laws.table import is_followed
 from cointoss.models.ending import classify_ending, endless, face_outcome, out_of_steps, unless_caught
 from cointoss.models.impact_row import FIRST_ROOM, ImpactRows, with_room
 from cointoss.models.kernel.arrays import Codes, Row, Table, copy_into, doubled
@@ -252,7 +253,7 @@ def fly_to_event(setup: Setup, y: Array, spent: Spent) -> Passage:
         return Passage(Event.IMPACT, spent, GOES_ON, flown)
     spent = Spent(spent.time, spent.impacts, spent.steps + 1)
     verdict = classified(setup, y, spent.time)
-    if verdict.ending == Ending.NONE and not supports_contact(rules.law):
+    if verdict.ending == Ending.NONE and not is_followed(rules.law):
         verdict = TossEnd(verdict.outcome, Ending.CHATTER)
     return Passage(Event.CHATTERS if verdict.ending == Ending.NONE else Event.ENDS, spent, verdict, flown)
 

@@ -18,11 +18,12 @@ from cointoss.coin_mj.path import Knots
 from cointoss.coin_mj.trust import lawful_impacts, shared_impacts
 from cointoss.models.body import Body, Rules
 from cointoss.models.certificate import InContact, energies, gaps, measurements
+from cointoss.models.contact_laws.table import is_rough, laws_that, quoted
 from cointoss.models.errors import require_type
 from cointoss.models.impact_row import FIRST_ROOM
 from cointoss.models.interruptible import interruptible
 from cointoss.models.kernel.vectors import Vector, cross, subtract
-from cointoss.models.laws import ContactLaw, RestitutionKind
+from cointoss.models.laws import RestitutionKind
 from cointoss.models.parts import RESISTANCES
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import (
@@ -40,7 +41,7 @@ from cointoss.models.records import (
 from cointoss.models.scenario import Scenario, keeping_all
 from cointoss.models.stages import stage
 
-REALISABLE = (ContactLaw.SMOOTH, ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH)
+REALISABLE = laws_that(lambda law: law.is_in_mujoco)
 SOFTER = (10.0, 30.0)
 """How many times softer the contacts are that tell how far a toss can be trusted."""
 _INTEGRATORS = "Tsitouras 5, in sustained contact RK4"
@@ -84,9 +85,8 @@ def require_supported(scenario: Scenario, *, settings: MujocoSettings) -> None:
     """
     floor = scenario.floor
     if floor.contact not in REALISABLE:
-        accepted = ", ".join(f'"{law}"' for law in REALISABLE)
         raise UnsupportedError(
-            f'floor.contact = "{floor.contact}": accepted by the MuJoCo engine: {accepted}'
+            f'floor.contact = "{floor.contact}": accepted by the MuJoCo engine: {quoted(REALISABLE)}'
         )
     if floor.restitution_kind != RestitutionKind.KINEMATIC:
         raise UnsupportedError(
@@ -177,9 +177,10 @@ def _toss(scenario: Scenario, rules: Rules, settings: MujocoSettings) -> Toss:
 
 def warn_of_approximation(scenario: Scenario) -> None:
     """Warn of what this engine tosses by something near to it."""
-    if scenario.floor.contact == ContactLaw.PERFECTLY_ROUGH:
+    law = scenario.floor.contact
+    if is_rough(law):
         warnings.warn(
-            f'floor.contact = "perfectly_rough": MuJoCo tosses on a floor of friction {ROUGH:g}',
+            f'floor.contact = "{law}": MuJoCo tosses on a floor of friction {ROUGH:g}',
             ApproximationWarning,
             stacklevel=3,
         )

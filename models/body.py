@@ -3,6 +3,7 @@
 import math
 from typing import Annotated, NamedTuple
 
+from cointoss.models.contact_laws.table import never_adds
 from cointoss.models.drag import Drag
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector
@@ -141,7 +142,7 @@ def never_adds_energy(rules: Rules) -> bool:
     """Return whether no impact adds energy: by proof, or as each is checked, of an exact law of one's own."""
     if rules.own.address != 0:
         return not rules.own.may_add_energy and rules.own.tolerance <= EXACT
-    return rules.law == ContactLaw.SMOOTH or rules.restitution_kind == RestitutionKind.ENERGETIC
+    return never_adds(rules.law) or rules.restitution_kind == RestitutionKind.ENERGETIC
 
 
 @compiled

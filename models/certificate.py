@@ -13,8 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.models.body import Body, Rules, in_vacuum
+from cointoss.models.contact_laws.law import Recorded
+from cointoss.models.contact_laws.table import LAWS
 from cointoss.models.kernel.vectors import Vector
-from cointoss.models.laws import ContactLaw, RestitutionKind
+from cointoss.models.laws import RestitutionKind
 from cointoss.models.records import Array, Flag, Impacts, Path, Setting, States, raised_flags
 from cointoss.models.scenario import Scenario
 
@@ -109,8 +111,8 @@ def law_residuals(body: Body, rules: Rules, impacts: Impacts) -> Array:
     """Return by how much each impact misses its contact law, (n,).
 
     Velocities relative to |v_A| before the impact, impulses relative to |S|. Newton's v_Az' = -χ v_Az, χ = 0
-    up to the threshold of restitution, and the law's own constraint; of Coulomb's law that |S_xy| <= μ S_z,
-    and with energetic restitution that no energy is gained. A flat landing's impulse is vertical.
+    up to the threshold of restitution, or with energetic restitution that no energy is gained, and the law's
+    own constraint, see its record. A flat landing's impulse is vertical.
 
     Args:
         body: the coin.
@@ -118,33 +120,14 @@ def law_residuals(body: Body, rules: Rules, impacts: Impacts) -> Array:
         impacts: of it.
     """
     before, after, S = impacts.contact_velocity_before, impacts.contact_velocity_after, impacts.impulse
-    speed, size = np.linalg.norm(before, axis=1), np.linalg.norm(S, axis=1)
     out = np.hypot(impacts.point[:, 0], impacts.point[:, 1])
-    flat = _lands_flat(body, impacts)
     edge = np.stack([-impacts.point[:, 1], impacts.point[:, 0], 0 * out], axis=1)
     tau = turned(impacts.quaternion, edge / np.where(out > 0, out, 1)[:, None])
     nu = np.stack([-tau[:, 1], tau[:, 0], 0 * out], axis=1)
-    horizontal = np.hypot(S[:, 0], S[:, 1])
-    law, mu = rules.law, rules.friction
-
-    def kept(direction: Array) -> Array:
-        return np.abs(_dot(after - before, direction)) / speed
-
-    def stopped(direction: Array) -> Array:
-        return np.abs(_dot(after, direction)) / speed
-
-    x_axis, y_axis = np.eye(3)[:2]
-    own = {
-        ContactLaw.SHARP_EDGE: lambda: np.maximum(stopped(nu), kept(tau)),
-        ContactLaw.KNURLED: lambda: np.maximum(stopped(tau), kept(nu)),
-        ContactLaw.PERFECTLY_ROUGH: lambda: np.hypot(stopped(x_axis), stopped(y_axis)),
-        ContactLaw.SLIP_PRESERVING: lambda: np.hypot(kept(x_axis), kept(y_axis)),
-        ContactLaw.SMOOTH: lambda: horizontal / size,
-        ContactLaw.SLIDING_FRICTION: lambda: _off_slip(before, S, mu) / size,
-        ContactLaw.COULOMB: lambda: np.maximum(horizontal - mu * S[:, 2], 0) / size,
-    }[law]()
-    own = np.where(flat, horizontal / size, own)
-    if law == ContactLaw.COULOMB and rules.restitution_kind == RestitutionKind.ENERGETIC:
+    recorded = Recorded(before, after, S, tau, nu, rules.friction)
+    speed, size = np.linalg.norm(before, axis=1), recorded.size
+    own = np.where(_lands_flat(body, impacts), recorded.horizontal / size, LAWS[rules.law].missed(recorded))
+    if rules.restitution_kind == RestitutionKind.ENERGETIC:
         return np.maximum(own, np.maximum(impacts.energy_change, 0) / (size * speed))
     return np.maximum(own, np.abs(after[:, 2] + _restitution(rules, impacts) * before[:, 2]) / speed)
 
@@ -295,13 +278,6 @@ def _restitution(rules: Rules, impacts: Impacts) -> Array:
     """Return χ of each impact: 0 up to the threshold of restitution, (n,)."""
     fast = -impacts.contact_velocity_before[:, 2] > rules.restitution_threshold
     return np.where(fast, rules.restitution, 0.0)
-
-
-def _off_slip(v_A: Array, S: Array, mu: float) -> Array:
-    """Return |S_xy + μ S_z u|, u the direction of the slip before, (n,) [N s]."""
-    slip = np.hypot(v_A[:, 0], v_A[:, 1])
-    u = v_A[:, :2] / np.where(slip > 0, slip, 1)[:, None]
-    return np.linalg.norm(S[:, :2] + mu * S[:, 2:] * u, axis=1)
 
 
 def _cross(a: Array, b: Array) -> Array:

@@ -21,10 +21,11 @@ from cointoss.models.body import (
     resists,
 )
 from cointoss.models.clearance import drag_bound
+from cointoss.models.contact_laws.table import is_followed, is_smooth, uses_friction
 from cointoss.models.geometry import tilt_sine_of
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, apply, dot, norm
-from cointoss.models.laws import ContactLaw, EndingTest
+from cointoss.models.laws import EndingTest
 from cointoss.models.perpetual import EnergyHistory, can_be_judged, energy_loss_converges
 from cointoss.models.records import Ending, Face, Outcome
 from cointoss.models.state import State
@@ -181,7 +182,7 @@ def settled_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Endin
     """
     v, w, up = state.velocity, state.spin, state.R[2]
     E, face = energy(body, state.position[2], v, w), face_outcome(state)
-    smooth = rules.law == ContactLaw.SMOOTH
+    smooth = is_smooth(rules.law)
     ending = Ending.SETTLED if never_adds_energy(rules) else Ending.PAPER
     tilt_sine = tilt_sine_of(up)
     on_face = _is_on_face(body, up)
@@ -259,14 +260,10 @@ def _lies(body: Body, rules: Rules, state: State) -> bool:
     # Upright a coin as thick as wide is as high as flat.
     if wobble > left * weight * body.radius or not _is_on_face(body, up):
         return False
-    if not (
-        rules.law == ContactLaw.COULOMB
-        or rules.law == ContactLaw.SMOOTH
-        or rules.law == ContactLaw.PERFECTLY_ROUGH
-    ):
+    if not is_followed(rules.law):
         return False
-    # On a face no law but Coulomb's acts on the slip, and resistance to pivoting on the spin.
-    mu = rules.friction if rules.law == ContactLaw.COULOMB else 0.0
+    # On a face no law without the floor's friction acts on the slip, and resistance to pivoting on the spin.
+    mu = rules.friction if uses_friction(rules.law) else 0.0
     k, arm, turn_drag = drag_bound(body, v, w, 0.0)
     drag = k * (norm(v) + arm * norm(w))
     rubbing = mu * weight * body.radius + rules.pivoting_friction * weight

@@ -8,6 +8,7 @@ from cointoss.models.attitude import Quaternion, norm_of
 from cointoss.models.barriers import highest_on_floor
 from cointoss.models.body import Body, Rules
 from cointoss.models.clearance import damping_rate
+from cointoss.models.contact_laws.table import is_followed, laws_that, may_be_energetic, quoted
 from cointoss.models.geometry import gap
 from cointoss.models.inertia import is_positive_definite, obeys_triangle_inequality, principal_moments
 from cointoss.models.kernel.compiled import compiled
@@ -52,7 +53,7 @@ class Fault(IntEnum):
 
 _RESISTANCE_LAW = (
     '0 with contact = "{contact}", which is not followed into sustained contact; '
-    'a length with "smooth", "coulomb", "perfectly_rough"'
+    f"a length with {quoted(laws_that(lambda law: law.is_followed))}"
 )
 _RESISTANCES = (
     "lengths with sqrt(rolling_friction^2 + pivoting_friction^2) < 2 sqrt(J/m) = {limit:.6g} m, "
@@ -83,7 +84,8 @@ ACCEPTED = {
     ),
     Fault.KIND: (
         "floor.restitution_kind",
-        '"kinematic" with contact = "{contact}"; "energetic" only with "coulomb"',
+        '"kinematic" with contact = "{contact}"; "energetic" only with '
+        + quoted(laws_that(lambda law: law.may_be_energetic)),
     ),
     Fault.ROLLING_LAW: ("floor.rolling_friction", _RESISTANCE_LAW),
     Fault.PIVOTING_LAW: ("floor.pivoting_friction", _RESISTANCE_LAW),
@@ -159,12 +161,11 @@ def fault_of_inertia(cylinder: Cylinder, J: Matrix, is_given: bool) -> FoundFaul
 @compiled
 def fault_of_floor(law: ContactLaw, kind: RestitutionKind, rolling: float, pivoting: float) -> FoundFault:
     """Return what is wrong with a floor's kind of restitution and its resistances [m]."""
-    if kind == RestitutionKind.ENERGETIC and law != ContactLaw.COULOMB:
+    if kind == RestitutionKind.ENERGETIC and not may_be_energetic(law):
         return FoundFault(Fault.KIND, 0.0)
-    is_followed = law == ContactLaw.SMOOTH or law == ContactLaw.COULOMB or law == ContactLaw.PERFECTLY_ROUGH
-    if rolling > 0 and not is_followed:
+    if rolling > 0 and not is_followed(law):
         return FoundFault(Fault.ROLLING_LAW, 0.0)
-    if pivoting > 0 and not is_followed:
+    if pivoting > 0 and not is_followed(law):
         return FoundFault(Fault.PIVOTING_LAW, 0.0)
     return _NOTHING
 

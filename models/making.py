@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 from cointoss.models.body import AirLaw, Body
+from cointoss.models.contact_laws.table import hardly_adds_energy, never_adds
 from cointoss.models.drag import linear_drag, sliding_share
 from cointoss.models.inertia import cylinder_inertia, inertia_about_mass_center, inverse, principal_moments
 from cointoss.models.kernel.compiled import compiled
@@ -11,8 +12,8 @@ from cointoss.models.laws import ContactLaw, RestitutionKind
 
 # More impacts than a coin needs that loses energy; and enough of one that may never lose any.
 MOST_IMPACTS, MOST_LOSSLESS = 30_000_000, 1_000_000
-# Up to this kinematic restitution `coulomb` and its limit add energy in hardly an impact.
 _TAKING = 0.7
+"""Up to this kinematic restitution the laws that hardly add energy do so in hardly an impact."""
 
 
 class Cylinder(NamedTuple):
@@ -73,8 +74,7 @@ def most_impacts(law: ContactLaw, kind: RestitutionKind, restitution: float) -> 
 
     docs/CONTACT.md says which laws take energy, and add none or hardly any.
     """
-    is_rouths = law == ContactLaw.COULOMB or law == ContactLaw.PERFECTLY_ROUGH
-    takes_energy = is_rouths and restitution <= _TAKING
-    if law == ContactLaw.SMOOTH or kind == RestitutionKind.ENERGETIC:
+    takes_energy = hardly_adds_energy(law) and restitution <= _TAKING
+    if never_adds(law) or kind == RestitutionKind.ENERGETIC:
         takes_energy = restitution < 1
     return MOST_IMPACTS if takes_energy else MOST_LOSSLESS

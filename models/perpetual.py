@@ -7,9 +7,10 @@ import numpy as np
 
 from cointoss.models.barriers import barrier, energy, energy_without_spin, spin_barrier
 from cointoss.models.body import Body, Rules, in_vacuum, resists
+from cointoss.models.contact_laws.table import is_smooth
 from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.laws import ContactLaw, EndingTest
+from cointoss.models.laws import EndingTest
 from cointoss.models.records import Array
 from cointoss.models.state import State
 
@@ -106,7 +107,7 @@ def _energy_and_need(body: Body, rules: Rules, state: State) -> tuple[float, flo
     if rules.test == EndingTest.PAPER:
         return E, body.mass * body.gravity * body.radius
     needed = max(barrier(body, 1.0), barrier(body, -1.0))
-    if rules.law != ContactLaw.SMOOTH:
+    if not is_smooth(rules.law):
         return E, needed
     E -= body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
     return E, max(needed, spin_barrier(body, state.R[2], w))

@@ -2,10 +2,10 @@
 
 import warnings
 
-from cointoss.models.laws import ContactLaw
+from cointoss.models.contact_laws.table import laws_that
 from cointoss.models.parts import Air, Floor
 
-_WITH_FRICTION = (ContactLaw.SLIDING_FRICTION, ContactLaw.COULOMB)
+_WITH_FRICTION = laws_that(lambda law: law.uses_friction)
 
 
 class UnusedFieldWarning(UserWarning):

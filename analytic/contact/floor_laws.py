@@ -1,9 +1,9 @@
-"""The contact laws that hold a coin in sustained contact, and their friction there."""
+"""The floor's friction in sustained contact, by its contact law."""
 
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.models.body import Rules
+from cointoss.models.contact_laws.table import is_followed, is_rough, uses_friction
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.laws import ContactLaw
 
 # In sustained contact a perfectly rough floor is nearly the limit of Coulomb's: it lets go a point that it
 # could only hold by pulling.
@@ -11,15 +11,9 @@ _ROUGH = 1e4
 
 
 @compiled
-def supports_contact(law: ContactLaw) -> bool:
-    """Return whether a law supports sustained contact: a smooth, a Coulomb and a perfectly rough floor do."""
-    return law == ContactLaw.SMOOTH or law == ContactLaw.COULOMB or law == ContactLaw.PERFECTLY_ROUGH
-
-
-@compiled
 def friction_in_contact(rules: Rules) -> FloorFriction:
-    """Return the `FloorFriction` of sustained contact: none on slip if smooth, large if perfectly rough."""
-    mu = rules.friction if rules.law == ContactLaw.COULOMB else 0.0
-    if rules.law == ContactLaw.PERFECTLY_ROUGH:
+    """Return the `FloorFriction` of sustained contact: the floor's if its law uses it, large if rough."""
+    mu = rules.friction if is_followed(rules.law) and uses_friction(rules.law) else 0.0
+    if is_rough(rules.law):
         mu = _ROUGH
     return FloorFriction(mu, rules.rolling_friction, rules.pivoting_friction)

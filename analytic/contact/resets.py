@@ -21,11 +21,11 @@ from cointoss.analytic.flight.state_vector import (
     set_velocity,
     state_of,
 )
-from cointoss.analytic.impact.coulomb import coulomb
 from cointoss.analytic.impact.laws import ImpactPoint, impulse, spin_gained
 from cointoss.analytic.numerics.tolerances import SLOW
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import Body, Rules
+from cointoss.models.contact_laws.coulomb import coulomb
 from cointoss.models.geometry import FLAT_SINE, contact_velocity, evaluate_gap, lowest_point
 from cointoss.models.impact_row import write_impact
 from cointoss.models.kernel.compiled import compiled

@@ -29,12 +29,12 @@ from cointoss.analytic.numerics.householder import reflect_to_triangle
 from cointoss.analytic.numerics.tolerances import TIME_STEP, TOUCH
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import Body, Rules
+from cointoss.models.contact_laws.table import jumps_without_slip
 from cointoss.models.geometry import FLAT_SINE
 from cointoss.models.impact_row import ImpactRows
 from cointoss.models.kernel.arrays import Table, copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import norm
-from cointoss.models.laws import ContactLaw
 from cointoss.models.records import Array
 
 STEP_ERROR = 1e-15
@@ -316,7 +316,7 @@ def _holds(rules: Rules, row: Any, touch: TouchDerivatives, errors: Array) -> bo
         # Flat, the coin has no one lowest point, unless it is kept so exactly and does not turn.
         in_place = tilted == 0 and _size_of(touch.contact_velocity[:2], errors) == 0
     else:
-        slips = rules.law == ContactLaw.SLIDING_FRICTION and rules.friction > 0
+        slips = jumps_without_slip(rules.law) and rules.friction > 0
         in_place = tilted <= LINEAR_RANGE * tilt_sine and not (slips and v_A[0] == 0 and v_A[1] == 0)
     speed, threshold = abs(v_A[2]), rules.restitution_threshold
     closing = _size_of(touch.contact_velocity[2:], errors)

@@ -16,11 +16,11 @@ from cointoss.analytic.flight.state_vector import (
 )
 from cointoss.analytic.numerics.rotation import quaternion_rate, turn_of
 from cointoss.models.body import Body, Rules
+from cointoss.models.contact_laws.table import uses_friction
 from cointoss.models.geometry import FLAT_SINE, contact_velocity, gap, lowest_point, tilt_sine_of
 from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, apply, cross, dot, norm, scale, subtract
-from cointoss.models.laws import ContactLaw
 from cointoss.models.records import Array
 
 STEP = 1e-5
@@ -115,8 +115,7 @@ def step_size(body: Body, rules: Rules, y: Array, v_A: Vector) -> float:
     distance = abs(up[2])
     if tilt_sine > FLAT_SINE:
         distance *= tilt_sine
-    rubs = rules.law == ContactLaw.SLIDING_FRICTION or rules.law == ContactLaw.COULOMB
-    if rubs or rules.own.address != 0:
+    if uses_friction(rules.law) or rules.own.address != 0:
         distance *= abs(v_A[2]) / speed
         if slip > 0:
             distance *= slip / speed

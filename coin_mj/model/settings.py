@@ -8,7 +8,7 @@ from typing import NamedTuple, cast
 
 from scipy.optimize import brentq
 
-from cointoss.models.laws import ContactLaw
+from cointoss.models.contact_laws.table import is_rough, uses_friction
 from cointoss.models.parts import Floor
 
 ROUGH = 100.0
@@ -200,7 +200,9 @@ def plastic_rebound(rebound: Rebound, settings: MujocoSettings) -> Rebound:
 
 def friction_of(floor: Floor) -> float:
     """Return the coefficient of friction μ with which MuJoCo stands for a floor."""
-    return {ContactLaw.COULOMB: floor.friction, ContactLaw.PERFECTLY_ROUGH: ROUGH}.get(floor.contact, 0.0)
+    if is_rough(floor.contact):
+        return ROUGH
+    return floor.friction if uses_friction(floor.contact) else 0.0
 
 
 def restitution_of(zeta: float) -> float:

@@ -70,9 +70,10 @@ class _Compiled:
         """What numba takes this for where a compiled function calls it."""
         return self.dispatcher._numba_type_
 
-    def __reduce__(self) -> str:
-        """Return the function by its name."""
-        return self.py_func.__qualname__
+    def __reduce__(self) -> str | tuple[Any, ...]:
+        """Return the function by its name, or, where another has made it, by what it is made of."""
+        name = self.py_func.__qualname__
+        return (compiled, (self.py_func,)) if "<locals>" in name else name
 
     def __repr__(self) -> str:
         """Return what it is and of which function."""

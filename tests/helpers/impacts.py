@@ -6,7 +6,9 @@ from cointoss import analytic
 from cointoss.analytic.contact.resets import hit
 from cointoss.analytic.impact.laws import delassus
 from cointoss.models.attitude import rotation_matrix
+from cointoss.models.contact_laws.law import Impact
 from cointoss.models.geometry import contact_velocity, lowest_point
+from cointoss.models.laws import RestitutionKind
 from cointoss.models.records import IMPACT_ROW
 from tests.helpers.draws import draw_coin, draw_quaternion, draw_release, scenario
 from tests.helpers.tuples import quaternion, vector
@@ -19,6 +21,11 @@ def draw_contact(rng):
     point, _ = lowest_point(body, R[2], (1.0, 2.0, 3.0))
     arm = np.array(R) @ (np.array(point) - body.center)
     return delassus(body, R, vector(arm)), (*rng.uniform(-2, 2, 2), -rng.uniform(0.2, 3))
+
+
+def asked(K, v, chi, mu=0.0):
+    """What a contact law is given of an impact at a point of no edge, with kinematic restitution."""
+    return Impact(K, v, (0.0, 0.0, 0.0), chi, mu, RestitutionKind.KINEMATIC)
 
 
 def draw_impact(rng, law, restitution=None):

@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
-from cointoss.analytic.impact.laws import delassus, sliding_friction
+from cointoss.analytic.impact.laws import delassus
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.barriers import energy
+from cointoss.models.contact_laws import sliding_friction
 from cointoss.models.laws import ContactLaw
 from cointoss.models.records import Ending
 from tests.helpers.draws import PAPER_LAWS, scenario
-from tests.helpers.impacts import draw_impact, struck
+from tests.helpers.impacts import asked, draw_impact, struck
 
 COUNT = 200
 
@@ -120,12 +121,12 @@ def test_painleves_case_has_no_solution_and_says_so():
     K = ((1500.0, 0.0, -900.0), (0.0, 1500.0, 0.0), (-900.0, 0.0, 1000.0))
     against_the_edge = (-1.0, 0.0, -1.0)
     # Along (mu, 0, 1) the velocity gained is 1000 - 900 mu: positive up to mu = 10/9.
-    S, possible = sliding_friction(K, against_the_edge, 0.5, 1.0)
+    S, possible = sliding_friction.impulse(asked(K, against_the_edge, 0.5, 1.0))
     assert possible
     assert S == pytest.approx([1.5 / 100, 0, 1.5 / 100], rel=1e-12)
-    S, possible = sliding_friction(K, against_the_edge, 0.5, 1.2)
+    S, possible = sliding_friction.impulse(asked(K, against_the_edge, 0.5, 1.2))
     assert not possible
     assert S == (0.0, 0.0, 0.0)
     # And where friction takes just all of the normal motion.
     K = ((1500.0, 0.0, -800.0), (0.0, 1500.0, 0.0), (-800.0, 0.0, 1000.0))
-    assert sliding_friction(K, against_the_edge, 0.5, 1.25) == ((0.0, 0.0, 0.0), False)
+    assert sliding_friction.impulse(asked(K, against_the_edge, 0.5, 1.25)) == ((0.0, 0.0, 0.0), False)

@@ -123,7 +123,10 @@ def test_the_impulse_is_the_integral_of_the_contact_force():
 @pytest.mark.parametrize(
     ("parts", "words"),
     [
-        ({"floor": {"contact": "knurled"}}, ['floor.contact = "knurled"', '"smooth", "coulomb", "perf']),
+        (
+            {"floor": {"contact": "knurled"}},
+            ['floor.contact = "knurled"', '"perfectly_rough", "smooth", "coul'],
+        ),
         (
             {"floor": {"contact": "coulomb", "restitution_kind": "energetic"}},
             ['floor.restitution_kind = "energetic"', '"kinematic"'],

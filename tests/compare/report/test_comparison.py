@@ -36,7 +36,7 @@ def test_what_mujoco_cannot_toss_is_a_comparison_that_says_why():
     assert isinstance(alone, Comparison)
     assert (alone.mujoco, alone.tosses) == (None, (alone.analytic,))
     reason = (
-        'floor.contact = "knurled": accepted by the MuJoCo engine: "smooth", "coulomb", "perfectly_rough"'
+        'floor.contact = "knurled": accepted by the MuJoCo engine: "perfectly_rough", "smooth", "coulomb"'
     )
     assert alone.not_realisable == reason
     for name in DERIVED:

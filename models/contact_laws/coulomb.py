@@ -11,10 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cointoss.analytic.impact.slip_stop import SlipStop, expand_stop, impulse_until, room_for_stop
-from cointoss.models.kernel.roots import bracket_between, is_narrow, narrowed, next_try
+from cointoss.models.contact_laws.law import Impact, Law, Recorded
+from cointoss.models.contact_laws.slip_stop import SlipStop, expand_stop, impulse_until, room_for_stop
 from cointoss.models.kernel.arrays import Array, copy_into
 from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.roots import bracket_between, is_narrow, narrowed, next_try
 from cointoss.models.kernel.vectors import Matrix, Vector, apply, norm
 from cointoss.models.laws import RestitutionKind
 
@@ -410,3 +411,25 @@ def resisted(K: Matrix, mu: float, growth: float, coupling: tuple[float, float])
     determinant = xx * yy - xy * xy
     x, y = coupling
     return (yy * x - xy * y) / determinant, (xx * y - xy * x) / determinant
+
+
+@compiled
+def impulse(A: Impact) -> tuple[Vector, bool]:
+    """Return the impulse of Coulomb friction integrated through the impact; there is always one."""
+    return coulomb(A.delassus, A.velocity, A.restitution, A.friction, A.restitution_kind), True
+
+
+def missed(impacts: Recorded) -> Array:
+    """Return by how much |S_xy| exceeds μ S_z."""
+    return np.maximum(impacts.horizontal - impacts.friction * impacts.impulse[:, 2], 0) / impacts.size
+
+
+LAW = Law(
+    impulse,
+    missed,
+    uses_friction=True,
+    is_followed=True,
+    hardly_adds_energy=True,
+    may_be_energetic=True,
+    is_in_mujoco=True,
+)

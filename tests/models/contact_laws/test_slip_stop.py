@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from cointoss.analytic.impact.slip_stop import (
+from cointoss.models.contact_laws.slip_stop import (
     BEFORE,
     Q,
     expand_stop,
