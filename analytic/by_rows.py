@@ -20,7 +20,7 @@ from cointoss.models.kernel.compiled import compiled
 from cointoss.models.making import MOST_LOSSLESS
 from cointoss.models.records import IMPACT_ROW
 from cointoss.models.rows import (
-    AIR_EXPONENT,
+    AT,
     REFUSED,
     bodies_alike,
     body_of,
@@ -60,7 +60,7 @@ def toss_rows(rows: Table, own: OwnCode, limits: ContactLimits, wanted: int, ans
         if has_linear_air(rows[first]):
             _toss_run(body_of(rows[first], None), some, own, limits, wanted, impacts, y, answers[first:end])
         else:
-            body = body_of(rows[first], rows[first, AIR_EXPONENT])
+            body = body_of(rows[first], rows[first, AT.air_exponent])
             _toss_run(body, some, own, limits, wanted, impacts, y, answers[first:end])
         first = end
 
@@ -143,7 +143,7 @@ def toss_one(row: Row, answer: Row, impacts: Table, pieces: Table, sizes: Row) -
     if has_linear_air(row):
         _toss_one(body_of(row, None), row, answer, impacts, pieces, sizes)
     else:
-        _toss_one(body_of(row, row[AIR_EXPONENT]), row, answer, impacts, pieces, sizes)
+        _toss_one(body_of(row, row[AT.air_exponent]), row, answer, impacts, pieces, sizes)
 
 
 @compiled
@@ -179,7 +179,7 @@ def sample_path(row: Row, pieces: Table, times: Row, states: Table, more: Table)
     if has_linear_air(row):
         _sample_path(body_of(row, None), row, pieces, times, states, more)
     else:
-        _sample_path(body_of(row, row[AIR_EXPONENT]), row, pieces, times, states, more)
+        _sample_path(body_of(row, row[AT.air_exponent]), row, pieces, times, states, more)
 
 
 @compiled

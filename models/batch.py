@@ -8,9 +8,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from cointoss.models.entries import examine_each
 from cointoss.models.errors import ends_of
-from cointoss.models.fields import COMPONENTS
+from cointoss.models.fields import COMPONENTS, FIELDS, PLACES, WORDED
 from cointoss.models.kernel.arrays import Array
-from cointoss.models.rows import FIELDS, FIRST, PLACES, WORDED, row_of
+from cointoss.models.rows import FIRST, row_of
 from cointoss.models.scenario import Scenario
 
 PLACE = {field: i for i, field in enumerate(FIELDS)}

@@ -1,6 +1,7 @@
 """A scenario's coin, air and floor as plain numbers for compiled code."""
 
 import math
+from collections.abc import Callable
 from typing import Annotated, NamedTuple
 
 from cointoss.models.contact_laws.table import never_adds
@@ -80,23 +81,26 @@ class Rules(NamedTuple):
     """Height at which the toss ends as C comes down to it; infinite where it is not caught."""
 
 
+def _replacing(name: str) -> Callable[[Rules, float], Rules]:
+    """Return a compiled function that gives the rules with another value of a field."""
+    place = Rules._fields.index(name)
+    after = place + 1
+
+    @compiled
+    def replaced(rules: Rules, value: float) -> Rules:
+        return Rules(*rules[:place], value, *rules[after:])  # pyright: ignore[reportCallIssue]
+
+    return replaced
+
+
+_with_max_impacts, _with_max_time = _replacing("max_impacts"), _replacing("max_time")
+_with_restitution, _with_friction = _replacing("restitution"), _replacing("friction")
+
+
 @compiled
 def with_budgets(rules: Rules, max_impacts: int, max_time: float) -> Rules:
     """Return the rules with other budgets."""
-    return Rules(
-        rules.law,
-        rules.own,
-        rules.restitution,
-        rules.restitution_threshold,
-        rules.restitution_kind,
-        rules.friction,
-        rules.rolling_friction,
-        rules.pivoting_friction,
-        rules.test,
-        max_impacts,
-        max_time,
-        rules.caught,
-    )
+    return _with_max_time(_with_max_impacts(rules, max_impacts), max_time)
 
 
 @compiled
@@ -121,20 +125,7 @@ def with_own_law(rules: Rules, own: OwnCode) -> Rules:
 @compiled
 def with_floor(rules: Rules, chi: float, mu: float) -> Rules:
     """Return the same rules with another restitution χ and friction μ."""
-    return Rules(
-        rules.law,
-        rules.own,
-        chi,
-        rules.restitution_threshold,
-        rules.restitution_kind,
-        mu,
-        rules.rolling_friction,
-        rules.pivoting_friction,
-        rules.test,
-        rules.max_impacts,
-        rules.max_time,
-        rules.caught,
-    )
+    return _with_friction(_with_restitution(rules, chi), mu)
 
 
 @compiled

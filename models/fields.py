@@ -1,89 +1,112 @@
-"""What a dotted field of a scenario means: its table, key and component, its word and its unit."""
+"""The fields of a scenario as its parts declare them: their words, units, and places in a row of numbers."""
 
 import math
-import re
-from typing import Any
+from collections.abc import Iterator, Mapping
+from typing import Any, get_args
 
 import numpy as np
 from pydantic import BaseModel
 
 from cointoss.models.errors import ScenarioError, shown
+from cointoss.models.parts import (
+    BODY,
+    Air,
+    Coin,
+    EndingCriteria,
+    Floor,
+    Gravity,
+    Label,
+    Part,
+    Quantity,
+    Release,
+)
 from cointoss.models.units import in_si
+from cointoss.models.words import Word
 
-SPACE, BODY = ("x", "y", "z"), ("xi", "eta", "zeta")
-COMPONENTS = {
-    "coin.center_of_mass": BODY,
-    "release.position": SPACE,
-    "release.velocity": SPACE,
-    "release.angles": ("psi", "theta", "phi"),
-    "release.quaternion": ("e0", "e1", "e2", "e3"),
-    "release.angular_velocity": BODY,
+TABLES: Mapping[str, type[Part]] = {
+    "coin": Coin,
+    "air": Air,
+    "floor": Floor,
+    "release": Release,
+    "ending": EndingCriteria,
 }
+"""The tables of a scenario file."""
+Place = tuple[str | int, ...]
+"""Where a number or a word stands in the tables: table, key, and index or indices in a list."""
+
+
+def _declared() -> Iterator[tuple[str, Any, tuple[Any, ...]]]:
+    """Yield each field that a table has, its type, and what is declared of it beside the type."""
+    yield "gravity", *_split_annotation(Gravity)
+    for table, part in TABLES.items():
+        for key, field in part.model_fields.items():
+            yield f"{table}.{key}", field.annotation, tuple(field.metadata)
+
+
+def _split_annotation(hint: Any) -> tuple[Any, tuple[Any, ...]]:
+    kind, *declared = get_args(hint)
+    return kind, tuple(declared)
+
+
+def _label_in(declared: tuple[Any, ...]) -> Label | None:
+    return next((each for each in declared if isinstance(each, Label)), None)
+
+
+def _units_in(declared: tuple[Any, ...]) -> Iterator[str]:
+    """Yield the units of the quantities in an annotation, those of a list's entries too."""
+    for each in declared:
+        if isinstance(each, Quantity):
+            yield each.unit
+        yield from _units_in(get_args(each))
+
+
+_DECLARED = {path: (kind, declared, _label_in(declared)) for path, kind, declared in _declared()}
+COMPONENTS = {path: tuple(label.each) for path, (_, _, label) in _DECLARED.items() if label and label.each}
 """The fields that are lists of numbers, and what their components are called."""
-_ZERO = (0.0, 0.0, 0.0)
-_DEFAULTS = {
-    "coin.center_of_mass": _ZERO,
-    "release.velocity": _ZERO,
-    "release.angles": _ZERO,
-    "release.quaternion": (1.0, 0.0, 0.0, 0.0),
-    "release.angular_velocity": _ZERO,
-}
-_OTHER_ATTITUDE = {"release.angles": "quaternion", "release.quaternion": "angles"}
 
 
-def lambda_unit(exponent: float) -> str:
-    """Return the SI unit of λ_n and λ_τ, in pint's spelling.
-
-    Args:
-        exponent: b.
-    """
-    return f"kg*m**{-2 - exponent:.15g}*s**{exponent - 1:.15g}"
-
-
-def _components(path: str, unit: str, *words: str) -> dict[str, tuple[str, str]]:
-    return {f"{path}.{name}": (word, unit) for name, word in zip(COMPONENTS[path], words, strict=True)}
+def _words_and_units() -> Iterator[tuple[str, str, str]]:
+    for path, (kind, declared, label) in _DECLARED.items():
+        if label is None:
+            continue
+        unit = label.unit or next(_units_in((*declared, kind)), "")
+        if not label.each:
+            yield path, label.word, unit
+        for name, word in label.each.items():
+            yield f"{path}.{name}", word, unit
 
 
-_NUMBERS = {
-    "gravity": ("gravity g", "m/s**2"),
-    "coin.mass": ("mass", "kg"),
-    "coin.radius": ("radius", "m"),
-    "coin.thickness": ("thickness", "m"),
-    **_components("coin.center_of_mass", "m", *(f"mass centre {axis}" for axis in "ξηζ")),
-    "air.exponent": ("exponent b of the air", ""),
-    "air.normal": ("pressure λ_n of the air", lambda_unit(0)),
-    "air.tangential": ("friction λ_τ of the air", lambda_unit(0)),
-    "floor.restitution": ("restitution χ", ""),
-    "floor.restitution_threshold": ("restitution threshold", "m/s"),
-    "floor.friction": ("friction μ", ""),
-    "floor.rolling_friction": ("rolling friction δ", "m"),
-    "floor.pivoting_friction": ("pivoting friction p", "m"),
-    **_components("release.position", "m", "position x", "position y", "height"),
-    **_components("release.velocity", "m/s", "velocity x", "velocity y", "velocity z"),
-    **_components("release.angles", "rad", "angle ψ", "tilt θ", "angle φ"),
-    **_components(
-        "release.quaternion", "", *(f"Euler parameter {name}" for name in ("e₀", "e₁", "e₂", "e₃"))
-    ),
-    **_components("release.angular_velocity", "rad/s", *(f"spin about {axis}" for axis in "ξηζ")),
-    "ending.max_impacts": ("most impacts", ""),
-    "ending.max_time": ("time limit", "s"),
-    "ending.caught": ("height of the catch", "m"),
-}
-WORDS = {field: word for field, (word, _) in _NUMBERS.items()}
+WORDS = {field: word for field, word, _ in _words_and_units()}
 """What a person calls the fields that are one number."""
-UNITS = {field: unit for field, (_, unit) in _NUMBERS.items()}
+UNITS = {field: unit for field, _, unit in _words_and_units()}
 """SI units of these fields, in pint's spelling; those of λ are for b = 0."""
-_RAISED = str.maketrans("-.0123456789", "⁻·⁰¹²³⁴⁵⁶⁷⁸⁹")
+WORDED: Mapping[str, type[Word]] = {
+    path: kind
+    for path, (kind, _, _) in _DECLARED.items()
+    if isinstance(kind, type) and issubclass(kind, Word)
+}
+"""Fields that are a word, in a row its integer."""
 
 
-def printed_unit(unit: str) -> str:
-    """Return a unit as a person writes it, such as "kg m⁻² s⁻¹".
+def _places() -> Iterator[tuple[str, Place]]:
+    for path in _DECLARED:
+        place = tuple(path.split("."))
+        if path == "coin.inertia":
+            for i, row in enumerate(BODY):
+                yield from ((f"{path}.{row}.{name}", (*place, i, k)) for k, name in enumerate(BODY))
+        elif path in COMPONENTS:
+            yield from ((f"{path}.{name}", (*place, i)) for i, name in enumerate(COMPONENTS[path]))
+        else:
+            yield path, place
 
-    Args:
-        unit: in pint's spelling.
-    """
-    raised = re.sub(r"\*\*(-?[0-9.]+)", lambda power: power[1].translate(_RAISED), unit)
-    return raised.replace("*", " ")
+
+PLACES = dict(_places())
+"""Of each number and each word in a scenario file."""
+FIELDS = tuple(PLACES)
+"""By their places in a row of numbers, where what a scenario does not have is not a number."""
+_OTHER_ATTITUDE = {"release.angles": "quaternion", "release.quaternion": "angles"}
+_FLAT = {"release.angles": (0.0, 0.0, 0.0), "release.quaternion": (1.0, 0.0, 0.0, 0.0)}
+"""The attitude of a release that gives none."""
 
 
 def split(field: str) -> tuple[str, str, int | None]:
@@ -131,7 +154,7 @@ def put(data: dict[str, Any], field: str, value: Any) -> None:
     if index is not None:
         whole = part.get(key)
         if whole is None:
-            whole = _DEFAULTS.get(path)
+            whole = _FLAT.get(path, TABLES[table].model_fields[key].default)
         if not isinstance(whole, list | tuple | np.ndarray):
             return  # it is refused as a whole
         value = [value if i == index else entry for i, entry in enumerate(whole)]
@@ -148,7 +171,7 @@ def _of_size(data: dict[str, Any], size: Any) -> list[float]:
     """
     release = data.get("release")
     spin = release.get("angular_velocity") if isinstance(release, dict) else None
-    own = [float(w) for w in spin or _ZERO]
+    own = [float(w) for w in spin or (0.0, 0.0, 0.0)]
     if not any(own):
         accepted = ", ".join(f"release.angular_velocity.{name}" for name in BODY)
         raise ScenarioError(f"release.spin = {shown(size)}: the coin has no axis; accepted: {accepted}")

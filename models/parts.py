@@ -1,6 +1,7 @@
 """The parts of a scenario: coin, air, floor, release and ending; frozen, and validated when made."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Annotated, Any, Self
 
 import numpy as np
@@ -28,12 +29,11 @@ from cointoss.models.faults import (
     fault_of_inertia,
     fault_of_quaternion,
 )
-from cointoss.models.fields import lambda_unit, split
 from cointoss.models.kernel.vectors import Matrix, Vector
 from cointoss.models.laws import ContactLaw, EndingTest, RestitutionKind
 from cointoss.models.making import MOST_IMPACTS, Cylinder, moved_inertia
 from cointoss.models.state import State, state
-from cointoss.models.units import in_si
+from cointoss.models.units import in_si, lambda_unit
 from cointoss.models.words import Word
 
 
@@ -47,8 +47,32 @@ def _named(kind: type[Word]) -> Callable[[Any], Any]:
     return member
 
 
-def _quantity(unit: str) -> BeforeValidator:
-    return BeforeValidator(lambda value: in_si(value, unit) if isinstance(value, str) else value)
+@dataclass(frozen=True)
+class Label:
+    """What people call a field that is a number, or each component of one that is a list of them."""
+
+    word: str = ""
+    each: Mapping[str, str] = field(default_factory=dict)
+    """Of a list: the components by their names, and their words."""
+    unit: str = ""
+    """SI unit, in pint's spelling, where the field's `Quantity` does not say it."""
+
+
+def _each(what: str = "", **words: str) -> Label:
+    """Return the label of a list: `what`, if anything, and the word of each component by its name."""
+    return Label(each={name: f"{what} {word}".strip() for name, word in words.items()})
+
+
+@dataclass(frozen=True)
+class Quantity(BeforeValidator):
+    """Reads a string, such as "1 cm/s", in an SI unit."""
+
+    unit: str = ""
+    """In pint's spelling."""
+
+
+def _quantity(unit: str) -> Quantity:
+    return Quantity(lambda value: in_si(value, unit) if isinstance(value, str) else value, unit=unit)
 
 
 def _list_of(count: int, accepted: str) -> BeforeValidator:
@@ -75,7 +99,7 @@ Length = Annotated[float, _quantity("m"), _within]
 Speed = Annotated[float, _quantity("m/s"), _within]
 Angle = Annotated[float, _quantity("rad"), Field(ge=-LARGEST_ANGLE, le=LARGEST_ANGLE)]
 Spin = Annotated[float, _quantity("rad/s")]
-Acceleration = Annotated[float, _quantity("m/s**2"), _size]
+Gravity = Annotated[float, _quantity("m/s**2"), _size, Label("gravity g")]
 Inertia = Annotated[float, _quantity("kg*m**2"), _within]
 _Lengths = tuple[Length, Length, Length]
 Offset = Annotated[_Lengths, _list_of(3, 'lengths, such as [0, 0, "0.1 mm"]')]
@@ -93,6 +117,8 @@ _Rows = Annotated[
 ]
 _AS_WORD = PlainSerializer(str, when_used="json")
 _ZERO = (0.0, 0.0, 0.0)
+BODY = ("xi", "eta", "zeta")
+"""The names of the body axes."""
 RESISTANCES = ("rolling_friction", "pivoting_friction")
 """The fields of a floor that resist the motion of a coin in sustained contact."""
 
@@ -149,24 +175,36 @@ def refuse(found: FoundFault, part: Part, **words: str) -> None:
     if found.fault == Fault.NONE:
         return
     field, accepted = ACCEPTED[found.fault]
-    table, key, index = split(field)
-    is_whole = table in type(part).model_fields
-    value = getattr(getattr(part, table) if is_whole else part, key)
-    value = str(value) if isinstance(value, Word) else value if index is None else value[index]
-    name = field if is_whole else field.removeprefix(f"{table}.")
-    raise FieldError(name, value, accepted.format(limit=found.limit, **words))
+    names = field.split(".")
+    if names[0] not in type(part).model_fields:
+        del names[0]  # the part's own table
+    value: Any = part
+    components: tuple[str, ...] = ()
+    for name in names:
+        if components:
+            value = value[components.index(name)]
+        else:
+            value, components = getattr(value, name), _components_of(value, name)
+    value = str(value) if isinstance(value, Word) else value
+    raise FieldError(".".join(names), value, accepted.format(limit=found.limit, **words))
+
+
+def _components_of(part: Part, key: str) -> tuple[str, ...]:
+    """Return the names of a field's components, none of one that is no list."""
+    labels = [each for each in type(part).model_fields[key].metadata if isinstance(each, Label)]
+    return tuple(labels[0].each) if labels else ()
 
 
 class Coin(Part):
     """A cylinder of radius r and thickness h whose mass centre C may lie off its geometric centre B."""
 
-    mass: Annotated[Mass, _size]
+    mass: Annotated[Mass, _size, Label("mass")]
     """m [kg]."""
-    radius: Annotated[float, _quantity("m"), _size]
+    radius: Annotated[float, _quantity("m"), _size, Label("radius")]
     """r [m]."""
-    thickness: Annotated[float, _quantity("m"), _not_negative]
+    thickness: Annotated[float, _quantity("m"), _not_negative, Label("thickness")]
     """h [m]; 0 for the thin coin."""
-    center_of_mass: Offset = _ZERO
+    center_of_mass: Annotated[Offset, _each("mass centre", xi="ξ", eta="η", zeta="ζ")] = _ZERO
     """c, from B to C, body frame (ξ, η, ζ) [m]."""
     inertia: _Rows | None = None
     """J_C about C, body frame, products of inertia with their minus sign [kg m²]; by default the uniform
@@ -219,11 +257,11 @@ def _cylinder(fields: Mapping[str, Any]) -> Cylinder | None:
 class Air(Part):
     """The air's resistance: the force on a surface element is -λ |v|^b v dA."""
 
-    exponent: Annotated[Number, Field(ge=0, le=1)] = 0.0
+    exponent: Annotated[Number, Field(ge=0, le=1), Label("exponent b of the air")] = 0.0
     """b: 0 for linear, 1 for quadratic resistance."""
-    normal: Annotated[float, _not_negative] = 0.0
+    normal: Annotated[float, _not_negative, Label("pressure λ_n of the air", unit=lambda_unit(0))] = 0.0
     """λ_n, of pressure [kg m^(-2-b) s^(b-1)]."""
-    tangential: Annotated[float, _not_negative] = 0.0
+    tangential: Annotated[float, _not_negative, Label("friction λ_τ of the air", unit=lambda_unit(0))] = 0.0
     """λ_τ, of friction [kg m^(-2-b) s^(b-1)]."""
 
     @field_validator("normal", "tangential", mode="before")
@@ -238,17 +276,19 @@ class Air(Part):
 class Floor(Part):
     """The floor at z = 0 and how a coin rebounds from it."""
 
-    restitution: Annotated[Number, Field(ge=0, le=1)]
+    restitution: Annotated[Number, Field(ge=0, le=1), Label("restitution χ")]
     """χ: normal speed of the contact point after an impact over that before it."""
-    restitution_threshold: Annotated[float, _quantity("m/s"), _not_negative] = 0.0
+    restitution_threshold: Annotated[
+        float, _quantity("m/s"), _not_negative, Label("restitution threshold")
+    ] = 0.0
     """Normal speed of approach up to which a touch is plastic, χ = 0 [m/s]."""
     contact: Annotated[ContactLaw, BeforeValidator(_named(ContactLaw)), _AS_WORD]
     """The contact law."""
-    friction: Annotated[Number, _not_negative] = 0.0
+    friction: Annotated[Number, _not_negative, Label("friction μ")] = 0.0
     """μ, for the laws that slide with friction."""
-    rolling_friction: Annotated[float, _quantity("m"), _not_negative] = 0.0
+    rolling_friction: Annotated[float, _quantity("m"), _not_negative, Label("rolling friction δ")] = 0.0
     """δ: the moment against rolling in sustained contact, over the normal force [m]."""
-    pivoting_friction: Annotated[float, _quantity("m"), _not_negative] = 0.0
+    pivoting_friction: Annotated[float, _quantity("m"), _not_negative, Label("pivoting friction p")] = 0.0
     """p: the moment against pivoting about the vertical, over the normal force [m]."""
     restitution_kind: Annotated[RestitutionKind, BeforeValidator(_named(RestitutionKind)), _AS_WORD] = (
         RestitutionKind.KINEMATIC
@@ -267,15 +307,17 @@ class Floor(Part):
 class Release(Part):
     """The state at time 0."""
 
-    position: Position
+    position: Annotated[Position, _each(x="position x", y="position y", z="height")]
     """The position of C, space frame [m]."""
-    velocity: Speeds = _ZERO
+    velocity: Annotated[Speeds, _each("velocity", x="x", y="y", z="z")] = _ZERO
     """The velocity of C, space frame [m/s]."""
-    angles: Angles | None = None
+    angles: Annotated[Angles | None, _each(psi="angle ψ", theta="tilt θ", phi="angle φ")] = None
     """ψ, θ, φ, the classical Euler angles (z-x-z) [rad]; a flat coin, heads up, by default."""
-    quaternion: EulerParameters | None = None
+    quaternion: Annotated[
+        EulerParameters | None, _each("Euler parameter", e0="e₀", e1="e₁", e2="e₂", e3="e₃")
+    ] = None
     """Euler parameters e0, e1, e2, e3, body to space, in place of the angles; brought to norm 1."""
-    angular_velocity: Spins = _ZERO
+    angular_velocity: Annotated[Spins, _each("spin about", xi="ξ", eta="η", zeta="ζ")] = _ZERO
     """ω, body frame (ξ, η, ζ) [rad/s]."""
 
     @field_validator("quaternion")
@@ -308,11 +350,11 @@ class EndingCriteria(Part):
 
     test: Annotated[EndingTest, BeforeValidator(_named(EndingTest)), _AS_WORD] = EndingTest.RIGOROUS
     """What decides that the face up is final."""
-    max_impacts: Annotated[int | None, Field(ge=1, le=MOST_IMPACTS)] = None
+    max_impacts: Annotated[int | None, Field(ge=1, le=MOST_IMPACTS), Label("most impacts")] = None
     """The toss stops after so many impacts; by default see
     `cointoss.models.making.most_impacts`."""
-    max_time: Annotated[float, _quantity("s"), _size] = 1_000_000.0
+    max_time: Annotated[float, _quantity("s"), _size, Label("time limit")] = 1_000_000.0
     """The toss stops at this time [s]."""
-    caught: Annotated[float | None, _size, _quantity("m")] = None
+    caught: Annotated[float | None, _size, _quantity("m"), Label("height of the catch")] = None
     """Height at which a hand catches the coin: the toss ends, with the face up, when C first comes down to it
     [m]."""

@@ -4,11 +4,12 @@
 # pyright: reportArgumentType=false
 
 import math
+from collections import namedtuple
 from typing import Any
 
 import numpy as np
 
-from cointoss.models.attitude import normalized, quaternion_from_angles
+from cointoss.models.attitude import Quaternion, normalized, quaternion_from_angles
 from cointoss.models.barriers import barrier
 from cointoss.models.body import NO_CODE, AirLaw, Body, Rules
 from cointoss.models.faults import (
@@ -19,50 +20,17 @@ from cointoss.models.faults import (
     fault_of_quaternion,
     fault_of_toss,
 )
-from cointoss.models.fields import BODY, COMPONENTS
+from cointoss.models.fields import FIELDS, PLACES, TABLES, WORDED, Place
 from cointoss.models.kernel.arrays import Array, Codes, Row, Table
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector
-from cointoss.models.laws import ContactLaw, EndingTest, RestitutionKind
 from cointoss.models.making import Cylinder, make_body, most_impacts, moved_inertia
 from cointoss.models.scenario import Scenario
 from cointoss.models.state import State, state
 from cointoss.models.words import Word
 
-_TABLES = ("coin", "air", "floor", "release", "ending")
-WORDED: dict[str, type[Word]] = {
-    "floor.contact": ContactLaw,
-    "floor.restitution_kind": RestitutionKind,
-    "ending.test": EndingTest,
-}
-"""Fields that are a word, in a row its integer."""
 NOT_TOSSED, REFUSED = -1, -2
 """In place of an outcome: of a toss that was not made, and of numbers that make no scenario."""
-_Place = tuple[str | int, ...]
-
-
-def _in_table(table: str) -> dict[str, _Place]:
-    """Return the places of a table's numbers and words, as a scenario file has them, by their names."""
-    part: Any = Scenario.model_fields[table].annotation
-    found: dict[str, _Place] = {}
-    for key in part.model_fields:
-        path = f"{table}.{key}"
-        if path == "coin.inertia":
-            for i, row in enumerate(BODY):
-                found |= {f"{path}.{row}.{name}": (table, key, i, k) for k, name in enumerate(BODY)}
-        elif path in COMPONENTS:
-            found |= {f"{path}.{name}": (table, key, i) for i, name in enumerate(COMPONENTS[path])}
-        else:
-            found[path] = (table, key)
-    return found
-
-
-PLACES: dict[str, _Place] = {"gravity": ("gravity",)}
-"""The place of each field in a scenario file."""
-for _table in _TABLES:
-    PLACES |= _in_table(_table)
-FIELDS = tuple(PLACES)
-"""The fields in the order of a row of numbers, in which NaN stands for what a scenario does not have."""
 
 
 def fields_of(scenario: Scenario) -> dict[str, float | str]:
@@ -79,7 +47,7 @@ def row_of(scenario: Scenario) -> Array:
     return np.array([(given | words).get(name, math.nan) for name in FIELDS], dtype=float)
 
 
-def _value(tables: Any, place: _Place) -> float | str | None:
+def _value(tables: Any, place: Place) -> float | str | None:
     for step in place:
         if isinstance(step, str) and step not in tables:
             return None
@@ -87,12 +55,12 @@ def _value(tables: Any, place: _Place) -> float | str | None:
     return tables
 
 
-def default_of(place: _Place) -> tuple[float | str | None, bool]:
+def default_of(place: Place) -> tuple[float | str | None, bool]:
     """Return the default of a field, None for nothing, and whether it has to be given."""
     model: Any = Scenario
     for step in place[:-1]:
-        if isinstance(step, str) and step in _TABLES:
-            model = model.model_fields[step].annotation
+        if isinstance(step, str) and step in TABLES:
+            model = TABLES[step]
     field = model.model_fields[next(step for step in reversed(place) if isinstance(step, str))]
     if field.is_required():
         return None, True
@@ -104,7 +72,7 @@ def default_of(place: _Place) -> tuple[float | str | None, bool]:
 
 
 def _first_places() -> tuple[int, ...]:
-    found: dict[_Place, int] = {}
+    found: dict[Place, int] = {}
     return tuple(
         found.setdefault(place[:2], i) if default_of(place) == (None, False) else -1
         for i, place in enumerate(PLACES.values())
@@ -118,21 +86,20 @@ FIRST = _first_places()
 EXAMINED = ("fault", "limit", "barrier")
 """Columns of what is said of a scenario: its `Fault`, the number in its sentence, and the least energy with
 which the coin turns over [J], NaN of a row that is no scenario's."""
-_COIN, _CENTER, _INERTIA = (
-    FIELDS.index(name) for name in ("coin.mass", "coin.center_of_mass.xi", "coin.inertia.xi.xi")
-)
-AIR_EXPONENT, _FLOOR = FIELDS.index("air.exponent"), FIELDS.index("floor.restitution")
-_POSITION, _ANGLES, _QUATERNION, _SPIN = (
-    FIELDS.index(f"release.{name}")
-    for name in ("position.x", "angles.psi", "quaternion.e0", "angular_velocity.xi")
-)
-_ENDING = FIELDS.index("ending.test")
+AT = namedtuple("Places", [name.replace(".", "_") for name in FIELDS])(*range(len(FIELDS)))
+"""The place of each field in a row by its name, as compiled code reads it: `row[AT.floor_restitution]`."""
 
 
 @compiled
 def three(row: Array, first: int) -> Vector:
     """Return three numbers of a row."""
     return row[first], row[first + 1], row[first + 2]
+
+
+@compiled
+def four(row: Array, first: int) -> Quaternion:
+    """Return four numbers of a row."""
+    return row[first], row[first + 1], row[first + 2], row[first + 3]
 
 
 @compiled
@@ -151,21 +118,25 @@ def foreign_number(row: Array) -> int:
 @compiled
 def cylinder_of(row: Array) -> Cylinder:
     """Return the mass and the size of the coin of a row of `FIELDS`."""
-    return Cylinder(row[_COIN], row[_COIN + 1], row[_COIN + 2])
+    return Cylinder(row[AT.coin_mass], row[AT.coin_radius], row[AT.coin_thickness])
 
 
 @compiled
 def has_inertia(row: Array) -> bool:
     """Return whether a row gives the inertia, which else is the cylinder's."""
-    return not math.isnan(row[_INERTIA])
+    return not math.isnan(row[AT.coin_inertia_xi_xi])
 
 
 @compiled
 def inertia_of(row: Array) -> Matrix:
     """Return J_C of the coin of a row, body frame [kg m²]."""
     if has_inertia(row):
-        return three(row, _INERTIA), three(row, _INERTIA + 3), three(row, _INERTIA + 6)
-    return moved_inertia(cylinder_of(row), three(row, _CENTER))
+        return (
+            three(row, AT.coin_inertia_xi_xi),
+            three(row, AT.coin_inertia_eta_xi),
+            three(row, AT.coin_inertia_zeta_xi),
+        )
+    return moved_inertia(cylinder_of(row), three(row, AT.coin_center_of_mass_xi))
 
 
 @compiled
@@ -176,49 +147,55 @@ def body_of(row: Array, exponent: float | None) -> Body:
         row: of a scenario.
         exponent: of its air; None for linear air, which is compiled apart.
     """
-    air = AirLaw(exponent, row[AIR_EXPONENT + 1], row[AIR_EXPONENT + 2])
-    return make_body(cylinder_of(row), three(row, _CENTER), inertia_of(row), air, row[0])
+    air = AirLaw(exponent, row[AT.air_normal], row[AT.air_tangential])
+    center = three(row, AT.coin_center_of_mass_xi)
+    return make_body(cylinder_of(row), center, inertia_of(row), air, row[AT.gravity])
 
 
 @compiled
 def has_linear_air(row: Array) -> bool:
     """Return whether the air of a row is linear in the velocity, or none."""
-    return row[AIR_EXPONENT] == 0 or (row[AIR_EXPONENT + 1] == 0 and row[AIR_EXPONENT + 2] == 0)
+    return row[AT.air_exponent] == 0 or (row[AT.air_normal] == 0 and row[AT.air_tangential] == 0)
 
 
 @compiled
 def rules_of(row):
     """Return the `Rules` of a row; words are integers there."""
-    floor, ending = row[_FLOOR : _FLOOR + 7], row[_ENDING : _ENDING + 4]
-    law, kind = int(floor[2]), int(floor[6])
-    most = most_impacts(law, kind, floor[0]) if math.isnan(ending[1]) else int(ending[1])
+    law, kind = int(row[AT.floor_contact]), int(row[AT.floor_restitution_kind])
+    chi = row[AT.floor_restitution]
+    most, caught = row[AT.ending_max_impacts], row[AT.ending_caught]
     return Rules(
-        law,
-        NO_CODE,
-        floor[0],
-        floor[1],
-        kind,
-        floor[3],
-        floor[4],
-        floor[5],
-        int(ending[0]),
-        most,
-        ending[2],
-        math.inf if math.isnan(ending[3]) else ending[3],
+        law=law,
+        own=NO_CODE,
+        restitution=chi,
+        restitution_threshold=row[AT.floor_restitution_threshold],
+        restitution_kind=kind,
+        friction=row[AT.floor_friction],
+        rolling_friction=row[AT.floor_rolling_friction],
+        pivoting_friction=row[AT.floor_pivoting_friction],
+        test=int(row[AT.ending_test]),
+        max_impacts=most_impacts(law, kind, chi) if math.isnan(most) else int(most),
+        max_time=row[AT.ending_max_time],
+        caught=math.inf if math.isnan(caught) else caught,
     )
 
 
 @compiled
 def release_of(row: Array) -> State:
     """Return the state at the release of a row; without an attitude the coin is flat, heads up."""
-    q = row[_QUATERNION : _QUATERNION + 4]
+    q = four(row, AT.release_quaternion_e0)
     if not math.isnan(q[0]):
-        e = normalized((q[0], q[1], q[2], q[3]))
-    elif not math.isnan(row[_ANGLES]):
-        e = quaternion_from_angles(three(row, _ANGLES))
+        e = normalized(q)
+    elif not math.isnan(row[AT.release_angles_psi]):
+        e = quaternion_from_angles(three(row, AT.release_angles_psi))
     else:
         e = quaternion_from_angles((0.0, 0.0, 0.0))
-    return state(three(row, _POSITION), three(row, _POSITION + 3), e, three(row, _SPIN))
+    return state(
+        three(row, AT.release_position_x),
+        three(row, AT.release_velocity_x),
+        e,
+        three(row, AT.release_angular_velocity_xi),
+    )
 
 
 @compiled
@@ -235,14 +212,19 @@ def write_release(row: Array, y: Array) -> None:
 def fault_of_parts(row):
     """Return what is wrong with the coin, the floor or the attitude of a row, each for itself."""
     cylinder = cylinder_of(row)
-    found = fault_of_center(cylinder, three(row, _CENTER))
+    found = fault_of_center(cylinder, three(row, AT.coin_center_of_mass_xi))
     if found.fault == Fault.NONE:
         found = fault_of_inertia(cylinder, inertia_of(row), has_inertia(row))
     if found.fault == Fault.NONE:
-        found = fault_of_floor(int(row[_FLOOR + 2]), int(row[_FLOOR + 6]), row[_FLOOR + 4], row[_FLOOR + 5])
-    q = row[_QUATERNION : _QUATERNION + 4]
+        found = fault_of_floor(
+            int(row[AT.floor_contact]),
+            int(row[AT.floor_restitution_kind]),
+            row[AT.floor_rolling_friction],
+            row[AT.floor_pivoting_friction],
+        )
+    q = four(row, AT.release_quaternion_e0)
     if found.fault == Fault.NONE and not math.isnan(q[0]):
-        found = fault_of_quaternion((q[0], q[1], q[2], q[3]))
+        found = fault_of_quaternion(q)
     return found
 
 
@@ -256,7 +238,7 @@ def fault_of(body, row):
 @compiled
 def bodies_alike(first: Array, second: Array) -> bool:
     """Return whether two rows have the same coin, air and gravity."""
-    for i in range(_FLOOR):
+    for i in range(AT.floor_restitution):
         if not (first[i] == second[i] or (math.isnan(first[i]) and math.isnan(second[i]))):
             return False
     return True
@@ -281,7 +263,7 @@ def examine_each(rows: Table, faults: Codes) -> None:
         elif has_linear_air(rows[first]):
             _examine_run(body_of(rows[first], None), rows[first:end], faults[first:end])
         else:
-            _examine_run(body_of(rows[first], rows[first, AIR_EXPONENT]), rows[first:end], faults[first:end])
+            _examine_run(body_of(rows[first], rows[first, AT.air_exponent]), rows[first:end], faults[first:end])
         first = end
 
 
@@ -307,7 +289,7 @@ def examine(row: Row, answer: Row) -> None:
     elif has_linear_air(row):
         _examine(body_of(row, None), row, answer)
     else:
-        _examine(body_of(row, row[AIR_EXPONENT]), row, answer)
+        _examine(body_of(row, row[AT.air_exponent]), row, answer)
 
 
 @compiled

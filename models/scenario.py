@@ -19,11 +19,11 @@ from cointoss.models.fields import put
 from cointoss.models.kernel.vectors import Vector
 from cointoss.models.making import MOST_LOSSLESS, make_body, most_impacts
 from cointoss.models.parts import (
-    Acceleration,
     Air,
     Coin,
     EndingCriteria,
     Floor,
+    Gravity,
     Part,
     Release,
     refuse,
@@ -38,7 +38,7 @@ MOST_KEPT, KEPT_BYTES = MOST_LOSSLESS, 416
 class Scenario(Part):
     """One toss, told once for both engines."""
 
-    gravity: Acceleration = 9.81
+    gravity: Gravity = 9.81
     """g [m/s²]."""
     coin: Coin
     air: Air = Air()
@@ -126,20 +126,15 @@ class Scenario(Part):
         """The floor and the ending, for compiled code."""
         floor, ending = self.floor, self.ending
         most = ending.max_impacts or most_impacts(floor.contact, floor.restitution_kind, floor.restitution)
-        return Rules(
-            law=floor.contact,
-            own=NO_CODE,
-            restitution=floor.restitution,
-            restitution_threshold=floor.restitution_threshold,
-            restitution_kind=floor.restitution_kind,
-            friction=floor.friction,
-            rolling_friction=floor.rolling_friction,
-            pivoting_friction=floor.pivoting_friction,
-            test=ending.test,
-            max_impacts=most,
-            max_time=ending.max_time,
-            caught=math.inf if ending.caught is None else ending.caught,
-        )
+        declared = {
+            **vars(floor),
+            **vars(ending),
+            "law": floor.contact,
+            "own": NO_CODE,
+            "max_impacts": most,
+            "caught": math.inf if ending.caught is None else ending.caught,
+        }
+        return Rules(**{name: declared[name] for name in Rules._fields})
 
 
 def keeping_all(rules: Rules, scenario: Scenario) -> Rules:

@@ -72,3 +72,25 @@ def pint_registry() -> "UnitRegistry":
     import pint
 
     return pint.UnitRegistry()
+
+
+def lambda_unit(exponent: float) -> str:
+    """Return the SI unit of λ_n and λ_τ, in pint's spelling.
+
+    Args:
+        exponent: b.
+    """
+    return f"kg*m**{-2 - exponent:.15g}*s**{exponent - 1:.15g}"
+
+
+_RAISED = str.maketrans("-.0123456789", "⁻·⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def printed_unit(unit: str) -> str:
+    """Return a unit as a person writes it, such as "kg m⁻² s⁻¹".
+
+    Args:
+        unit: in pint's spelling.
+    """
+    raised = re.sub(r"\*\*(-?[0-9.]+)", lambda power: power[1].translate(_RAISED), unit)
+    return raised.replace("*", " ")

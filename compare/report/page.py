@@ -21,10 +21,11 @@ from cointoss.compare.report.verdict import horizon_sentence, verdict_of
 from cointoss.compare.web.scripts import POLICY, data_element, import_map, shared_files
 from cointoss.models import certificate
 from cointoss.models.distribution import versions_of
-from cointoss.models.fields import WORDS, printed_unit
+from cointoss.models.fields import WORDS
 from cointoss.models.meanings import meanings
 from cointoss.models.records import Face, Toss
 from cointoss.models.scenario import Scenario
+from cointoss.models.units import printed_unit
 
 MOST_SHOWN = 200
 """Symbols of a sequence, and impacts, that the page shows."""

@@ -14,8 +14,8 @@ from cointoss.compare.output.tables import sheet, table
 from cointoss.compare.shares.counting import Counts
 from cointoss.compare.shares.plan import Plan
 from cointoss.compare.sweep.layers import axis_attributes
-from cointoss.models.fields import printed_unit
 from cointoss.models.records import Outcome
+from cointoss.models.units import printed_unit
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -8,13 +8,13 @@ import numpy as np
 
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.errors import ScenarioError, shown
-from cointoss.models.fields import UNITS, WORDS, lambda_unit, printed_unit
+from cointoss.models.fields import UNITS, WORDS
 from cointoss.models.hand import QUANTITIES
 from cointoss.models.names import SPIN, full_name
 from cointoss.models.parts import LARGEST
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
-from cointoss.models.units import in_si
+from cointoss.models.units import in_si, lambda_unit, printed_unit
 
 MOST_VALUES = 1_000_000
 """On one axis: a map of more than 1e12 pixels fits no disk."""

@@ -2,9 +2,10 @@
 
 import pytest
 
-from cointoss.models.fields import UNITS, WORDS, lambda_unit, printed_unit
+from cointoss.models.fields import UNITS, WORDS
 from cointoss.models.reading import load
 from cointoss.models.title import title_of_toss
+from cointoss.models.units import lambda_unit, printed_unit
 
 
 @pytest.mark.parametrize(

@@ -15,10 +15,10 @@ from cointoss.compare.reproduction.setups.general_coins import CLASSES
 from cointoss.compare.sweep.reading import read_map
 from cointoss.models.certificate import energies
 from cointoss.models.errors import ScenarioError
-from cointoss.models.fields import put
+from cointoss.models.fields import FIELDS, put
 from cointoss.models.laws import ContactLaw
 from cointoss.models.records import Outcome
-from cointoss.models.rows import FIELDS, fields_of, row_of
+from cointoss.models.rows import fields_of, row_of
 from cointoss.models.scenario import Scenario
 from tests.helpers.draws import AIR, LONG_TRANSIENT, ZLOTY, scenario
 from tests.helpers.engine_page import ENGINE, changes, written

@@ -3,9 +3,10 @@
 from typing import Any
 
 from cointoss.models.errors import accepted, ends_of
-from cointoss.models.fields import UNITS, WORDS, printed_unit
-from cointoss.models.rows import PLACES, WORDED, default_of
+from cointoss.models.fields import PLACES, UNITS, WORDED, WORDS
+from cointoss.models.rows import default_of
 from cointoss.models.scenario import Scenario
+from cointoss.models.units import printed_unit
 
 
 def described() -> list[dict[str, Any]]:

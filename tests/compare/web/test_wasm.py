@@ -11,8 +11,9 @@ from cointoss.compare.web.wasm import carried
 from cointoss.compare.web.wasm.build import _leb128, main
 from cointoss.compare.web.wasm.carried import engine_bytes, made_of, sources
 from cointoss.models.faults import Fault
+from cointoss.models.fields import FIELDS
 from cointoss.models.records import Outcome
-from cointoss.models.rows import EXAMINED, FIELDS, foreign_number, row_of
+from cointoss.models.rows import EXAMINED, foreign_number, row_of
 from tests.helpers.draws import scenario
 
 
