@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 from cointoss.models.contact_laws.table import never_adds
 from cointoss.models.drag import Drag
@@ -81,13 +81,13 @@ class Rules(NamedTuple):
     """Height at which the toss ends as C comes down to it; infinite where it is not caught."""
 
 
-def _replacing(name: str) -> Callable[[Rules, float], Rules]:
+def _replacing(name: str) -> Callable[[Rules, Any], Rules]:
     """Return a compiled function that gives the rules with another value of a field."""
     place = Rules._fields.index(name)
     after = place + 1
 
     @compiled
-    def replaced(rules: Rules, value: float) -> Rules:
+    def replaced(rules: Rules, value: Any) -> Rules:
         return Rules(*rules[:place], value, *rules[after:])  # pyright: ignore[reportCallIssue]
 
     return replaced
@@ -95,6 +95,7 @@ def _replacing(name: str) -> Callable[[Rules, float], Rules]:
 
 _with_max_impacts, _with_max_time = _replacing("max_impacts"), _replacing("max_time")
 _with_restitution, _with_friction = _replacing("restitution"), _replacing("friction")
+_with_law, _with_own = _replacing("law"), _replacing("own")
 
 
 @compiled
@@ -106,20 +107,7 @@ def with_budgets(rules: Rules, max_impacts: int, max_time: float) -> Rules:
 @compiled
 def with_own_law(rules: Rules, own: OwnCode) -> Rules:
     """Return the rules with a contact law of one's own, which is not followed into sustained contact."""
-    return Rules(
-        ContactLaw.SHARP_EDGE.value,
-        own,
-        rules.restitution,
-        rules.restitution_threshold,
-        rules.restitution_kind,
-        rules.friction,
-        rules.rolling_friction,
-        rules.pivoting_friction,
-        rules.test,
-        rules.max_impacts,
-        rules.max_time,
-        rules.caught,
-    )
+    return _with_law(_with_own(rules, own), ContactLaw.SHARP_EDGE.value)
 
 
 @compiled

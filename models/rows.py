@@ -263,7 +263,9 @@ def examine_each(rows: Table, faults: Codes) -> None:
         elif has_linear_air(rows[first]):
             _examine_run(body_of(rows[first], None), rows[first:end], faults[first:end])
         else:
-            _examine_run(body_of(rows[first], rows[first, AT.air_exponent]), rows[first:end], faults[first:end])
+            _examine_run(
+                body_of(rows[first], rows[first, AT.air_exponent]), rows[first:end], faults[first:end]
+            )
         first = end
 
 

@@ -13,13 +13,12 @@ from cointoss.compare.sweep.axes import NUMBERS, axis_of, named, number, unit_of
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.batch import refused, rows_of, scenario_of_row
 from cointoss.models.errors import ScenarioError, shown
-from cointoss.models.fields import COMPONENTS
+from cointoss.models.fields import COMPONENTS, FIELDS, WORDED
 from cointoss.models.labelled import meanings_of
 from cointoss.models.names import SPIN
 from cointoss.models.parts import Part
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Array
-from cointoss.models.rows import FIELDS, WORDED
 from cointoss.models.scenario import Scenario
 
 TOSS = "toss"

@@ -17,7 +17,7 @@ from cointoss.compare.sweep.axes import MOST_VALUES, NUMBERS
 from cointoss.compare.sweep.layers import LAYERS, trust_layer
 from cointoss.models.bounded import read_bounded
 from cointoss.models.errors import shown
-from cointoss.models.rows import FIELDS
+from cointoss.models.fields import FIELDS
 
 FORMAT = 1
 """Of a map, under the attribute `cointoss_map`."""
