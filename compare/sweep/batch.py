@@ -213,6 +213,8 @@ def _batch(described: Scenario, given: Mapping[str, Any]) -> Batch:
     varied = [_named_by(one, together) if one.field in arrays else one for one in varied]
     sizes: dict[str, int] = {}
     for one in varied:
+        if one.field in arrays:
+            sizes |= {dim: size for dim, size in together.items() if dim not in sizes}
         for dim, size in zip(one.dims, one.values.shape, strict=True):
             if sizes.setdefault(dim, size) != size:
                 raise SweepError(
@@ -229,7 +231,7 @@ def _batch(described: Scenario, given: Mapping[str, Any]) -> Batch:
 
 def _components(field: str, value: Any) -> Iterator[tuple[str, Any]]:
     """Yield the components of a list of numbers that varies as a whole; another field as it is."""
-    shape = () if isinstance(value, str) or hasattr(value, "dims") else np.shape(value)
+    shape = () if hasattr(value, "dims") else _shape(value)
     if field in COMPONENTS and len(shape) > 1:
         names = COMPONENTS[field]
         if shape[-1] != len(names):
@@ -259,15 +261,21 @@ def _is_one(field: str, value: Any) -> bool:
     """Return whether a value is the same for all tosses."""
     if isinstance(value, Part) or field in _PARTS or field in COMPONENTS:
         return True
-    return (
-        not _is_range(value)
-        and not hasattr(value, "dims")
-        and (isinstance(value, str) or np.ndim(value) == 0)
-    )
+    return not _is_range(value) and not hasattr(value, "dims") and not _shape(value)
+
+
+def _shape(value: Any) -> tuple[int, ...]:
+    """Return the shape of an array or of lists, whose inner ones may be of different lengths."""
+    try:
+        return np.shape(value)
+    except ValueError:
+        return (len(value),)
 
 
 def _is_range(value: Any) -> bool:
-    return isinstance(value, tuple) and len(value) == 3 or isinstance(value, str) and value.count(":") == 2
+    return (isinstance(value, tuple) and len(value) == 3) or (
+        isinstance(value, str) and value.count(":") == 2
+    )
 
 
 def _numbers(field: str, value: Any, described: Scenario) -> NDArray[Any]:

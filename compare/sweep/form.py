@@ -86,6 +86,15 @@ def read_attributes(folder: Path) -> dict[str, Any]:
     return attributes
 
 
+def has_grid(folder: Path, field: str, coordinate: Any) -> bool:
+    """Return whether a store has a coordinate of a field, of this shape and along these dimensions."""
+    if not (folder / field).is_dir():
+        return False
+    found = _description(folder / field)
+    due = list(coordinate.values.shape), list(coordinate.dims)
+    return (found.get("shape"), found.get("dimension_names")) == due
+
+
 def require_arrays(
     folder: Path, sizes: Mapping[str, int], layers: Mapping[str, Any], coordinates: Mapping[str, Any]
 ) -> None:

@@ -28,6 +28,7 @@ from cointoss.compare.sweep.form import (
     MARGIN_ALONG,
     TRUST,
     foreign_entry,
+    has_grid,
     is_map,
     read_attributes,
     require_arrays,
@@ -383,8 +384,10 @@ def _same(path: Path, target: Path, mode: Literal["r", "r+"], layout: Layout) ->
         value = f", {json.dumps(stored.get(unlike))}" if unlike == "engine_settings" else ""
         _refuse_other(path, due, f"{_CALLED.get(unlike, unlike)}{value}")
     with _readable(path):
-        missing = [field for field in layout.coordinates if not (target / field).is_dir()]
-        if not missing:
+        unlike_grid = [
+            one.dims[0] for field, one in layout.coordinates.items() if not has_grid(target, field, one)
+        ]
+        if not unlike_grid:
             require_arrays(target, layout.sizes, layout.layers, layout.coordinates)
             found = Store.at(target, mode)
             unlike_grid = [
@@ -392,10 +395,8 @@ def _same(path: Path, target: Path, mode: Literal["r", "r+"], layout: Layout) ->
                 for field, one in layout.coordinates.items()
                 if not np.array_equal(found.whole(field), one.values)
             ]
-    if missing or unlike_grid:
-        _refuse_other(
-            path, f"grid in {layout.coordinates[missing[0]].dims[0] if missing else unlike_grid[0]}"
-        )
+    if unlike_grid:
+        _refuse_other(path, due, f"grid in {unlike_grid[-1]}")
     if made_by != ours:
         _refuse_other(path, due, f"set of versions, {json.dumps(made_by)}")
     return replace(found, path=path)

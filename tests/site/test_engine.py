@@ -12,7 +12,7 @@ from cointoss.analytic.horizon.horizon import IMPULSE_ERROR, TIME_ERROR
 from cointoss.compare.engines import Engine
 from cointoss.compare.explorer import static
 from cointoss.compare.reproduction.setups.general_coins import CLASSES
-from cointoss.compare.sweep.reading import read_map
+from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.models.certificate import energies
 from cointoss.models.errors import ScenarioError
 from cointoss.models.fields import FIELDS, put
@@ -387,7 +387,7 @@ def test_any_pixel_of_the_explorer_in_a_file_is_tossed_by_the_engine_in_it(page,
     target = tmp_path / "map.html"
     longer = SCENARIO.replace("max_impacts = 4", "max_impacts = 40")
     static.write_static(small_map(tmp_path, size=(24, 18), text=longer), target)
-    sweep = read_map(tmp_path / "map.zarr").sweep
+    sweep = tossed_map_at(tmp_path / "map.zarr").sweep
     x, y = float(sweep.x.values[3]), float(sweep.y.values[9])
     page.open(f"{target.as_uri()}#x={x}&y={y}")
     page.wait_for("document.getElementById('outcome').textContent.includes(' impacts in ')")
@@ -408,8 +408,8 @@ def test_any_pixel_of_the_explorer_in_a_file_is_tossed_by_the_engine_in_it(page,
 
 def test_any_pixel_is_tossed_in_the_frame_of_a_notebook(page, tmp_path, monkeypatch):
     monkeypatch.setattr(static, "TOSSED_IN_FRAME", (1, 1))
-    found = read_map(small_map(tmp_path))
-    (tmp_path / "notebook.html").write_text(found.explore()._repr_html_(), encoding="utf-8")
+    found = tossed_map_at(small_map(tmp_path))
+    (tmp_path / "notebook.html").write_text(static.explore(found)._repr_html_(), encoding="utf-8")
     (frame,) = page.open_frames((tmp_path / "notebook.html").as_uri(), 1)
     x, y = found.x[11], found.y[9]
     toss = analytic.toss(found.sweep.scenario.replace(found.sweep.x.field, x, found.sweep.y.field, y))

@@ -15,7 +15,7 @@ from cointoss.compare.explorer.server import Explorer
 from cointoss.compare.film.back_end import BackEndError
 from cointoss.compare.sweep import reading
 from cointoss.compare.sweep.grid import tile_shape, tiles
-from cointoss.compare.sweep.reading import read_map
+from cointoss.compare.sweep.reading import tossed_map_at
 from tests.helpers.command_line import cointoss, refused
 from tests.helpers.explored import got, small_map
 from tests.helpers.processes import answered, ask, started
@@ -55,14 +55,14 @@ def test_a_map_of_too_many_pixels_is_refused(map_path, monkeypatch):
 
 @pytest.mark.parametrize("tile", [None, 35, 64])
 def test_of_a_large_map_every_so_many_th_pixel_is_shown(map_path, tmp_path, monkeypatch, tile):
-    full, path = read_map(map_path), map_path
+    full, path = tossed_map_at(map_path), map_path
     if tile is not None:  # whose sides the stride crosses
         monkeypatch.setattr("cointoss.compare.sweep.grid.TILE_TOSSES", dict.fromkeys(Engine, tile))
         path = small_map(tmp_path)
         cut = list(tiles(full.sweep.shape, tile_shape(full.sweep)))
-        for sides in ([part.rows for part in cut], [part.columns for part in cut]):
+        for sides in zip(*cut, strict=True):
             assert {side.start % 3 for side in sides} == {0, 1, 2}
-    part = read_map(path, most=100)
+    part = tossed_map_at(path, most=100)
     assert (full.stride, part.stride) == (1, 3)
     assert part.outcome.shape == (6, 8)
     for name, array in part.layers.items():
@@ -72,12 +72,12 @@ def test_of_a_large_map_every_so_many_th_pixel_is_shown(map_path, tmp_path, monk
 def test_an_unfinished_map_is_shown_as_far_as_it_is(tmp_path, monkeypatch):
     monkeypatch.setattr("cointoss.compare.sweep.grid.TILE_TOSSES", dict.fromkeys(Engine, 64))
     path = small_map(tmp_path)
-    before = read_map(path).outcome
+    before = tossed_map_at(path).outcome
     chunks = sorted(part for part in (path / "outcome" / "c").rglob("*") if part.is_file())
     assert len(chunks) > 3
     chunks[0].unlink()
     chunks[1].write_bytes(b"broken")
-    found = read_map(path)
+    found = tossed_map_at(path)
     outcome = found.outcome
     assert 0 < (outcome == -1).mean() < 0.8
     assert np.array_equal(outcome[outcome != -1], before[outcome != -1])

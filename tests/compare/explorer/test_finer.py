@@ -6,14 +6,14 @@ import pytest
 from cointoss import analytic
 from cointoss.compare.explorer.finer import SIDE, toss_tile
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.reading import read_map
+from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.models.reading import parse
 from tests.helpers.explored import FIELDS, SCENARIO
 
 
 def test_a_finer_tile_has_the_outcomes_of_its_points(map_path):
-    sweep = read_map(map_path).sweep
-    assert np.array_equal(toss_tile(sweep, 0, 0, 0)[:18, :24], read_map(map_path).outcome)
+    sweep = tossed_map_at(map_path).sweep
+    assert np.array_equal(toss_tile(sweep, 0, 0, 0)[:18, :24], tossed_map_at(map_path).outcome)
     tile = toss_tile(sweep, 2, 1, 1)
     assert tile.shape == (SIDE, SIDE)
     assert {1, 2} <= set(tile.ravel())

@@ -16,7 +16,7 @@ from cointoss import analytic
 from cointoss.compare.explorer import server as serving
 from cointoss.compare.explorer.finer import toss_tile
 from cointoss.compare.explorer.page_files import page_files
-from cointoss.compare.sweep.reading import read_map
+from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.models.reading import parse
 from tests.helpers.explored import FIELDS, SCENARIO, got, sent
 
@@ -229,4 +229,4 @@ def test_a_pixel_is_tossed_by_both_engines_to_its_end(server):
 def test_a_tile_is_served(server, map_path):
     status, headers, body = got(server.port, "/tile?level=3&column=2&row=1")
     assert (status, headers["content-type"]) == (200, "application/octet-stream")
-    assert body == toss_tile(read_map(map_path).sweep, 3, 2, 1).tobytes()
+    assert body == toss_tile(tossed_map_at(map_path).sweep, 3, 2, 1).tobytes()

@@ -16,8 +16,8 @@ import cointoss
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep import grid
 from cointoss.compare.sweep.errors import MapError
-from cointoss.compare.sweep.pixels import Pixels
-from cointoss.compare.sweep.store import opened
+from cointoss.compare.sweep.reading import tossed_map_at
+from cointoss.compare.sweep.store import layout_of_map, opened
 from cointoss.models.errors import ScenarioError
 from tests.helpers.basin_runs import SCENARIO, sweep_of
 from tests.helpers.command_line import refused
@@ -34,10 +34,11 @@ NO_MAP = "is no map of cointoss ("
 def made(tmp_path_factory):
     """A map in one tile, filled without a toss."""
     path, sweep = tmp_path_factory.mktemp("made") / "map.zarr", sweep_of(*AXES, margin="height")
-    with opened(path, sweep, SCENARIO, overwrite=False) as map_:
-        (tile,) = map_.tiles
-        outcome = np.arange(120, dtype=np.int8).reshape(10, 12) % 3
-        map_.write(tile, Pixels(outcome, outcome.astype(np.int32), outcome.astype(float)))
+    with opened(path, layout_of_map(sweep, SCENARIO), overwrite=False) as map_:
+        numbers = np.arange(120)
+        outcome = (numbers % 3).astype(np.int8)
+        layers = {"outcome": outcome, "impacts": outcome.astype(np.int32), "margin": outcome.astype(float)}
+        map_.write(numbers, layers)
     return path
 
 
@@ -385,7 +386,7 @@ def test_values_that_are_lost_are_no_zeros(path, name):
     if name in (X, Y):
         is_refused(path, f"({name}/c/0: lost)")
     else:
-        assert cointoss.read_map(path).shares == {"not tossed": 1.0}
+        assert set(cointoss.read_map(path).cointoss.counts) == {"not_tossed"}
 
 
 @pytest.mark.parametrize("kind", bombs(100))
@@ -393,7 +394,7 @@ def test_values_that_are_lost_are_no_zeros(path, name):
 def test_a_tile_that_decodes_to_another_size_is_not_tossed_yet(path, decoded, name, kind):
     bomb = bombs(120 * {"outcome": 1, "impacts": 4, "margin": 8}[name])[kind]
     (path / name / CHUNKS[name]).write_bytes(bomb)
-    assert cointoss.read_map(path).shares == {"not tossed": 1.0}
+    assert set(cointoss.read_map(path).cointoss.counts) == {"not_tossed"}
     assert decoded
     assert bomb not in decoded
 
@@ -402,9 +403,9 @@ def test_a_second_frame_is_not_decoded(path):
     pack = numcodecs.Zstd(checksum=True).encode
     whole = pack(bytes(120))
     (path / "outcome" / CHUNKS["outcome"]).write_bytes(whole)
-    assert cointoss.read_map(path).shares == {"undecided": 1.0}
+    assert set(cointoss.read_map(path).cointoss.counts) == {"undecided"}
     (path / "outcome" / CHUNKS["outcome"]).write_bytes(whole + pack(bytes(1 << 20)))
-    assert cointoss.read_map(path).shares == {"not tossed": 1.0}
+    assert set(cointoss.read_map(path).cointoss.counts) == {"not_tossed"}
 
 
 def test_tiles_without_number_are_refused_at_once(path):
@@ -418,13 +419,13 @@ def test_tiles_without_number_are_refused_at_once(path):
 
 
 def test_what_lies_beside_the_arrays_is_not_looked_at(path):
-    before = cointoss.read_map(path)
+    before = tossed_map_at(path)
     (path / "README.txt").write_text("a map of mine")
     (path / ".zattrs").write_text("{}")
     (path / X / ".zarray").write_text("{")
     (path / "more").mkdir()
     (path / "more" / "zarr.json").write_text("{")
-    after = cointoss.read_map(path)
+    after = tossed_map_at(path)
     assert after.sweep == before.sweep
     for name, array in before.layers.items():
         assert np.array_equal(after.layers[name], array)
@@ -434,11 +435,11 @@ def test_what_lies_beside_the_arrays_is_not_looked_at(path):
 def test_maps_of_all_tiles_are_read(tmp_path, monkeypatch, tile):
     monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, tile)
     sweep = sweep_of(*AXES, after=3)
-    with opened(tmp_path / "map.zarr", sweep, SCENARIO, overwrite=False) as map_:
+    with opened(tmp_path / "map.zarr", layout_of_map(sweep, SCENARIO), overwrite=False) as map_:
         for number, part in enumerate(map_.tiles):
-            shape = part.rows.stop - part.rows.start, part.columns.stop - part.columns.start
-            filled = np.full(shape, number % 5)
-            map_.write(part, Pixels(filled.astype(np.int8), filled.astype(np.int32), None))
-    read = cointoss.read_map(tmp_path / "map.zarr")
+            numbers = map_.missing(part)
+            filled = np.full(len(numbers), number % 5)
+            map_.write(numbers, {"outcome": filled.astype(np.int8), "impacts": filled.astype(np.int32)})
+    read = tossed_map_at(tmp_path / "map.zarr")
     assert read.sweep == sweep
     assert -1 not in read.outcome

@@ -90,7 +90,11 @@ def test_a_part_of_a_map_is_that_part_of_the_whole():
     [
         ("release.position.z=-1:1:4", "gravity=9:10:3", r"release\.position\.z = -1.*above the floor"),
         # Flat it is clear of the floor, and upright again: in between it is not.
-        ("release.angles.theta=0:3.14159:21", "release.position.z=2 mm:1:3", r"\(at y 0, x 1, .*release\.angles\.theta = 0\.157"),
+        (
+            "release.angles.theta=0:3.14159:21",
+            "release.position.z=2 mm:1:3",
+            r"\(at y 0, x 1, .*release\.angles\.theta = 0\.157",
+        ),
         ("floor.restitution=0.5:1.5:4", "release.position.z=0.2:1:3", r"floor\.restitution = 1\.5"),
         ("coin.radius=1 cm:10 m:4", "release.position.x=0:1:3", r"above the floor.*coin\.radius = \d"),
         ("release.angular_velocity.xi=0:1e8:4", "release.position.x=0:1:3", r"angular_velocity.*spin of at"),
@@ -100,7 +104,7 @@ def test_a_part_of_a_map_is_that_part_of_the_whole():
     ],
 )
 def test_a_pixel_that_is_no_scenario_is_refused_before_the_first_toss(x, y, said):
-    with pytest.raises(ScenarioError, match=said):
+    with pytest.raises(ValueError, match=said):
         check(sweep_of(x, y, TUMBLING))
 
 

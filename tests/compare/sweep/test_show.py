@@ -22,8 +22,8 @@ from cointoss.compare.report.folder import write_report
 from cointoss.compare.sweep import job, show
 from cointoss.compare.sweep.axes import parse_axis
 from cointoss.compare.sweep.describe import AWAY
-from cointoss.compare.sweep.reading import read_map
-from cointoss.compare.sweep.store import opened
+from cointoss.compare.sweep.reading import tossed_map_at
+from cointoss.compare.sweep.store import layout_of_map, opened
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
 from tests.helpers.basin_runs import SCENARIO, basin, sweep_of
@@ -115,10 +115,10 @@ def test_the_report_hatches_what_the_analytic_engine_cannot_be_trusted_with(coin
     answered = basin(coin, *asked)
     assert answered.exit_code == 0, answered.stderr
     numbers = json.loads((report / "numbers.json").read_text(encoding="utf-8"))["map"]
-    found = read_map(out)
+    found = tossed_map_at(out)
     assert found.untrusted is not None
     assert numbers["untrusted"] == found.untrusted.mean() > 0
-    assert read_map(tmp_path / "map-mujoco.zarr").untrusted is None
+    assert tossed_map_at(tmp_path / "map-mujoco.zarr").untrusted is None
     assert "--trust" in shlex.split(numbers["command"])
     maps, hatched = [halves(20, 20)] * 2, np.arange(400).reshape(20, 20) < 100
     plain, shown = section_of(maps), section_of(maps, untrusted=hatched)
@@ -178,7 +178,7 @@ def test_a_report_without_a_video_is_made_by_the_command_that_it_names(coin, tmp
 def test_a_back_end_for_drawing_is_chosen_before_mujoco_is_imported(coin, tmp_path):
     case = parse(COIN, "coin")
     for engine, name in zip(Engine, ("map.zarr", "map-mujoco.zarr"), strict=True):
-        with opened(tmp_path / name, sweep_of(X, Y, case, engine), COIN, overwrite=False):
+        with opened(tmp_path / name, layout_of_map(sweep_of(X, Y, case, engine), COIN), overwrite=False):
             pass
     script = (
         "import sys; from cointoss.compare.cli import main; from cointoss.compare.sweep import job\n"

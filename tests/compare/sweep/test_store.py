@@ -270,7 +270,9 @@ def test_a_map_of_something_else_is_not_gone_on_with(tmp_path, change, named):
     with opened(out, layout_of_map(map_sweep(), SCENARIO), overwrite=False):
         pass
     with pytest.raises(UnwritableError, match=f"is a map with another {named}"):
-        opened(out, layout_of_map(map_sweep(**change), change.get("case", SCENARIO)), overwrite=False).__enter__()
+        opened(
+            out, layout_of_map(map_sweep(**change), change.get("case", SCENARIO)), overwrite=False
+        ).__enter__()
     with opened(tmp_path / "trust.zarr", layout_of_map(map_sweep(trust=True), SCENARIO), overwrite=False):
         pass
     with pytest.raises(UnwritableError, match=r"another set of arrays \(--trust\)"):
@@ -296,7 +298,9 @@ def test_a_map_of_other_versions_or_that_lost_an_axis_is_not_gone_on_with(in_til
 def test_a_map_with_another_contact_is_refused_before_the_first_toss(coin, tmp_path, made, asked):
     second = tmp_path / "map-mujoco.zarr"
     settings = replace(coin_mj.MANY, contact=Realisation(made))
-    with opened(second, layout_of_map(map_sweep(engine=Engine.MUJOCO, settings=settings), SCENARIO), overwrite=False):
+    with opened(
+        second, layout_of_map(map_sweep(engine=Engine.MUJOCO, settings=settings), SCENARIO), overwrite=False
+    ):
         pass
     assert xr.open_zarr(second, chunks=None).attrs["engine_settings"]["contact"] == made
     both = ("--compare", "--contact", asked, "--out", tmp_path / "map.zarr")

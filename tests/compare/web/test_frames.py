@@ -7,7 +7,7 @@ import pytest
 
 from cointoss import analytic, coin_mj
 from cointoss.compare.explorer import static
-from cointoss.compare.sweep.reading import read_map
+from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.models.reading import load
 from tests.helpers.coins_shown import UNNAMED, faces, picture, set_time
 from tests.helpers.processes import HANGS
@@ -151,8 +151,8 @@ def _few_tosses(monkeypatch):
 @pytest.mark.usefixtures("_few_tosses")
 @pytest.mark.parametrize(("width", "scheme"), [(1280, "light"), (420, "dark")])
 def test_a_map_is_explored_in_a_frame(page, notebook, map_path, width, scheme):
-    found = read_map(map_path)
-    (frame,) = notebook(found.explore(), width=width, scheme=scheme)
+    found = tossed_map_at(map_path)
+    (frame,) = notebook(static.explore(found), width=width, scheme=scheme)
     frame.value("document.getElementById('map').focus()")
     frame.value(
         "document.getElementById('map').dispatchEvent(new KeyboardEvent('keydown', { key: 'Enter' }))"
@@ -169,10 +169,10 @@ def test_a_map_is_explored_in_a_frame(page, notebook, map_path, width, scheme):
 @pytest.mark.usefixtures("_few_tosses")
 def test_a_large_map_is_thinned(map_path, monkeypatch):
     monkeypatch.setattr(static, "MOST_PIXELS", 24 * 18 // 4)
-    found = read_map(map_path)
+    found = tossed_map_at(map_path)
     shown = []
     monkeypatch.setattr(static, "page_map", lambda thinned: shown.append(thinned) or {})
-    found.explore()
+    static.explore(found)
     assert shown[0].stride == 2
     np.testing.assert_array_equal(shown[0].outcome, found.outcome[::2, ::2])
     np.testing.assert_array_equal(shown[0].x, found.x[::2])

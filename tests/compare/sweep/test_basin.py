@@ -1,0 +1,355 @@
+"""Maps from Python: the same as the command's, and what xarray and pandas see of them."""
+
+import ast
+import json
+import re
+from dataclasses import replace
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+from matplotlib import pyplot
+from matplotlib.figure import Figure
+
+import cointoss
+from cointoss.compare.engines import Engine
+from cointoss.compare.sweep import grid, run
+from cointoss.compare.sweep.layers import NOT_TOSSED
+from cointoss.compare.sweep.reading import tossed_map_at
+from cointoss.compare.sweep.tossed_map import TossedMap, map_of
+from cointoss.models.reading import parse
+from cointoss.models.records import Outcome
+from tests.helpers.command_line import cointoss as command
+
+ETA, Z = "release.angular_velocity.eta", "release.position.z"
+X, Y = f"{ETA}=20:60:7", f"{Z}=20 cm:60 cm:5"
+ASKED = ("basin", "fig24a", "--x", X, "--y", Y)
+
+
+def tosses_of(found):
+    """Yield each pixel of a map of fig24a, and its toss."""
+    for row, height in enumerate(found[Z].values):
+        for column, spin in enumerate(found[ETA].values):
+            yield found.isel(y=row, x=column), cointoss.toss(
+                cointoss.load("fig24a").replace(ETA, spin, Z, height)
+            )
+
+
+@pytest.fixture(scope="module")
+def found():
+    return cointoss.basin("fig24a", x=X, y=Y)
+
+
+@pytest.fixture(scope="module")
+def margins():
+    return cointoss.basin("fig24a", x=f"{ETA}=20:60:3", y=f"{Z}=0.2:0.6:2", margin="height")
+
+
+@pytest.fixture(scope="module")
+def trusted():
+    return cointoss.basin("fig24a", x=X, y=Y, after=8, trust=True)
+
+
+@pytest.fixture(scope="module")
+def certain():
+    return cointoss.basin("fig24a", x=X, y=Y, trust=True)
+
+
+def test_a_map_has_the_tosses_of_its_pixels_in_words(found):
+    assert found.outcome.dims == ("y", "x")
+    assert found[ETA].values[[0, -1]].tolist() == [20, 60]
+    assert found[Z].attrs == {"long_name": "height", "units": "m"}
+    for pixel, toss in tosses_of(found):
+        assert (pixel.outcome, pixel.impacts) == (str(toss.outcome), len(toss.impacts))
+    touch = cointoss.basin("fig24a", x=X, y=Y, after=np.int64(0))  # pyright: ignore[reportArgumentType]
+    assert touch.attrs["after"] == 0
+
+
+def test_a_map_is_two_axes_of_the_verb(found):
+    same = cointoss.toss_many("fig24a", {"height": ("20 cm", "60 cm", 5), ETA: "20:60:7"})
+    assert np.array_equal(same.outcome.values, found.outcome.values)
+    assert np.array_equal(same.impacts.values, found.impacts.values)
+    assert map_of(same).sweep.shape == map_of(found).sweep.shape
+
+
+def test_a_map_counts_the_trusted_impacts_of_each_pixel(trusted):
+    untrusted, covered = trusted.cointoss.untrusted, 0
+    for (pixel, toss), is_open in zip(tosses_of(trusted), untrusted.ravel(), strict=True):
+        assert pixel.trusted_impacts == min(toss.trusted_impacts, 9)
+        assert is_open == (toss.trusted_impacts < 9)
+        if not is_open:
+            assert pixel.outcome == {1: "heads", 2: "tails"}[toss.impacts.face[8]]
+        covered += not is_open
+    assert 0 < covered < untrusted.size
+    about = trusted["trusted_impacts"].attrs["long_name"]
+    assert about == "number of leading impacts up to touch 9 that the engine's own errors cannot have changed"
+
+
+def test_of_a_map_of_a_touch_no_outcome_of_a_toss_that_ended_is_trusted():
+    """At restitution 0.1 all impacts of some tosses are trusted; the horizon does not cover what follows."""
+    softer = cointoss.load("fig24a").replace("floor.restitution", 0.1)
+    found = cointoss.basin(softer, x=X, y=Y, after=8, trust=True)
+    ended = found.impacts.values <= 8
+    assert np.any(ended & (found.trusted_impacts == found.impacts).values)
+    assert np.all(found.cointoss.untrusted[ended])
+
+
+def test_a_final_outcome_is_trusted_where_it_is_certain(certain):
+    for pixel, toss in tosses_of(certain):
+        assert (pixel.outcome, pixel.outcome_certain) == (str(toss.outcome), toss.outcome_certain)
+    assert np.array_equal(certain.cointoss.untrusted, ~certain.outcome_certain)
+    assert 0 < certain.cointoss.untrusted.sum() < certain.outcome.size
+    assert "trusted_impacts" not in certain
+
+
+def test_a_map_in_memory_is_that_on_disk(found, tmp_path):
+    path = found.cointoss.save(tmp_path / "map.zarr")
+    with xarray.open_dataset(path, engine="zarr", consolidated=True) as on_disk:
+        for name in (ETA, Z, "impacts"):
+            assert found[name].attrs == on_disk[name].attrs
+            assert found[name].dims == on_disk[name].dims
+            assert np.array_equal(found[name], on_disk[name])
+        assert on_disk.outcome.dtype == np.int8
+        assert (on_disk.cointoss.words.outcome == found.outcome).all()
+        assert on_disk.cointoss.counts == found.cointoss.counts
+    assert found.attrs["engine"] == on_disk.attrs["engine"]
+    assert parse(found.attrs["scenario"], "ours") == parse(on_disk.attrs["scenario"], "theirs")
+    assert cointoss.read_map(path).equals(found)
+
+
+def test_what_a_person_sees_of_a_map(found):
+    counts = found.cointoss.counts
+    assert sum(counts.values()) == 35
+    assert repr(found.cointoss) == f"<35 tosses: {counts['heads']} heads, {counts['tails']} tails>"
+    frame = found.cointoss.table()
+    assert frame["outcome"].tolist().count("heads") == counts["heads"]
+    assert frame[ETA].tolist() == np.tile(found[ETA].values, 5).tolist()
+    assert frame.attrs["units"] == {Z: "m", ETA: "rad/s"}
+    along = found.cointoss.shares("x")
+    assert along.sizes == {"x": 7, "outcome": 6}
+    assert (along["count"].sum("outcome") == 5).all()
+    with pytest.raises(cointoss.SweepError, match="along: 'z', accepted: y, x"):
+        found.cointoss.shares("z")
+
+
+def test_a_plot_shows_the_map_or_its_margins(found, margins):
+    panel = found.cointoss.plot(given := Figure().add_subplot(), boundaries=True)
+    assert panel is given
+    assert (panel.get_xlabel(), panel.get_ylabel()) == ("spin about η [rad/s]", "height [m]")
+    assert panel.get_title() == "fig24a: 2 g, 25 mm"
+    assert panel.get_images()[0].get_array().shape[:2] == found.outcome.shape
+    hostile = found.assign_attrs(name=r"$\frac$ 硬\n貨")
+    hostile.cointoss.plot(Figure().add_subplot()).figure.savefig(BytesIO())  # warnings are errors
+    legend = [text.get_text() for text in panel.get_legend().get_texts()]
+    assert legend == [*found.cointoss.counts, "boundary"]
+    assert margins["margin"].attrs["units"] == "mm"
+    panel = margins.cointoss.plot(Figure().add_subplot(), layer="margin")
+    assert panel.get_images()[0].get_array().shape[:2] == margins.outcome.shape
+    assert (panel.get_xlabel(), panel.get_ylabel()) == ("spin about η [rad/s]", "height [m]")
+    assert panel.figure.axes[1].get_ylabel() == "smallest change of height [mm]"
+    own = found.cointoss.plot(palette="paper").figure
+    assert own.number in pyplot.get_fignums()
+    pyplot.close(own)
+
+
+def test_a_plot_hatches_untrusted_pixels(found, trusted):
+    panel, untrusted = trusted.cointoss.plot(Figure().add_subplot()), trusted.cointoss.untrusted
+    picture, hatch = (image.get_array() for image in panel.get_images())
+    rows, columns = (np.arange(len(hatch)) * count // len(hatch) for count in trusted.outcome.shape)
+    assert picture.shape[:2] == trusted.outcome.shape
+    assert np.array_equal(hatch[..., 3] > 0, untrusted[rows][:, columns])
+    assert panel.get_images()[0].get_extent() == panel.get_images()[1].get_extent()
+    assert panel.get_legend().get_texts()[-1].get_text() == f"untrusted: {100 * untrusted.mean():.3g} %"
+    assert len(found.cointoss.plot(Figure().add_subplot()).get_images()) == 1
+
+
+def test_the_command_says_what_is_untrusted(trusted, tmp_path, monkeypatch):
+    monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, 10)
+    asked = ("--after", 8, "--trust", "--out", tmp_path / "map.zarr")
+    answered = command(*ASKED, *asked, "--png", tmp_path / "map.png", "--dpi", 40)
+    few, middle = np.quantile(trusted.trusted_impacts, [0.1, 0.5], method="inverted_cdf")
+    assert f"trusted    median {middle} impacts, a tenth at most {few}\n" in answered.stdout
+    share = 100 * trusted.cointoss.untrusted.mean()
+    said = f"untrusted  {share:.3f} %: impact 9 is not trusted, or the toss ended before\n"
+    assert said in answered.stdout
+    assert (tmp_path / "map.png").exists()
+
+
+def test_a_count_that_a_stranger_made_huge_takes_no_room(trusted, tmp_path):
+    huge = trusted.trusted_impacts.copy(deep=True)
+    huge[0, 0] = 2_000_000_000
+    path = trusted.assign(trusted_impacts=huge).cointoss.save(tmp_path / "m.zarr")
+    answered = command(*ASKED, "--after", 8, "--trust", "--out", path, "--resume")
+    assert answered.exit_code == 0
+    assert "untrusted  " in answered.stdout
+
+
+def test_the_command_says_which_outcomes_may_be_decided_by_errors(certain, tmp_path):
+    path = tmp_path / "map.zarr"
+    answered = command(*ASKED, "--trust", "--out", path)
+    share = 100 * certain.cointoss.untrusted.mean()
+    said = f"untrusted  {share:.3f} %: the engine's own errors may have decided the outcome\n"
+    assert said in answered.stdout
+    assert cointoss.read_map(path).equals(certain)
+
+
+def contents(store):
+    """Return the files of a map, their bytes by their names, but for the scenario, whose text is its own."""
+    files = {part.relative_to(store): part.read_bytes() for part in store.rglob("*") if part.is_file()}
+    described = json.loads(files.pop(Path("zarr.json")))
+    text = described["attributes"].pop("scenario")
+    return files, described, parse(text, "saved")
+
+
+def test_a_map_is_saved_as_the_command_saves_it(found, margins, trusted, tmp_path, monkeypatch):
+    for name, made, more in (
+        ("plain", found, ()),
+        ("margins", margins, ("--margin", "height")),
+        ("trusted", trusted, ("--after", 8, "--trust")),
+    ):
+        path = tmp_path / f"{name}.zarr"
+        assert made.cointoss.save(str(path)) == path
+        assert cointoss.read_map(str(path)).equals(made)
+        sweep = map_of(made).sweep
+        x, y = (f"{axis.field}={axis.start}:{axis.stop}:{axis.count}" for axis in (sweep.x, sweep.y))
+        asked = ("basin", "fig24a", "--x", x, "--y", y, *more, "--out")
+        theirs = tmp_path / "theirs.zarr"
+        command(*asked, theirs, "--overwrite")
+        assert contents(path) == contents(theirs)
+        with monkeypatch.context() as patched:
+            patched.setattr(run, "pixels_of", None)  # nothing is tossed
+            assert command(*asked, path, "--resume").exit_code == 0
+
+
+def missing_at(dataset, *places, name="outcome"):
+    """Return a map in which some pixels are not tossed."""
+    made = map_of(dataset)
+    array = made.layers[name].copy()
+    for place in places:
+        array[place] = NOT_TOSSED
+    return replace(made, layers={**made.layers, name: array}).dataset()
+
+
+def test_a_part_of_a_map_is_saved_and_gone_on_with(found, tmp_path):
+    path = missing_at(found, slice(None)).cointoss.save(tmp_path / "m.zarr")
+    assert cointoss.read_map(path).cointoss.counts == {"not_tossed": 35}
+    command(*ASKED, "--out", path, "--resume")
+    assert cointoss.read_map(path).equals(found)
+
+
+def test_a_pixel_without_its_trusted_impacts_is_tossed_again(trusted, tmp_path):
+    path = missing_at(trusted, (2, 3), name="trusted_impacts").cointoss.save(tmp_path / "m.zarr")
+    assert cointoss.read_map(path).cointoss.counts["not_tossed"] == 1
+    asked = (*ASKED, "--after", 8, "--out", path, "--resume")
+    assert "another set of arrays (--trust)" in command(*asked).stderr
+    assert command(*asked, "--trust").exit_code == 0
+    assert cointoss.read_map(path).equals(trusted)
+
+
+def test_a_map_is_saved_over_no_other_and_only_whole(found, tmp_path):
+    path = found.cointoss.save(tmp_path / "m.zarr")
+    with pytest.raises(OSError, match=r"m\.zarr: exists; accepted: a new name"):
+        found.cointoss.save(path)
+    found.cointoss.save(path, overwrite=True)
+    with pytest.raises(OSError, match=r"m\.txt: .*; accepted: one that ends in \.zarr"):
+        found.cointoss.save(tmp_path / "m.txt")
+    coarse = cointoss.read_map(path, most=12)
+    assert coarse.outcome.shape == (3, 4)
+    assert map_of(coarse).sweep.shape == (5, 7)
+    with pytest.raises(cointoss.SweepError, match=r"one pixel of every 2 is here; accepted: a whole"):
+        coarse.cointoss.save(tmp_path / "coarse.zarr")
+    assert [entry.name for entry in tmp_path.iterdir()] == ["m.zarr"]
+
+
+def test_a_map_that_is_not_finished_says_so(found):
+    part = missing_at(found, (0, 0))
+    assert part.cointoss.table()["outcome"].tolist()[0] == "not_tossed"
+    with pytest.raises(cointoss.SweepError, match="1 of 35 pixels are not tossed; accepted"):
+        part.cointoss.plot()
+
+
+NO_MAPS = """
+engine 'paper' -> engine: 'paper', accepted: analytic, mujoco
+engine None -> engine: None, accepted: analytic, mujoco
+after -1 -> after: -1, accepted: a whole number from 0
+after '2' -> after: '2', accepted: a whole number
+after True -> after: True, accepted: a whole number
+after 1.5 -> after: 1.5, accepted: a whole number
+x None -> x: None, accepted: FIELD=START:STOP:N, such as
+y (1, 2) -> y: (1, 2), accepted: FIELD=START:STOP:N, such as
+x 'release.position.z=0.1:1:9' -> release.position.z: on both axes; accepted: two fields
+x 'height=0.1:1:9' -> release.position.z: on both axes; accepted: two fields
+margin 3 -> margin: 3, accepted: text
+margin 'luck' -> margin luck: accepted: height
+trust 1 -> trust: 1, accepted: True or False
+"""
+
+
+@pytest.mark.parametrize("case", NO_MAPS.strip().splitlines())
+def test_what_makes_no_map_is_refused(case):
+    given, _, named = case.partition(" -> ")
+    name, _, value = given.partition(" ")
+    with pytest.raises(ValueError, match=re.escape(named)):
+        cointoss.basin("fig24a", **{"x": X, "y": Y, name: ast.literal_eval(value)})
+
+
+def test_only_the_analytic_engine_counts_trusted_impacts():
+    with pytest.raises(cointoss.SweepError, match="trust: by mujoco, accepted: only by the analytic engine"):
+        cointoss.basin("fig24a", x=X, y=Y, engine="mujoco", trust=True)
+
+
+def test_two_axes_may_make_no_map_together():
+    with pytest.raises(ValueError, match="100000 by 100000 pixels, accepted: at most 5e"):
+        cointoss.basin("fig24a", x="release.position.z=0.1:1:100000", y="gravity=1:9:100000")
+
+
+@pytest.mark.parametrize("wrong", [None, {}, np.zeros(3)], ids=lambda wrong: type(wrong).__name__)
+def test_what_is_no_scenario_is_refused(wrong):
+    for use in (
+        lambda one: cointoss.basin(one, x=X, y=Y),
+        cointoss.compare,
+        cointoss.toss,
+        cointoss.toss_many,
+    ):
+        with pytest.raises(
+            cointoss.ScenarioError, match=r"^scenario: of type .*, accepted: a Scenario, the pa"
+        ):
+            use(wrong)
+    with pytest.raises(TypeError, match=r"^text: of type .*, accepted: TOML as text"):
+        cointoss.parse(wrong, "wrong")
+
+
+def test_what_is_no_map_is_refused(found):
+    made = map_of(found)
+    with pytest.raises(ValueError, match="77 is no outcome"):
+        replace(made, layers={**made.layers, "outcome": np.full((5, 7), 77, np.int8)})
+    with pytest.raises(ValueError, match=r"impacts: shape \(1, 1\), expected \(5, 7\)"):
+        TossedMap(
+            name="m", sweep=made.sweep, layers={**made.layers, "impacts": np.zeros((1, 1), np.int32)}
+        )
+    with pytest.raises(cointoss.SweepError, match="palette: 'foo', accepted: safe, paper"):
+        found.cointoss.plot(palette="foo")
+    with pytest.raises(cointoss.SweepError, match="layer: 'margin', accepted: outcome"):
+        found.cointoss.plot(layer="margin")
+    for most in (0, True, 2.5):
+        with pytest.raises(cointoss.SweepError, match=f"most = {most}; accepted: a whole number from 1"):
+            tossed_map_at("map.zarr", most=most)  # pyright: ignore[reportArgumentType]
+    for none in (found.isel(y=0), found.drop_vars(Z), found.drop_vars("outcome"), xarray.Dataset()):
+        with pytest.raises(cointoss.SweepError, match="dataset: accepted: one of tosses over two fields"):
+            none.cointoss.page()
+    uneven = found.isel(x=[0, 1, 3])
+    with pytest.raises(cointoss.SweepError, match="values that are not evenly spaced"):
+        uneven.cointoss.save("never.zarr")
+
+
+def test_outcomes_without_two_fields_are_bars(found):
+    row = found.isel(y=0)
+    axes = row.cointoss.plot(Figure().add_subplot())
+    heights = {
+        str(label.get_text()): bar.get_height()
+        for label, bar in zip(axes.get_xticklabels(), axes.patches, strict=True)
+    }
+    assert heights == row.cointoss.counts
+    assert set(row.cointoss.counts) <= {str(one) for one in Outcome}

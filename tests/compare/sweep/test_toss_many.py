@@ -1,0 +1,261 @@
+"""The verb: each toss of a batch is that of `toss`, and its dataset says how each ended."""
+
+import json
+import shutil
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import cointoss
+from cointoss import Outcome, SweepError, analytic, coin_mj, load, toss_many
+from cointoss.compare.engines import Engine
+from cointoss.compare.output.files import UnwritableError
+from cointoss.compare.sweep.grid import TILE_TOSSES
+from cointoss.models.records import UnsupportedError
+from cointoss.models.unused import UnusedFieldWarning
+from tests.helpers.draws import PAPER_OFFSET, ZLOTY, scenario
+from tests.helpers.own_laws import smooth
+
+CASE = load("fig24a").replace("ending.max_impacts", 8)
+GRID = {"restitution": "0.3:0.9:3", "height": [0.2, 0.3, 0.4, 0.5]}
+
+
+def singles(ds, engine=Engine.ANALYTIC):
+    """Yield each toss of a dataset, at its place, as `toss` makes it with the settings for many."""
+    for at in np.ndindex(ds.outcome.shape):
+        here = ds[{dim: i for dim, i in zip(ds.outcome.dims, at, strict=True)}]
+        given = [part for name, one in here.coords.items() for part in (str(name), one.item())]
+        case = ds.cointoss.scenario.replace(*given)
+        yield here, engine.package.toss(case, settings=engine.package.MANY)
+
+
+@pytest.mark.parametrize("engine", list(Engine))
+def test_each_toss_is_that_of_toss(engine):
+    ds = toss_many(CASE, GRID, engine=engine)
+    assert ds.sizes == {"floor.restitution": 3, "toss": 4}
+    for here, toss in singles(ds, engine):
+        assert (here.outcome, here.ending) == (str(toss.outcome), str(toss.ending))
+        assert (here.impacts, here.end_time) == (len(toss.impacts), toss.end_time)
+        face = {1: "heads", 2: "tails"}[toss.impacts.face[-1]] if len(toss.impacts) else "none"
+        assert here.last_face == face
+
+
+def test_rows_may_differ_in_everything():
+    vary = {
+        "coin.mass": [2e-3, 5e-3, 7e-3, 2e-3],
+        "coin.radius": [0.0125, 0.01, 0.02, 0.0125],
+        "coin.thickness": [0.0, 1e-3, 2e-3, 3e-3],
+        "air.exponent": [0.0, 0.5, 0.0, 1.0],
+        "air.normal": [0.1, 0.1, 0.0, 0.2],
+        "floor.contact": ["smooth", "coulomb", "knurled", "perfectly_rough"],
+        "floor.friction": [0.0, 0.3, 0.0, 0.0],
+        "gravity": [9.0, 9.5, 10.0, 1.6],
+    }
+    ds = toss_many(CASE, {**vary, "max_impacts": 3}, errors="keep")
+    for here, toss in singles(ds.drop_vars([])):
+        assert (here.outcome, here.impacts, here.end_time) == (
+            str(toss.outcome), len(toss.impacts), toss.end_time,
+        )  # fmt: skip
+
+
+def test_words_are_words_and_count():
+    ds = toss_many("fig24a", GRID)
+    heads = int((ds.outcome == "heads").sum())
+    assert 0 < heads < 12
+    assert heads == (ds.outcome == Outcome.HEADS).sum() == ds.cointoss.counts["heads"]
+    assert heads == np.sum(ds.outcome.values == Outcome.HEADS) == np.sum(Outcome.HEADS == ds.outcome.values)
+    assert ds.outcome.dtype.kind == ds.ending.dtype.kind == ds.last_face.dtype.kind == "U"
+    assert "flag_values" not in ds.outcome.attrs
+    assert ds["end_time"].attrs["units"] == "s"
+    assert ds["floor.restitution"].attrs == {"long_name": "restitution χ", "units": ""}
+    assert json.loads(ds.attrs["engine_settings"]) == analytic.MANY.as_dict()
+
+
+def test_a_dataset_can_be_written_by_xarray_itself(tmp_path):
+    ds = toss_many(CASE, {"floor.contact": ["smooth", "knurled"], "height": "0.3:0.4:2"}, trust="certain")
+    assert ds["floor.contact"].values.tolist() == ["smooth", "knurled"]
+    ds.to_zarr(tmp_path / "own.zarr", zarr_format=2)
+    with xr.open_zarr(tmp_path / "own.zarr") as back:
+        assert (back.outcome == ds.outcome).all()
+
+
+def test_trust_is_that_of_toss_and_by_the_analytic_engine():
+    plain, impacts, certain = (toss_many(CASE, GRID, trust=trust) for trust in (None, "impacts", "certain"))
+    assert "trusted_impacts" not in plain
+    assert "outcome_certain" not in impacts
+    assert certain.outcome_certain.dtype == bool
+    for here, toss in singles(certain):
+        assert here.trusted_impacts == toss.trusted_impacts
+        assert here.outcome_certain == toss.outcome_certain
+    assert (impacts.trusted_impacts == certain.trusted_impacts).all()
+    with pytest.raises(UnsupportedError, match='trust = "impacts": accepted by the MuJoCo engine: None'):
+        toss_many(CASE, GRID, engine="mujoco", trust="impacts")
+
+
+def test_answers_do_not_depend_on_the_workers():
+    one, three = (toss_many(CASE, {"spin": "20:60:300"}, workers=workers) for workers in (1, 3))
+    assert one.identical(three)
+
+
+def test_what_is_no_scenario_is_refused_or_kept():
+    vary = {"restitution": [0.5, 1.5, 0.6], "height": 0.3}
+    with pytest.raises(cointoss.ScenarioError, match=r"floor\.restitution = 1\.5.*at toss 1"):
+        toss_many(CASE, vary)
+    kept = toss_many(CASE, vary, errors="keep", trust="certain")
+    alone = toss_many(CASE, {**vary, "restitution": [0.5, 0.6]}, trust="certain")
+    assert kept.outcome.values.tolist() == [alone.outcome[0], "refused", alone.outcome[1]]
+    assert np.isnan(kept.end_time[1])
+    assert not kept.outcome_certain[1]
+    assert kept.cointoss.counts["refused"] == 1
+    assert int(kept.cointoss.shares()["count"].sum()) == 2
+
+
+def test_an_own_law_takes_the_place_of_the_scenarios():
+    law = cointoss.OwnLaw(smooth)
+    ds = toss_many("fig24a", {"height": "0.2:0.4:5", "max_impacts": 4}, law=law)
+    for here, height in zip(ds.end_time.values, ds["release.position.z"].values, strict=True):
+        case = load("fig24a").replace("release.position.z", height, "ending.max_impacts", 4)
+        assert here == cointoss.toss(case, law=law).end_time
+    with pytest.raises(UnsupportedError, match="law: given, accepted: none with the engine mujoco"):
+        toss_many(CASE, GRID, engine="mujoco", law=law)
+    with pytest.raises(UnsupportedError, match="law: given, accepted: none in a store"):
+        toss_many(CASE, GRID, law=law, out="never.zarr")
+
+
+WRONG = [
+    ({"engine": "paper"}, "engine: 'paper', accepted: analytic, mujoco"),
+    ({"trust": True}, "trust: True, accepted: None, 'impacts', 'certain'"),
+    ({"errors": "ignore"}, "errors: 'ignore', accepted: 'raise', 'keep'"),
+    ({"workers": 0}, "workers: 0, accepted: a whole number from 1"),
+    ({"workers": True}, "workers: True, accepted"),
+    ({"settings": coin_mj.MANY}, "settings: of type MujocoSettings, accepted: AnalyticSettings"),
+    ({"progress": "yes"}, "progress: 'yes', accepted: True, False"),
+    (
+        {"vary": {"height": "0.2:0.6:100000", "spin": "1:2:100000"}},
+        "1e.10 tosses, accepted: at most 5e.07 in memory",
+    ),
+]
+
+
+@pytest.mark.parametrize(("given", "said"), WRONG)
+def test_wrong_arguments_are_one_line(given, said):
+    with pytest.raises((ValueError, TypeError), match=said):
+        toss_many(CASE, **{"vary": GRID, **given})
+
+
+def test_mujoco_refuses_what_it_does_not_realise_before_the_first_toss():
+    with pytest.raises(UnsupportedError, match=r'floor\.contact = "knurled"'):
+        toss_many(CASE, {"floor.contact": ["smooth", "knurled"]}, engine="mujoco")
+
+
+def test_a_field_that_nothing_uses_is_told():
+    with pytest.warns(UnusedFieldWarning, match=r"floor\.friction = 0\.5"):
+        toss_many(CASE, {"friction": [0.1, 0.5]})
+
+
+class _Interrupting:
+    """Raises KeyboardInterrupt in the n-th call of an engine, after some of its rows."""
+
+    def __init__(self, monkeypatch, at):
+        self.calls, self.at, self.own = 0, at, analytic.toss_rows
+        monkeypatch.setattr(analytic, "toss_rows", self)
+
+    def __call__(self, rows, **how):
+        self.calls += 1
+        if self.calls != self.at:
+            return self.own(rows, **how)
+        how["answers"][:] = -1
+        self.own(rows[:2], **{**how, "answers": how["answers"][:2]})
+        raise KeyboardInterrupt
+
+
+def test_ctrl_c_keeps_what_is_done(monkeypatch):
+    vary = {"height": "0.2:0.6:200"}
+    whole = toss_many(CASE, vary)
+    _Interrupting(monkeypatch, 2)
+    with pytest.warns(
+        UserWarning, match=r"interrupted: 66 of 200 tosses were made; the others are not_tossed"
+    ):
+        part = toss_many(CASE, vary)
+    made = part.outcome != "not_tossed"
+    assert made.sum() == 66
+    assert part.where(made, drop=True).end_time.equals(whole.where(made, drop=True).end_time)
+    assert np.isnan(part.end_time.where(~made, drop=True)).all()
+
+
+@pytest.fixture
+def small_tiles(monkeypatch):
+    monkeypatch.setitem(TILE_TOSSES, Engine.ANALYTIC, 32)
+
+
+@pytest.mark.usefixtures("small_tiles")
+@pytest.mark.parametrize(
+    "vary", [{"height": np.linspace(0.2, 0.6, 150)}, {"height": "0.2:0.6:15", "spin": "20:60:10"}]
+)
+def test_a_store_has_what_memory_has_and_goes_on(vary, tmp_path, monkeypatch):
+    path, whole = tmp_path / "a.zarr", toss_many(CASE, vary, trust="impacts")
+    with monkeypatch.context() as patched:
+        _Interrupting(patched, 3)
+        with pytest.warns(UserWarning, match=r"of 150 tosses were made; the others are not_tossed"):
+            part = toss_many(CASE, vary, trust="impacts", out=path)
+    assert 0 < part.cointoss.counts["not_tossed"] < 150
+    with pytest.raises(UnwritableError, match="exists; accepted: a new name"):
+        toss_many(CASE, vary, trust="impacts", out=path)
+    with pytest.raises(UnwritableError, match="is a store of tosses with another scenario"):
+        toss_many(CASE.replace("gravity", 9.0), vary, trust="impacts", out=path, resume=True)
+    with pytest.raises(UnwritableError, match="is a store of tosses with another grid in"):
+        toss_many(
+            CASE, {**vary, "height": np.linspace(0.2, 0.7, 150)}, trust="impacts", out=path, resume=True
+        )
+    made = toss_many(CASE, vary, trust="impacts", out=path, resume=True)
+    assert made.outcome.dtype == np.int8
+    assert made.outcome.attrs["flag_meanings"].split()[3] == "heads"
+    words = made.cointoss.words
+    for name in whole.data_vars:
+        assert np.array_equal(words[name].values, whole[name].values), name
+    assert made.cointoss.counts == whole.cointoss.counts
+    assert toss_many(CASE, {"height": [0.2]}, out=path, overwrite=True).sizes == {"toss": 1}
+
+
+@pytest.mark.usefixtures("small_tiles")
+def test_a_damaged_file_of_a_store_is_found_out_and_tossed_again(tmp_path):
+    path, vary = tmp_path / "a.zarr", {"height": np.linspace(0.2, 0.6, 100)}
+    good = toss_many(CASE, vary, out=path).load()
+    file = path / "impacts" / "c" / "1"
+    content = bytearray(file.read_bytes())
+    content[len(content) // 2] ^= 1
+    file.write_bytes(content)
+    with pytest.raises(RuntimeError, match="checksum"):
+        xr.open_zarr(path).impacts.load()
+    assert toss_many(CASE, vary, out=path, resume=True).load().equals(good)
+
+
+def test_a_strangers_store_runs_nothing(tmp_path):
+    """A codec of another name, which may be any code, is refused before anything is decoded."""
+    path = tmp_path / "a.zarr"
+    toss_many(CASE, {"height": [0.2, 0.3]}, out=path)
+    described = path / "impacts" / "zarr.json"
+    text = json.loads(described.read_text())
+    text["codecs"][1]["name"] = "pickle"
+    described.write_text(json.dumps(text))
+    with pytest.raises(UnwritableError, match="is no map of cointoss .array impacts: codecs"):
+        toss_many(CASE, {"height": [0.2, 0.3]}, out=path, resume=True)
+    shutil.rmtree(path)
+
+
+def test_a_place_for_a_store_is_new_and_ends_in_zarr(tmp_path):
+    for name, said in (("a.map", "ends in .zarr"), ("no/a.zarr", "no folder")):
+        with pytest.raises(UnwritableError, match=said):
+            toss_many(CASE, GRID, out=tmp_path / name)
+    with pytest.raises(SweepError, match="nothing varies, accepted: one field or more for a store"):
+        toss_many(CASE, out=tmp_path / "b.zarr")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_mirrored_coins_end_alike():
+    """Turned about the vertical, a thick coin off its centre ends as before."""
+    case = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}, release={"angles": [0.0, 0.4, 0.2]})
+    ds = toss_many(case, {"release.angles.psi": [0.0, 1.0, 2.0], "max_impacts": 5})
+    assert len(set(ds.last_face.values.tolist())) == 1
+    assert np.ptp(ds.end_time.values) < 1e-9
