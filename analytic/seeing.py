@@ -10,14 +10,21 @@ from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.sampling import sample_contact
 from cointoss.analytic.events import started_of, toss_coin
 from cointoss.analytic.flight.flying import sample
-from cointoss.analytic.flight.state_vector import state_of
+from cointoss.analytic.flight.state_vector import STATE_SIZE
 from cointoss.analytic.settings import ContactLimits
 from cointoss.models.attitude import rotation_matrix
-from cointoss.models.body import Body, Rules, with_budgets, with_floor
-from cointoss.models.faults import Fault, fault_of_release
-from cointoss.models.kernel.arrays import Array, Cube, Row, Table
+from cointoss.models.body import Body, Rules
+from cointoss.models.kernel.arrays import Array, Cube, Table
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import IMPACT_ROW
+from cointoss.models.rows import (
+    AIR_EXPONENT,
+    bodies_alike,
+    body_of,
+    has_linear_air,
+    rules_of,
+    write_release,
+)
 
 LongCounts = Annotated[NDArray[np.int64], 1]
 
@@ -32,54 +39,49 @@ class Sightings(NamedTuple):
     states: Cube
     """The states at the times asked for, in the order of a state vector, (n, m, 13)."""
     impacts: LongCounts
-    """The number of impacts, (n,); -1 for a release that no scenario has."""
-
-
-class SightingRequest(NamedTuple):
-    """What is asked of each toss."""
-
-    restitution: Row
-    """χ, (n,)."""
-    friction: Row
-    """μ, (n,)."""
-    max_time: Row
-    """The time at which the toss ends at the latest, (n,) [s]."""
-    times: Table
-    """Times of the states asked for, rising, (n, m) [s]; before and after the toss its ends count."""
+    """How many the toss makes, (n,)."""
 
 
 @compiled
-def see_each(
-    body: Body, rules: Rules, limits: ContactLimits, starts: Table, asked: SightingRequest, found: Sightings
-) -> None:
-    """Toss the coin from each state, (n, 13), and write what is asked into what is found.
+def see_each(rows: Table, limits: ContactLimits, times: Table, found: Sightings) -> None:
+    """Toss each of many scenarios, and write what it shows into what is found.
 
     Args:
-        body: the coin.
-        rules: of the floor and the ending, but for what is asked.
+        rows: of their fields, each a scenario's, (n, 46).
         limits: of sustained contact.
-        starts: at release; written to.
-        asked: of each toss.
-        found: where it goes.
+        times: when states are asked for, rising, (n, m) [s]; before and after the toss its ends count.
+        found: where it goes. Where no times are asked for, the scenarios end with its touches at the latest.
     """
+    first = 0
+    while first < len(rows):
+        end = first + 1
+        while end < len(rows) and bodies_alike(rows[first], rows[end]):
+            end += 1
+        if has_linear_air(rows[first]):
+            _see_run(body_of(rows[first], None), rows, limits, times, found, first, end)
+        else:
+            _see_run(body_of(rows[first], rows[first, AIR_EXPONENT]), rows, limits, times, found, first, end)
+        first = end
+
+
+@compiled
+def _see_run(body, rows, limits, times, found, first, end):
+    """Toss rows with one coin, air and gravity."""
     most, is_filmed = found.touch_times.shape[1], found.states.shape[1] > 0
-    room = np.zeros(most + 1, IMPACT_ROW)  # the last is work space
-    for i in range(len(starts)):
-        if fault_of_release(body, state_of(starts[i])).fault != Fault.NONE:
-            found.impacts[i] = -1
-            continue
-        floor = with_floor(rules, asked.restitution[i], asked.friction[i])
-        floor = with_budgets(floor, floor.max_impacts if is_filmed else most, asked.max_time[i])
-        n, rows, pieces, _, _, end_time = toss_coin(body, floor, limits, starts[i], room, is_filmed)
+    room, start = np.zeros(most + 1, IMPACT_ROW), np.empty(STATE_SIZE)  # the last is work space
+    for i in range(first, end):
+        rules = rules_of(rows[i])
+        write_release(rows[i], start)
+        n, impacts, pieces, _, _, end_time = toss_coin(body, rules, limits, start, room, is_filmed)
         found.impacts[i] = n
         for k in range(most):
             found.touch_times[i, k] = end_time
             if k < n:
-                e = rows[k]["quaternion"]
-                found.touch_times[i, k] = rows[k]["time"]
+                e = impacts[k]["quaternion"]
+                found.touch_times[i, k] = impacts[k]["time"]
                 found.up[i, k] = rotation_matrix((e[0], e[1], e[2], e[3]))[2][2]
         if is_filmed:
-            _film(body, floor, limits, pieces, asked.times[i], found.states[i])
+            _film(body, rules, limits, pieces, times[i], found.states[i])
 
 
 @compiled

@@ -38,24 +38,38 @@ class Descent:
         until = float(self.misfit.times[rows].max())
         return self.misfit.residuals(self.values(points), until)[:, rows]
 
-    def squares(self, points: Array, rows: NDArray[np.intp]) -> Array:
-        """Return χ², (p,)."""
-        return np.sum(self.residuals(points, rows) ** 2, axis=1)
+    def slopes(
+        self,
+        points: Array,
+        missed: Array,
+        rows: NDArray[np.intp],
+        held: NDArray[np.bool_] | None = None,
+    ) -> Array:
+        """Return the derivatives of the residuals by the coordinates of the points, (p, n, k).
 
-    def slopes(self, points: Array, rows: NDArray[np.intp]) -> Array:
-        """Return the derivatives of the residuals by the coordinates of the points, (p, n, k)."""
-        steps = np.where(points + STEP <= 1, STEP, -STEP)
-        there = points[:, None, :] + np.concatenate(
-            [np.zeros((len(points), 1, self.size)), steps[:, None, :] * np.eye(self.size)], axis=1
-        )
-        missed = self.residuals(there.reshape(-1, self.size), rows).reshape(len(points), self.size + 1, -1)
-        return np.moveaxis((missed[:, 1:] - missed[:, :1]) / steps[:, :, None], 1, 2)
+        Args:
+            points: where.
+            missed: the residuals there, (p, n).
+            rows: of what.
+            held: coordinates whose derivatives are 0, (p, k); by default none.
+        """
+        found = np.zeros((len(points), len(rows), self.size))
+        at, field = np.nonzero(np.ones(points.shape, bool) if held is None else ~held)
+        moved = points[at]
+        steps = np.where(moved[np.arange(len(at)), field] + STEP <= 1, STEP, -STEP)
+        moved[np.arange(len(at)), field] += steps
+        found[at, :, field] = (self.residuals(moved, rows) - missed[at]) / steps[:, None]
+        return found
 
-    def information(self, points: Array, rows: NDArray[np.intp]) -> Array:
+    def slopes_at(self, point: Array, rows: NDArray[np.intp]) -> Array:
+        """Return the derivatives of the residuals at one point, (k,): (n, k)."""
+        return self.slopes(point[None], self.residuals(point[None], rows), rows)[0]
+
+    def information(self, points: Array, missed: Array, rows: NDArray[np.intp]) -> Array:
         """Return the products of the slopes, the inverse of the covariance at each point, (p, k, k)."""
         found = np.empty((len(points), self.size, self.size))
         for some in self._groups(len(points), rows):
-            slopes = self.slopes(points[some], rows)
+            slopes = self.slopes(points[some], missed[some], rows)
             found[some] = np.einsum("pni,pnj->pij", slopes, slopes)
         return found
 
@@ -65,44 +79,50 @@ class Descent:
         return [slice(first, min(first + size, count)) for first in range(0, count, size)]
 
     def descended(
-        self, points: Array, rows: NDArray[np.intp], held: NDArray[np.bool_] | None = None
+        self,
+        points: Array,
+        missed: Array,
+        rows: NDArray[np.intp],
+        held: NDArray[np.bool_] | None = None,
     ) -> tuple[Array, Array]:
-        """Return points after steps of Levenberg and Marquardt, (p, k), and χ² there, (p,).
+        """Return points after steps of Levenberg and Marquardt, (p, k), and the residuals there, (p, n).
 
         All points step together: many tosses at a time take little longer than one.
 
         Args:
             points: where they begin.
+            missed: the residuals there.
             rows: what is fitted.
             held: coordinates that stay, (p, k); by default none.
         """
         held = np.zeros(points.shape, dtype=bool) if held is None else held
-        there, squares = np.empty_like(points), np.empty(len(points))
+        there, missed_there = np.empty_like(points), np.empty_like(missed)
         for some in self._groups(len(points), rows):
-            there[some], squares[some] = self._descended(points[some], rows, held[some])
-        return there, squares
+            there[some], missed_there[some] = self._descended(points[some], missed[some], rows, held[some])
+        return there, missed_there
 
     def _descended(
-        self, points: Array, rows: NDArray[np.intp], held: NDArray[np.bool_]
+        self, points: Array, missed: Array, rows: NDArray[np.intp], held: NDArray[np.bool_]
     ) -> tuple[Array, Array]:
-        points, missed = points.copy(), self.residuals(points, rows)
+        points, missed = points.copy(), missed.copy()
+        slopes = np.empty((*missed.shape, self.size))
         damping, left = np.full(len(points), 1e-3), np.arange(len(points))
+        moved = left
         for _ in range(STEPS):
-            slopes = self.slopes(points[left], rows) * ~held[left][:, None, :]
-            there, missed_there = self._stepped(points[left], missed[left], slopes, damping[left], rows)
-            gain = np.sum(missed[left] ** 2, axis=1) - np.sum(missed_there**2, axis=1)
-            better = left[gain > 0]
-            points[better], missed[better] = there[gain > 0], missed_there[gain > 0]
+            slopes[moved] = self.slopes(points[moved], missed[moved], rows, held[moved])
+            there = self._stepped(points[left], missed[left], slopes[left], damping[left])
+            missed_there = self.residuals(there, rows)
+            gain = squares(missed[left]) - squares(missed_there)
+            moved, is_left = left[gain > 0], (gain < 0) | (gain > SETTLED)
+            points[moved], missed[moved] = there[gain > 0], missed_there[gain > 0]
             damping[left] *= np.where(gain > 0, 0.1, 10.0)
-            left = left[(gain < 0) | (gain > SETTLED)]
+            left, moved = left[is_left], left[is_left & (gain > 0)]
             if not len(left):
                 break
-        return points, np.sum(missed**2, axis=1)
+        return points, missed
 
-    def _stepped(
-        self, points: Array, missed: Array, slopes: Array, damping: Array, rows: NDArray[np.intp]
-    ) -> tuple[Array, Array]:
-        """Return where one step leads, and the residuals there."""
+    def _stepped(self, points: Array, missed: Array, slopes: Array, damping: Array) -> Array:
+        """Return where one step leads, (p, k)."""
         curvature = np.einsum("pni,pnj->pij", slopes, slopes)
         scale = np.einsum("pii->pi", curvature) + np.finfo(float).tiny
         curvature += (damping[:, None] * scale + 1e-9 * scale.max(axis=1, keepdims=True))[
@@ -110,5 +130,9 @@ class Descent:
         ] * np.eye(self.size)
         slope = np.einsum("pni,pn->pi", slopes, missed)
         step = np.linalg.solve(curvature, slope[:, :, None])[:, :, 0]
-        there = np.clip(points - np.clip(step, -LONGEST, LONGEST), 0, 1)
-        return there, self.residuals(there, rows)
+        return np.clip(points - np.clip(step, -LONGEST, LONGEST), 0, 1)
+
+
+def squares(missed: Array) -> Array:
+    """Return χ², (p,), from residuals, (p, n)."""
+    return np.sum(missed**2, axis=1)

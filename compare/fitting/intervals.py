@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.compare.fitting.descent import LONGEST, Descent
+from cointoss.compare.fitting.descent import LONGEST, Descent, squares
 from cointoss.models.records import Array
 
 NEARER = 0.6
@@ -70,10 +70,10 @@ def region_of(
         rng: of the points that are drawn.
     """
     points = known[-1].points
-    squares = descent.squares(points, rows)
-    best, least = points[np.argmin(squares)], float(squares.min())
-    inside = squares <= least + above
-    met, squares = Known(points[inside], known[-1].information[inside]), squares[inside]
+    square = squares(descent.residuals(points, rows))
+    best, least = points[np.argmin(square)], float(square.min())
+    inside = square <= least + above
+    met, met_squares = Known(points[inside], known[-1].information[inside]), square[inside]
     fields, signs = np.repeat(np.arange(descent.size), 2), np.tile([-1.0, 1.0], descent.size)
     near, root = np.full(len(fields), np.nan), np.zeros(len(fields))
     beyond, root_beyond = limits.ravel().copy(), np.full(len(fields), np.nan)
@@ -85,7 +85,7 @@ def region_of(
     found = (best, least)
     for _ in range(MOST_STEPS):
         outermost = np.argmax(signs * met.points[:, fields], axis=0)
-        near, root = met.points[outermost, fields], root_of(squares[outermost])
+        near, root = met.points[outermost, fields], root_of(met_squares[outermost])
         beyond = np.where(signs * near > signs * beyond, limits.ravel(), beyond)
         beyond = signs * np.maximum(signs * beyond, signs * near)
         is_tried = ~np.isnan(root_beyond)
@@ -95,15 +95,17 @@ def region_of(
             break
         share = np.where(is_tried[left], NEARER, 1.0)
         target = near[left] + share * (beyond[left] - near[left])
-        moved, square = _least_at(descent, rows, [*known[:-1], met], fields[left], target, rng)
+        moved, missed = _least_at(descent, rows, [*known[:-1], met], fields[left], target, rng)
+        square = squares(missed)
         if square.min() < found[1]:
             found = moved[np.argmin(square)], float(square.min())
         is_inside = square <= least + above
         beyond[left[~is_inside]] = target[~is_inside]
         root_beyond[left[~is_inside]] = root_of(square[~is_inside])
         if is_inside.any():
-            new, squares = moved[is_inside], np.concatenate([squares, square[is_inside]])
-            met = Known(*map(np.concatenate, zip(met, (new, descent.information(new, rows)), strict=True)))
+            met_squares = np.concatenate([met_squares, square[is_inside]])
+            new = moved[is_inside], descent.information(moved[is_inside], missed[is_inside], rows)
+            met = Known(*map(np.concatenate, zip(met, new, strict=True)))
     part = np.where(np.isnan(root_beyond), 0.0, (above**0.5 - root) / (root_beyond - root))
     ends = near + np.where(beyond == near, 0.0, part) * (beyond - near)
     return Region(np.sort(ends.reshape(-1, 2), axis=1), *found, met.points)
@@ -117,7 +119,8 @@ def _least_at(
     values: Array,
     rng: np.random.Generator,
 ) -> tuple[Array, Array]:
-    """Return the points with the least χ² that are found where one coordinate is held, (p, k), and χ², (p,).
+    """Return the points with the least χ² that are found where one coordinate is held, (p, k), and the
+    residuals there, (p, n).
 
     Args:
         descent: the misfit.
@@ -135,13 +138,13 @@ def _least_at(
         ]
     )
     p, n, k = drawn.shape
-    squares = descent.squares(drawn.reshape(-1, k), rows).reshape(p, n)
-    tried = np.take_along_axis(drawn, np.argsort(squares, axis=1)[:, :TRIED, None], axis=1)
+    missed = descent.residuals(drawn.reshape(-1, k), rows)
+    tried = np.argsort(squares(missed).reshape(p, n), axis=1)[:, :TRIED]
+    chosen = (n * np.arange(p)[:, None] + tried).ravel()
     held = np.repeat(np.eye(k, dtype=bool)[fields], tried.shape[1], axis=0)
-    points, squares = descent.descended(tried.reshape(-1, k), rows, held)
-    best = np.argmin(squares.reshape(p, -1), axis=1)
-    rows_of = np.arange(p)
-    return points.reshape(p, -1, k)[rows_of, best], squares.reshape(p, -1)[rows_of, best]
+    points, missed = descent.descended(drawn.reshape(-1, k)[chosen], missed[chosen], rows, held)
+    best = np.argmin(squares(missed).reshape(tried.shape), axis=1) + tried.shape[1] * np.arange(p)
+    return points[best], missed[best]
 
 
 def _drawn_at(known: Known, field: int, value: float, count: int, rng: np.random.Generator) -> Array:

@@ -7,20 +7,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.analytic.runs import horizon_of, run
-from cointoss.analytic.sightings import Sightings, asked_of, sightings
+from cointoss.analytic.seeing import Sightings
+from cointoss.analytic.sightings import sightings
 from cointoss.analytic.toss import state_at_release
 from cointoss.compare.fitting.observed import Observed
 from cointoss.compare.sweep.axes import Span
-from cointoss.models.errors import ScenarioError
+from cointoss.models.batch import PLACE, refused, rows_of
+from cointoss.models.interruptible import interruptible
 from cointoss.models.laws import EndingTest
 from cointoss.models.records import Array, Face
-from cointoss.models.releases import changed_releases, states_of
 from cointoss.models.scenario import Scenario
 
 CLOCK = "clock"
 """The time that the observer's clock shows at the release, fitted as if it were a field [s]."""
-_OF_FLOOR = ("restitution", "friction")
-"""What of the floor may differ between tosses that are made together, as their releases may."""
 FACE_SD = 0.02
 """The normal's vertical part may be this far on the wrong side of 0 where a face was seen: 1 degree."""
 MISSING = 10.0
@@ -101,7 +100,8 @@ class Misfit:
 
     def scenario_of(self, values: Array) -> Scenario:
         """Return the scenario with these values, (k,); raise `ScenarioError` for what is none."""
-        return _replaced(self.scenario, {span.field: v for span, v in zip(self.spans, values, strict=True)})
+        pairs = [x for field, i in self._columns.items() for x in (field, float(values[i]))]
+        return self.scenario.replace(*pairs) if pairs else self.scenario  # pyright: ignore[reportArgumentType]
 
     def residuals(self, values: Array, until: float = np.inf) -> Array:
         """Return the residuals of many tosses, (p, n); `IMPOSSIBLE` for values that make no scenario.
@@ -110,39 +110,39 @@ class Misfit:
             values: of the fields, a row for each toss, (p, k).
             until: what was seen later may have any residuals, which spares most of the work [s].
         """
-        found, columns = np.full((len(values), len(self.times)), IMPOSSIBLE), self._columns(values)
-        apart = {field: column for field, column in columns.items() if not _may_differ(field)}
-        coins = np.array(list(apart.values())).T if apart else np.zeros((len(values), 1))
-        for coin in np.unique(coins, axis=0):
-            rows = np.flatnonzero(np.all(coins == coin, axis=1))
-            try:
-                scenario = _replaced(self.scenario, dict(zip(apart, coin, strict=False)))
-            except ScenarioError:
-                continue
-            of_rows = {field: column[rows] for field, column in columns.items()}
-            found[rows] = self._of_one_coin(scenario, of_rows, until)
+        rows, clock = self._rows(values), self.clock_of(values)
+        found, is_toss = np.full((len(values), len(self.times)), IMPOSSIBLE), ~refused(rows, self._columns)
+        rows, clock = rows[is_toss], clock[is_toss]
+        film, is_awaited = self._film[self._film <= until], self.observed.touch_times <= until
+        touches = int(self.observed.touch_numbers[is_awaited].max(initial=0))
+        rows[:, PLACE["ending.max_impacts"]] = self.most_impacts if len(film) else touches
+        rows[:, PLACE["ending.max_time"]] = self._ends(clock, until)
+        shown = sightings(rows, film - clock[:, None], most=self._most)
+        states = np.pad(shown.states, ((0, 0), (0, len(self._film) - len(film)), (0, 0)))
+        found[is_toss] = np.hstack([self._missed_touches(shown, clock), self._missed_frames(states)])
         return found
 
-    def _columns(self, values: Array) -> dict[str, Array]:
-        return {span.field: column for span, column in zip(self.spans, values.T, strict=True)}
+    @cached_property
+    def _columns(self) -> dict[str, int]:
+        """Where each field of the scenario stands among the values."""
+        return {span.field: i for i, span in enumerate(self.spans) if span.field != CLOCK}
 
-    def _of_one_coin(self, scenario: Scenario, columns: dict[str, Array], until: float) -> Array:
-        """Return the residuals of tosses of one coin, (p, n), from values of its fields, (p,) each."""
-        p = len(next(iter(columns.values())))
-        clock = columns.get(CLOCK, np.zeros(p))
-        chi, mu = (
-            columns.get(f"floor.{name}", np.full(p, getattr(scenario.floor, name))) for name in _OF_FLOOR
-        )
-        changed = {field: column for field, column in columns.items() if field.startswith("release.")}
-        start = states_of(changed_releases(scenario.release, p, changed))
-        rules = scenario.rules._replace(test=EndingTest.LYING, max_impacts=self.most_impacts)
-        film, ends = self._film[self._film <= until], self._ends(clock, until)
-        asked = asked_of(p, restitution=chi, friction=mu, max_time=ends, times=film[None] - clock[:, None])
-        shown = sightings(scenario.body, rules, start, asked, most=self._most)
-        states = np.pad(shown.states, ((0, 0), (0, len(self._film) - len(film)), (0, 0)))
-        residuals = np.hstack([self._missed_touches(shown, clock), self._missed_frames(states)])
-        residuals[shown.impacts < 0] = IMPOSSIBLE
-        return residuals
+    @cached_property
+    def _row(self) -> Array:
+        """A row of the scenario, followed until the coin lies, with any values of the fields, (1, 46)."""
+        changed = {field: self.spans[i].start for field, i in self._columns.items()}
+        return rows_of(self.scenario, 1, {**changed, "ending.test": EndingTest.LYING.value})
+
+    def _rows(self, values: Array) -> Array:
+        """Return the rows of the scenarios with these values, (p, 46); not all need be scenarios."""
+        rows = np.repeat(self._row, len(values), axis=0)
+        rows[:, [PLACE[field] for field in self._columns]] = values[:, list(self._columns.values())]
+        return rows
+
+    def clock_of(self, values: Array) -> Array:
+        """Return the time of the observer's clock at each release, (p,) [s], from values, (p, k)."""
+        of_clock = [i for i, span in enumerate(self.spans) if span.field == CLOCK]
+        return values[:, of_clock[0]] if of_clock else np.zeros(len(values))
 
     def _ends(self, clock: Array, until: float = np.inf) -> Array:
         """Return when tosses end whose release was at `clock` [s]: after all that was seen, or `until`."""
@@ -150,10 +150,12 @@ class Misfit:
 
     def predicted(self, values: Array) -> Predicted:
         """Return what the toss with these values, (k,), shows; raise `ScenarioError` for what is none."""
-        scenario, clock = self.scenario_of(values), self._columns(values[None]).get(CLOCK, np.zeros(1))[0]
-        rules = scenario.rules._replace(test=EndingTest.LYING, max_time=float(self._ends(clock)))
-        log = run(scenario.body, rules, state_at_release(scenario.release))
-        trusted, numbers = horizon_of(scenario.body, rules, log).impacts, self.observed.touch_numbers
+        scenario, clock = self.scenario_of(values), self.clock_of(values[None])
+        body, start = scenario.body, state_at_release(scenario.release)
+        rules = scenario.rules._replace(test=EndingTest.LYING, max_time=float(self._ends(clock)[0]))
+        log = interruptible(lambda: run(body, rules, start))
+        trusted = interruptible(lambda: horizon_of(body, rules, log)).impacts
+        numbers = self.observed.touch_numbers
         made = np.append(log.rows["time"] + clock, np.full(self._most, np.nan))
         # A toss is open from the first impact that is not trusted; one that is made too few is no such.
         until = made[trusted] if trusted < len(log.rows) else np.inf
@@ -187,22 +189,9 @@ class Misfit:
             [
                 ((seen.heights - z) / seen.height_sd)[:, heights],
                 ((seen.tilts - tilted) / seen.tilt_sd)[:, tilts],
-                turned.reshape(len(z), -1) / seen.quaternion_sd[attitudes],
+                turned.reshape(len(z), len(attitudes)) / seen.quaternion_sd[attitudes],
             ]
         )
-
-
-def _replaced(scenario: Scenario, values: dict[str, float]) -> Scenario:
-    """Return a scenario with these values of its fields; raise `ScenarioError` for what is none."""
-    pairs: list[object] = [
-        x for field, value in values.items() if field != CLOCK for x in (field, float(value))
-    ]
-    return scenario.replace(*pairs) if pairs else scenario  # pyright: ignore[reportArgumentType]
-
-
-def _may_differ(field: str) -> bool:
-    """Return whether a field may differ between tosses that are made together."""
-    return field == CLOCK or field.startswith("release.") or field.removeprefix("floor.") in _OF_FLOOR
 
 
 def _turned(first: Array, second: Array) -> Array:

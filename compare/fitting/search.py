@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 from scipy.stats import chi2, qmc
 
-from cointoss.compare.fitting.descent import Descent
+from cointoss.compare.fitting.descent import Descent, squares
 from cointoss.compare.fitting.intervals import Known, drawn_near, halved, region_of
 from cointoss.compare.fitting.misfit import IMPOSSIBLE, Misfit, Predicted
 from cointoss.models.errors import ScenarioError
@@ -103,6 +103,7 @@ class LeastSquaresSearch:
         self._descent = Descent(misfit)
         # What was seen first is fitted first.
         self._order = np.argsort(misfit.times, kind="stable")
+        self._best: tuple[Array, float, int] | None = None
 
     def found(self) -> Minima | None:
         """Return what was found; None where no start makes a scenario."""
@@ -111,14 +112,14 @@ class LeastSquaresSearch:
         if not len(starts):
             return None
         known = self._fitted(starts)
-        with stage("refining the best fits"):
-            deepest, _ = self._modes(
-                *self._descent.descended(known[-1].points, self._order), self._order, 0.0
-            )
+        with stage("refining the best fits", detail=self._so_far):
+            points = known[-1].points
+            missed = self._descent.residuals(points, self._order)
+            deepest, _ = self._modes(*self._descent.descended(points, missed, self._order), self._order, 0.0)
             minima = [each for each in map(self._refined, deepest[:REFINED]) if each is not None]
         if not minima:
             return None
-        with stage("measuring the intervals"):
+        with stage("measuring the intervals", detail=self._so_far):
             ends = self._ends(minima, np.vstack([known[-1].points, deepest]), known[-EARLIER - 1 : -1])
         return Minima(self._apart(minima), ends)
 
@@ -126,21 +127,30 @@ class LeastSquaresSearch:
         """Return points that explain what was seen until ever later times, at last all."""
         fitted, seen, around = 0, len(self._order), points[:0]
         known: list[Known] = []
-        with stage("fitting touch by touch", "numbers", total=seen) as progress:
+        with stage("fitting touch by touch", "numbers", total=seen, detail=self._so_far) as progress:
             while fitted < seen:
                 points = np.vstack([points, around])
-                fitted = self._next(points, fitted)
+                missed = self._next(points, fitted)
+                fitted = missed.shape[1]
                 rows = self._order[:fitted]
-                squares = self._descent.squares(points, rows)
-                some = self._ranked(squares, ALIKE)[: CROWD if known else None]
-                there, least = self._descent.descended(points[some], rows)
+                some = self._ranked(squares(missed), ALIKE)[: CROWD if known else None]
+                there, missed_there = self._descent.descended(points[some], missed[some], rows)
                 # Minima alone would not tell how far a bent region reaches, so that others are kept, too.
-                among = np.vstack([there, points[some]]), np.concatenate([least, squares[some]])
+                among = np.vstack([there, points[some]]), np.vstack([missed_there, missed[some]])
                 points, information = self._modes(*among, rows, ALIKE)
                 known.append(Known(points, information))
                 around = self._neighbours(points, information)
                 progress(fitted, seen)
         return known
+
+    def _so_far(self) -> str:
+        """Return the best that was found so far, in words."""
+        if self._best is None:
+            return ""
+        (point, square, count), spans = self._best, self._misfit.spans
+        values = zip(spans, self._descent.values(point), strict=True)
+        told = ", ".join(f"{span.field} = {value:.5g}" for span, value in values)
+        return f"chi-square {square:.4g} of {count}: {told}"
 
     def _ends(self, minima: list[Minimum], points: Array, earlier: list[Known], again: int = AGAIN) -> Array:
         """Return the ends of the intervals, (k, 2); minima that are met on the way are added.
@@ -154,7 +164,8 @@ class LeastSquaresSearch:
         best = min(minima, key=lambda each: each.score)
         rows = np.flatnonzero(best.predicted.is_tested)
         points = np.vstack([points, [self._descent.point(each.values) for each in minima]])
-        known = [*earlier, Known(points, self._descent.information(points, rows))]
+        missed = self._descent.residuals(points, rows)
+        known = [*earlier, Known(points, self._descent.information(points, missed, rows))]
         region = region_of(self._descent, rows, known, limits=self._limits(best), above=ABOVE, rng=self._rng)
         better = self._refined(region.best) if region.least < best.chi_square - GAIN else None
         if not again or better is None or better.score >= best.score - GAIN:
@@ -173,7 +184,7 @@ class LeastSquaresSearch:
         point = self._descent.point(best.values)
         if not len(early):
             return np.tile([0.0, 1.0], (len(point), 1))
-        covariance, _ = covariance_of(self._descent.slopes(point[None], early)[0], np.ones(len(point)))
+        covariance, _ = covariance_of(self._descent.slopes_at(point, early), np.ones(len(point)))
         far = REACH * np.sqrt(np.diag(covariance))
         return np.clip(np.column_stack([point - far, point + far]), 0, 1)
 
@@ -198,25 +209,33 @@ class LeastSquaresSearch:
             progress(min(first + TOGETHER, len(points)), len(points))
         return points[np.concatenate(made)]
 
-    def _next(self, points: Array, fitted: int) -> int:
-        """Return how many residuals to fit next: as many as a few points are not far from explaining."""
+    def _next(self, points: Array, fitted: int) -> Array:
+        """Return the residuals to fit next, (p, n): as many as a few points are not far from explaining."""
         least, seen = fitted + 1 + fitted // SLOWEST, len(self._order)
         most = min(max(least, int(GROWTH * fitted)), seen)
-        missed = np.cumsum(self._descent.residuals(points, self._order[:most])[:, fitted:] ** 2, axis=1)
-        near = np.sum(missed <= missed.min(axis=0) + NEAR, axis=0) >= min(FEW, len(points))
-        return most if near.all() else min(max(fitted + int(np.argmin(near)), least), seen)
+        missed = self._descent.residuals(points, self._order[:most])
+        grown = np.cumsum(missed[:, fitted:] ** 2, axis=1)
+        near = np.sum(grown <= grown.min(axis=0) + NEAR, axis=0) >= min(FEW, len(points))
+        if near.all():
+            return missed
+        # A touch that a toss does not make misses by as much as is waited for: what is fitted decides.
+        count = min(max(fitted + int(np.argmin(near)), least), seen)
+        return self._descent.residuals(points, self._order[:count])
 
     def _modes(
-        self, points: Array, squares: Array, rows: NDArray[np.intp], alike: float
+        self, points: Array, missed: Array, rows: NDArray[np.intp], alike: float
     ) -> tuple[Array, Array]:
         """Return points of which the residuals tell any two apart, (n, k), and their information, (n, k, k).
 
         They are in the order of `_ranked`, and none of them is hopeless. What no residual determines tells
         nothing apart.
         """
-        order = self._ranked(squares, alike)
-        points = points[order[squares[order] <= squares.min() + HOPELESS]]
-        information = self._descent.information(points, rows)
+        square = squares(missed)
+        self._best = points[np.argmin(square)], float(square.min()), len(rows)
+        order = self._ranked(square, alike)
+        order = order[square[order] <= square.min() + HOPELESS]
+        points = points[order]
+        information = self._descent.information(points, missed[order], rows)
         kept: list[int] = []
         for i in range(len(points)):
             apart = points[i] - points[kept]
@@ -227,20 +246,20 @@ class LeastSquaresSearch:
                 kept.append(i)
         return points[kept], information[kept]
 
-    def _ranked(self, squares: Array, alike: float) -> NDArray[np.intp]:
+    def _ranked(self, square: Array, alike: float) -> NDArray[np.intp]:
         """Return the order of points by χ²; those above the least by no more than `alike` come first, in any
         order."""
-        anyhow = self._rng.permutation(len(squares))
-        return anyhow[np.argsort(np.maximum(squares[anyhow], squares.min() + alike), kind="stable")]
+        anyhow = self._rng.permutation(len(square))
+        return anyhow[np.argsort(np.maximum(square[anyhow], square.min() + alike), kind="stable")]
 
     def _least(self, point: Array, rows: NDArray[np.intp]) -> Array:
         """Return where the squares of some residuals are least, near a point; itself where all are flat."""
-        if not np.any(self._descent.slopes(point[None], rows)):
+        if not np.any(self._descent.slopes_at(point, rows)):
             return point
         return least_squares(
             lambda x: self._descent.residuals(x[None], rows)[0],
             np.clip(point, 1e-9, 1 - 1e-9),
-            jac=lambda x: self._descent.slopes(x[None], rows)[0],  # pyright: ignore[reportArgumentType]
+            jac=lambda x: self._descent.slopes_at(x, rows),  # pyright: ignore[reportArgumentType]
             bounds=(0.0, 1.0),
             max_nfev=CLOSE,
             xtol=1e-12,
@@ -263,7 +282,7 @@ class LeastSquaresSearch:
         except ScenarioError:
             return None
         covariance, determined = covariance_of(
-            self._descent.slopes(point[None], np.flatnonzero(predicted.is_tested))[0], self._descent.width
+            self._descent.slopes_at(point, np.flatnonzero(predicted.is_tested)), self._descent.width
         )
         return Minimum(
             values=self._descent.values(point),

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from cointoss.compare.fitting.descent import Descent
+from cointoss.compare.fitting.descent import Descent, squares
 from cointoss.compare.fitting.intervals import Known, Region, region_of
 from cointoss.compare.fitting.misfit import Misfit
 from cointoss.compare.fitting.observed import Observed
@@ -35,10 +35,11 @@ def region(
 ) -> Region:
     misfit: Any = Formula(formula, len(points[0]))
     descent, rows, known = Descent(misfit), np.arange(len(misfit.times)), np.array(points)
+    missed = descent.residuals(known, rows)
     return region_of(
         descent,
         rows,
-        [*earlier, Known(known, descent.information(known, rows))],
+        [*earlier, Known(known, descent.information(known, missed, rows))],
         limits=np.tile([0.0, 1.0], (descent.size, 1)),
         above=ABOVE,
         rng=np.random.default_rng(1),
@@ -109,7 +110,7 @@ def test_slopes_at_the_end_of_a_span_are_those_within_it():
         spans=(Span(field="coin.thickness", start=2e-3, stop=0.0, unit="m"),),
         observed=seen,
     )
-    at_end, within = (Descent(misfit).slopes(np.array([[x]]), np.arange(3))[0] for x in (1.0, 1 - 1e-5))
+    at_end, within = (Descent(misfit).slopes_at(np.array([x]), np.arange(3)) for x in (1.0, 1 - 1e-5))
     assert at_end == pytest.approx(within, rel=1e-3)
     assert np.abs(at_end).max() > 1
 
@@ -117,7 +118,8 @@ def test_slopes_at_the_end_of_a_span_are_those_within_it():
 def test_a_step_that_leads_too_far_is_damped_until_it_does_not():
     """Undamped, every step from 0.6 passes over the minimum at 0.5 to where the misfit is larger."""
     misfit: Any = Formula(lambda points: np.arctan(100 * (points - 0.5)), 1)
-    descent, start = Descent(misfit), np.array([[0.6]])
-    there, squares = descent.descended(start, np.arange(1))
-    assert squares[0] < 0.8 * descent.squares(start, np.arange(1))[0]
+    descent, start, rows = Descent(misfit), np.array([[0.6]]), np.arange(1)
+    missed = descent.residuals(start, rows)
+    there, missed_there = descent.descended(start, missed, rows)
+    assert squares(missed_there)[0] < 0.8 * squares(missed)[0]
     assert 0.4 < there[0, 0] < 0.6
