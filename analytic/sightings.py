@@ -31,7 +31,8 @@ def sightings(
     )
 
     def work(part: slice) -> None:
-        see_each(rows[part], limits, times[part], Sightings(*(column[part] for column in found)))
+        of_part = found.touch_times[part], found.up[part], found.states[part], found.impacts[part]
+        see_each(rows[part], limits, times[part], Sightings(*of_part))
 
     in_tiles(n, TILE, work, workers)
     return found

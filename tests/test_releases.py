@@ -159,8 +159,8 @@ def test_what_was_seen_is_read_as_it_was(release, table):
 
 def test_a_fit_is_told_as_it_was(release):
     then, given = read(release / "made" / "fit.json"), release / "given"
-    free = ("floor.restitution=0.4:0.95", "release.position.z=0.1:0.6", "clock=0:1.2")
-    words = ("--sd-time", "1 ms", *(word for span in free for word in ("--free", span)), "--json")
+    vary = ("floor.restitution=0.4:0.95", "release.position.z=0.1:0.6", "clock=0:1.2")
+    words = ("--sd-time", "1 ms", *(word for span in vary for word in ("--vary", span)), "--json")
     now = json.loads(cointoss("fit", given / "stopwatch.csv", given / "dropped.toml", *words).stdout)
     assert unlike(then, now, values=False) == []
     for field, value in then["values"].items():

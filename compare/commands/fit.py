@@ -7,15 +7,13 @@ import click
 
 from cointoss.compare.commands.common import (
     SCENARIO_HELP,
-    CountType,
-    Given,
+    Count,
     Place,
-    QuantityType,
     naming_options,
     plain_errors,
     print_json,
 )
-from cointoss.compare.commands.names import scenario_argument, span_option
+from cointoss.compare.commands.names import scenario_argument, span_option, varied
 
 
 @click.command(
@@ -25,16 +23,14 @@ from cointoss.compare.commands.names import scenario_argument, span_option
 )
 @click.argument("observed", metavar="OBSERVED.csv", type=Place())
 @scenario_argument
-@span_option("--free", "A field to be found, and where it is looked for; may be given several times.")
+@span_option("--vary", "A field to be found, and where it is looked for; may be given several times.")
 @click.option(
     "--sd-time",
-    type=QuantityType("s"),
+    metavar="QUANTITY",
     help="Standard deviation of the times of touches, such as '1 ms'; needed without a column sd_t.",
 )
-@click.option("--sd-height", type=QuantityType("m"), help="Likewise of heights, such as '2 mm'.")
-@click.option(
-    "--sd-attitude", type=QuantityType("rad"), help="Likewise of tilts and attitudes, such as '2 deg'."
-)
+@click.option("--sd-height", metavar="QUANTITY", help="Likewise of heights, such as '2 mm'.")
+@click.option("--sd-attitude", metavar="QUANTITY", help="Likewise of tilts and attitudes, such as '2 deg'.")
 @click.option(
     "--starts",
     type=CountType(1, 1 << 20),
@@ -49,10 +45,10 @@ from cointoss.compare.commands.names import scenario_argument, span_option
 def fit(
     observed: Path,
     scenario: str,
-    free: tuple[str, ...],
-    sd_time: Given | None,
-    sd_height: Given | None,
-    sd_attitude: Given | None,
+    vary: tuple[str, ...],
+    sd_time: str | None,
+    sd_height: str | None,
+    sd_attitude: str | None,
     starts: int,
     seed: int,
     out: Path | None,
@@ -81,16 +77,15 @@ def fit(
             if path is not None:
                 require_file(path, suffix, scenario, observed)
         sd = {"time": sd_time, "height": sd_height, "attitude": sd_attitude}
-        given = {name: one for name, one in sd.items() if one is not None}
-        options = {name: (f"--sd-{name}", one) for name, one in given.items()}
+        given = {name: text for name, text in sd.items() if text is not None}
+        options = {f"sd.{name}": (f"--sd-{name}", text) for name, text in given.items()}
         with plain_errors(str(observed)), naming_options(options):
-            seen = read_observed(observed, {name: one.value for name, one in given.items()})
+            seen = read_observed(observed, given)
         with stage("getting ready"):  # what is imported takes long on a busy machine
+            from cointoss.compare.fitting import fit as fitting
             from cointoss.compare.fitting.answer import as_lines
-            from cointoss.compare.fitting.fit import fit_spans, parse_span
 
-        spans = [parse_span(text, described) for text in free]
-        found = fit_spans(seen, described, spans, starts=starts, seed=seed)
+        found = fitting.fit(seen, described, varied(vary), starts=starts, seed=seed)
         if out is not None:
             write_text(out, found.scenario.to_toml())
         if png is not None:

@@ -82,6 +82,21 @@ vary_option = click.option(
 )
 
 
+def varied(texts: Iterable[str]) -> dict[str, str]:
+    """Return what --vary says, by field.
+
+    Raises:
+        UsageError: for what has no field, or one that was given before.
+    """
+    found: dict[str, str] = {}
+    for text in texts:
+        field, equals, span = text.partition("=")
+        if not equals or field.strip() in found:
+            raise click.UsageError(f"--vary {text}: accepted: FIELD=START:STOP, each field once")
+        found[field.strip()] = span
+    return found
+
+
 def span_option(name: str, about: str) -> Callable[..., Any]:
     """Return the option of the spans of fields that are to be found."""
     return click.option(

@@ -1,6 +1,6 @@
 """The fields of a scenario that explain what was seen of a coin, with their errors, or that none do."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from os import PathLike
@@ -14,23 +14,28 @@ from cointoss.analytic import toss
 from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.fitting.misfit import CLOCK, Misfit
 from cointoss.compare.fitting.observed import Observed
-from cointoss.compare.fitting.search import LEVEL, LeastSquaresSearch, Minimum
-from cointoss.compare.fitting.table import DEVIATIONS, read_observed, require_deviations
-from cointoss.compare.sweep.axes import SPAN_FORM, Span, require_ends, span_of, split_span, unit_of
+from cointoss.compare.fitting.search import LEVEL, Minimum, Search
+from cointoss.compare.fitting.table import read_observed
+from cointoss.compare.sweep.axes import NUMBERS, Span, require_ends, span_of
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
-from cointoss.models.errors import FieldError, ScenarioError
-from cointoss.models.interruptible import interruptible
+from cointoss.models.errors import ScenarioError
+from cointoss.models.names import SPIN
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Array, Toss
 from cointoss.models.scenario import Scenario
-from cointoss.models.units import in_si
 
 STARTS, MOST_STARTS = 2048, 1 << 20
 AT_END = 1e-6
 """A value nearer to an end of its span than this part of it is at the end."""
-_FREE = '{"floor.restitution": (0.4, 0.9)}'
 MOST_FIELDS = 12
-"""The most free fields; more are not found from one toss."""
+"""That are free; more are not found from one toss."""
+FIELDS = {CLOCK: "s"} | {
+    field: unit
+    for field, unit in NUMBERS.items()
+    if field != SPIN and not field.startswith(("ending.", "release.quaternion."))
+}
+"""What may be free, and its SI unit."""
+_SPANS = 'a dict such as {"floor.restitution": (0.4, 0.9)} or {"floor.restitution": "0.4:0.9"}'
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -192,7 +197,7 @@ class Fit:
 def fit(
     observed: Observed | str | PathLike[str],
     scenario: ScenarioSource,
-    free: Mapping[str, tuple[float | str, float | str]],
+    vary: Mapping[str, tuple[float | str, float | str] | str],
     *,
     sd: Mapping[str, float | str] | None = None,
     starts: int = STARTS,
@@ -209,8 +214,9 @@ def fit(
     Args:
         observed: what was seen, or the path of a CSV file that has it.
         scenario: what is held fixed; or a file's path, or a name such as "fig24a".
-        free: for each field its first and last value, in SI or as texts with a unit. The field "clock" is the
-            time that the observer's clock shows at the release; where it is not free, that is 0.
+        vary: for each field its first and last value, (START, STOP) or "START:STOP", in SI or with a unit;
+            of its name the part suffices that no other field has, such as "restitution". The field "clock" is
+            the time that the observer's clock shows at the release; where it does not vary, that is 0.
         sd: of a file, standard deviations of "time", "height" and "attitude", in SI or as texts with a unit,
             where it has none itself.
         starts: how many, spread evenly.
@@ -218,87 +224,37 @@ def fit(
 
     Raises:
         ObservationError: for a file or numbers that can't be used.
+        FieldError: for a standard deviation that nothing has.
         SweepError: for a field or a span that can't be used.
         ScenarioError: for a scenario that can't be used, or where no value of the spans makes one.
     """
-    described = scenario_of(scenario)
-    if not isinstance(free, Mapping):
-        raise SweepError(f"free: {free!r}, accepted: a dict such as {_FREE}")
-    spans = tuple(_free_span(field, ends, described) for field, ends in free.items())
-    if isinstance(observed, Observed):
-        seen = observed
-    elif isinstance(observed, str | PathLike):
-        seen = read_observed(observed, _deviations({} if sd is None else sd))
-    else:
-        raise ObservationError(f"observed: {observed!r}, accepted: an Observed, or the path of a CSV file")
-    return fit_spans(seen, described, spans, starts=starts, seed=seed)
-
-
-def _deviations(given: Mapping[str, float | str]) -> dict[str, float]:
-    """Return standard deviations in SI."""
-    if not isinstance(given, Mapping):
-        raise ObservationError(f'sd: {given!r}, accepted: a dict such as {{"time": "1 ms"}}')
-    found = {}
-    for name, value in given.items():
-        if name not in DEVIATIONS:
-            raise ObservationError(f"sd: {name!r}, accepted: {', '.join(DEVIATIONS)}")
-        try:
-            found[name] = in_si(value, DEVIATIONS[name]) if isinstance(value, str) else float(value)
-        except (ValueError, TypeError):
-            accepted = f'a number in {DEVIATIONS[name]}, or a string with a unit like "1 m{DEVIATIONS[name]}"'
-            raise ObservationError(f"sd: {name} = {value!r}, accepted: {accepted}") from None
-    try:
-        require_deviations(found)
-    except FieldError as error:
-        raise ObservationError(f"sd: {error}") from None
-    return found
-
-
-def _free_span(field: object, ends: object, scenario: Scenario) -> Span:
-    if not isinstance(field, str):
-        raise SweepError(f"free: {field!r}, accepted: a field's name, as in {_FREE}")
-    if not (isinstance(ends, tuple | list) and len(ends) == 2):
-        raise SweepError(f"free: {field} = {ends!r}, accepted: its first and last value, as in {_FREE}")
-    return _span(field, ends[0], ends[1], scenario)
-
-
-def parse_span(text: str, scenario: Scenario) -> Span:
-    """Read FIELD=START:STOP, where the field may be "clock".
-
-    Raises:
-        SweepError: naming what is wrong and what is accepted.
-    """
-    field, (start, stop) = split_span(text, 2, SPAN_FORM)
-    return _span(field, start, stop, scenario)
-
-
-def fit_spans(
-    observed: Observed, scenario: Scenario, spans: Sequence[Span], *, starts: int, seed: int
-) -> Fit:
-    """Return what `fit` finds; the arguments are those of `fit`, read."""
     require_whole("starts", starts, 1, MOST_STARTS)
     require_whole("seed", seed, 0, MOST_SEED)
+    described = scenario_of(scenario)
+    if not isinstance(vary, Mapping):
+        raise SweepError(f"vary: {vary!r}, accepted: {_SPANS}")
+    spans = tuple(_span(name, ends, described) for name, ends in vary.items())
     fields = [span.field for span in spans]
     if not 1 <= len(set(fields)) == len(fields) <= MOST_FIELDS:
-        raise SweepError(
-            f"free fields {', '.join(fields) or 'none'}: accepted: from 1 to {MOST_FIELDS}, each once"
-        )
-    misfit = Misfit(scenario=scenario, spans=tuple(spans), observed=observed)
-    searched = interruptible(LeastSquaresSearch(misfit, starts=starts, seed=seed).found)
+        told = ", ".join(fields) or "nothing"
+        raise SweepError(f"vary: {told}; accepted: from 1 to {MOST_FIELDS} fields, each once")
+    if isinstance(observed, str | PathLike):
+        observed = read_observed(observed, sd)
+    elif not isinstance(observed, Observed):
+        raise ObservationError(f"observed: {observed!r}, accepted: an Observed, or the path of a CSV file")
+    misfit = Misfit(scenario=described, spans=spans, observed=observed)
+    searched = Search(misfit, starts=starts, seed=seed).found()
     if searched is None:
-        middle = np.array([(span.start + span.stop) / 2 for span in spans])
-        misfit.scenario_of(middle)  # says why
+        misfit.scenario_of(np.array([(span.start + span.stop) / 2 for span in spans]))  # says why
         raise ScenarioError(
             "no start of the spans makes a scenario; accepted: spans in which the coin is free"
         )
     found = [_fit_of(misfit, minimum, searched.ends) for minimum in searched.minima]
     others = tuple(other for other in found[1:] if other.is_possible)
-    best = found[0] if found[0].is_possible else _without_intervals(found[0])
-    return replace(best, others=others)
-
-
-def _without_intervals(fit: Fit) -> Fit:
-    return replace(fit, values=tuple(replace(each, interval=None) for each in fit.values))
+    best, values = found[0], found[0].values
+    if not best.is_possible:
+        values = tuple(replace(each, interval=None) for each in values)
+    return replace(best, values=values, others=others)
 
 
 def _fit_of(misfit: Misfit, minimum: Minimum, ends: Array) -> Fit:
@@ -325,28 +281,23 @@ def _fit_of(misfit: Misfit, minimum: Minimum, ends: Array) -> Fit:
         touch_times=shown.touch_times,
         chi_square=minimum.chi_square,
         degrees=int(np.sum(shown.is_tested & misfit.is_measured)) - minimum.determined,
-        clock=dict(zip((span.field for span in misfit.spans), minimum.values.tolist(), strict=True)).get(
-            CLOCK, 0.0
-        ),
+        clock=float(misfit.clock_of(minimum.values[None])[0]),
         others=(),
     )
 
 
-def _span(field: str, start: float | str, stop: float | str, scenario: Scenario) -> Span:
-    if field == CLOCK:
-        return span_of(field, start, stop, "s")
-    unit = unit_of(field, scenario)
-    if field.startswith(("ending.", "release.quaternion.")):
-        instead = (
-            "release.angles"
-            if "quaternion" in field
-            else "a field of the coin, the air, the floor, the release"
+def _span(name: str, ends: object, scenario: Scenario) -> Span:
+    """Return the span of a field of `vary`."""
+    given = ends.split(":") if isinstance(ends, str) else ends
+    if not (isinstance(given, tuple | list) and len(given) == 2):
+        raise SweepError(f"vary: {name} = {ends!r}, accepted: {_SPANS}")
+    span = span_of(name, given, scenario, FIELDS)
+    if span.field != CLOCK:
+        require_ends(span, scenario)
+    if span.field.startswith("release.angles.") and scenario.release.angles is None:
+        raise SweepError(
+            f"{span.field}: this scenario has a quaternion; accepted: release.angles in its place"
         )
-        raise SweepError(f"{field}: can't be fitted; accepted: {instead}, or clock")
-    span = span_of(field, start, stop, unit)
-    require_ends(span, scenario)
-    if field.startswith("release.angles.") and scenario.release.angles is None:
-        raise SweepError(f"{field}: this scenario has a quaternion; accepted: release.angles in its place")
     return span
 
 

@@ -41,9 +41,7 @@ class Predicted:
     is_tested: NDArray[np.bool_]
     """Which residuals the horizon of trust includes, (n,)."""
     touch_times: Array
-    """Times of the touches seen, by the observer's clock, (m,) [s]; NaN where the toss makes none."""
-    trusted: int
-    """How many leading impacts are within the horizon of trust."""
+    """Of the touches that were seen, by the observer's clock, NaN where the toss makes none, (m,) [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,11 +80,6 @@ class Misfit:
         return [heights, tilts, np.repeat(attitudes, 3)]
 
     @cached_property
-    def _film(self) -> Array:
-        """When frames were taken, in the order of time, (m,) [s]."""
-        return np.sort(self.observed.times)
-
-    @cached_property
     def _most(self) -> int:
         """How many touches are asked for."""
         return int(self.observed.touch_numbers.max(initial=0))
@@ -96,7 +89,7 @@ class Misfit:
         """After how many impacts nothing is seen any more: the last touch, where the film ends before it."""
         seen, most = self.observed, self.scenario.rules.max_impacts
         last = np.max(seen.touch_times - BEFORE * seen.touch_sd, initial=-np.inf)
-        return min(most, self._most) if self._film.max(initial=-np.inf) < last else most
+        return min(most, self._most) if seen.times.max(initial=-np.inf) < last else most
 
     def scenario_of(self, values: Array) -> Scenario:
         """Return the scenario with these values, (k,); raise `ScenarioError` for what is none."""
@@ -110,17 +103,21 @@ class Misfit:
             values: of the fields, a row for each toss, (p, k).
             until: what was seen later may have any residuals, which spares most of the work [s].
         """
-        rows, clock = self._rows(values), self.clock_of(values)
-        found, is_toss = np.full((len(values), len(self.times)), IMPOSSIBLE), ~refused(rows, self._columns)
-        rows, clock = rows[is_toss], clock[is_toss]
-        film, is_awaited = self._film[self._film <= until], self.observed.touch_times <= until
+        found, is_toss = np.full((len(values), len(self.times)), IMPOSSIBLE), self.accepts(values)
+        rows, clock = self._rows(values[is_toss]), self.clock_of(values[is_toss])
+        film = np.sort(self.observed.times)
+        film, is_awaited = film[film <= until], self.observed.touch_times <= until
         touches = int(self.observed.touch_numbers[is_awaited].max(initial=0))
         rows[:, PLACE["ending.max_impacts"]] = self.most_impacts if len(film) else touches
         rows[:, PLACE["ending.max_time"]] = self._ends(clock, until)
         shown = sightings(rows, film - clock[:, None], most=self._most)
-        states = np.pad(shown.states, ((0, 0), (0, len(self._film) - len(film)), (0, 0)))
+        states = np.pad(shown.states, ((0, 0), (0, len(self.observed.times) - len(film)), (0, 0)))
         found[is_toss] = np.hstack([self._missed_touches(shown, clock), self._missed_frames(states)])
         return found
+
+    def accepts(self, values: Array) -> NDArray[np.bool_]:
+        """Return which values make a scenario, (p,), from values of the fields, (p, k)."""
+        return ~refused(self._rows(values), self._columns)
 
     @cached_property
     def _columns(self) -> dict[str, int]:
@@ -165,7 +162,6 @@ class Misfit:
             residuals=self.residuals(values[None])[0],
             is_tested=np.concatenate([~is_open, ~is_open[self._faces], *frames]),
             touch_times=made[numbers - 1],
-            trusted=trusted,
         )
 
     def _missed_touches(self, shown: Sightings, clock: Array) -> Array:

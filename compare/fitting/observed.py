@@ -72,24 +72,14 @@ class Observed:
         Raises:
             ObservationError: naming the argument, its value and what is accepted.
         """
+        given = dict(locals())
         n, m = np.size(touch_times), np.size(times)
         for count, of in ((n, "touches"), (m, "frames")):
             if count > MOST:
                 raise ObservationError(f"Observed: {count:,} {of}; accepted: at most {MOST:,}")
-        numbers = np.arange(1, n + 1) if np.size(touch_numbers) == 0 else touch_numbers
-        given: dict[str, ArrayLike] = {
-            "touch_times": touch_times,
-            "touch_sd": touch_sd,
-            "touch_numbers": numbers,
-            "faces": _faces(faces, n),
-            "times": times,
-            "heights": heights,
-            "height_sd": height_sd,
-            "tilts": tilts,
-            "tilt_sd": tilt_sd,
-            "quaternions": quaternions,
-            "quaternion_sd": quaternion_sd,
-        }
+        given["faces"] = _faces(faces, n)
+        if np.size(touch_numbers) == 0:
+            given["touch_numbers"] = np.arange(1, n + 1)
         shapes = {item.name: (n if item.name.startswith(("touch", "face")) else m,) for item in fields(self)}
         for name, shape in shapes.items():
             values = np.array(given[name], dtype=float)

@@ -6,7 +6,6 @@ possible are kept, many neighbours are drawn within their errors, and what was s
 until all has.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -17,7 +16,7 @@ from scipy.stats import chi2, qmc
 
 from cointoss.compare.fitting.descent import Descent, squares
 from cointoss.compare.fitting.intervals import Known, drawn_near, halved, region_of
-from cointoss.compare.fitting.misfit import IMPOSSIBLE, Misfit, Predicted
+from cointoss.compare.fitting.misfit import Misfit, Predicted
 from cointoss.models.errors import ScenarioError
 from cointoss.models.records import Array
 from cointoss.models.stages import stage
@@ -34,9 +33,7 @@ APART = 1.0
 NEAR, FEW = 50.0, 512
 """What is fitted next misses by so much more in χ² than the best of the points, at most, at a few of them."""
 SPREAD = 1.0
-"""Spread of neighbours, in standard deviations."""
-TOGETHER = 256
-"""Starts that are tossed together."""
+"""Of neighbours, in standard deviations."""
 GROWTH, SLOWEST = 1.6, 64
 """Numbers that are fitted at a stage, over those at the stage before, at most; and at least a part more."""
 SAME = 1e-4
@@ -107,8 +104,9 @@ class LeastSquaresSearch:
 
     def found(self) -> Minima | None:
         """Return what was found; None where no start makes a scenario."""
-        with stage("screening starts", "starts") as progress:
-            starts = self._screened(progress)
+        sampler = qmc.Sobol(self._descent.size, rng=self._rng)
+        starts = sampler.random_base2(int(np.ceil(np.log2(self._starts))))[: self._starts]
+        starts = starts[self._misfit.accepts(self._descent.values(starts))]
         if not len(starts):
             return None
         known = self._fitted(starts)
@@ -196,18 +194,6 @@ class LeastSquaresSearch:
             if not any(np.all(np.abs(each.values - other.values) <= near) for other in kept):
                 kept.append(each)
         return tuple(kept)
-
-    def _screened(self, progress: Callable[[int, int], None]) -> Array:
-        """Return the starts that make a scenario, (p, k)."""
-        sampler = qmc.Sobol(self._descent.size, rng=self._rng)
-        points = sampler.random_base2(int(np.ceil(np.log2(self._starts))))[: self._starts]
-        made = []
-        for first in range(0, len(points), TOGETHER):
-            made.append(
-                self._descent.residuals(points[first : first + TOGETHER], self._order[:1])[:, 0] < IMPOSSIBLE
-            )
-            progress(min(first + TOGETHER, len(points)), len(points))
-        return points[np.concatenate(made)]
 
     def _next(self, points: Array, fitted: int) -> Array:
         """Return the residuals to fit next, (p, n): as many as a few points are not far from explaining."""

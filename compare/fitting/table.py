@@ -1,23 +1,23 @@
 """What was seen of a coin, read from a CSV file as phyphox, Tracker and a person write it."""
 
 import csv
+import math
 import re
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cointoss.compare.fitting.errors import ObservationError, ValueRefusedError
 from cointoss.compare.fitting.observed import LEAST_SD, Observed
+from cointoss.compare.sweep.axes import number
+from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.bounded import TooLargeError, read_bounded
-from cointoss.models.errors import FieldError
+from cointoss.models.errors import FieldError, shown
 from cointoss.models.parts import LARGEST as LARGEST_SD
-from cointoss.models.records import Array
 from cointoss.models.units import in_si
 from cointoss.models.unused import UnusedFieldWarning
 
@@ -39,7 +39,7 @@ NAMES = {
 """Columns: the names accepted, in any case, each perhaps with a unit in brackets, and the unit without."""
 DEVIATIONS = {"time": "s", "height": "m", "attitude": "rad"}
 """What has a standard deviation, and its unit."""
-FRAME = ("height", "tilt", "e0", "e1", "e2", "e3")
+EULER = ("e0", "e1", "e2", "e3")
 ACCEPTED = (
     "t or time; of touches: touch, face, sd_t; of frames of a film: z, height or y; tilt or theta; e0 to e3; "
     "sd_z, sd_tilt; each perhaps with a unit, as in t (ms)"
@@ -49,24 +49,23 @@ _IN_ONE_ROW = re.compile(r"(start|stop|stop \d+|bounce \d+)", re.IGNORECASE)
 _HEADING = re.compile(r"(?P<name>[^(\[]*?)\s*(?:[(\[](?P<unit>[^)\]]*)[)\]])?")
 _MISSING = ("", "nan", "?")
 _DIMENSIONS = {"s": "time", "m": "length", "rad": "angle"}
-_OF_COLUMNS = {
-    "touch_times": "time",
-    "touch_sd": "sd_time",
-    "touch_numbers": "touch",
-    "faces": "face",
-    "times": "time",
-    "heights": "height",
-    "height_sd": "sd_height",
-    "tilts": "tilt",
-    "tilt_sd": "sd_attitude",
-    "quaternions": "e0",
-    "quaternion_sd": "sd_attitude",
+_ARRAYS = {
+    "touch_times": ("time", "time"),
+    "touch_sd": ("sd_time", "time"),
+    "touch_numbers": ("touch", "touch"),
+    "faces": ("face", "face"),
+    "times": ("time", "time"),
+    "heights": ("height", "height"),
+    "height_sd": ("sd_height", "height"),
+    "tilts": ("tilt", "tilt"),
+    "tilt_sd": ("sd_attitude", "tilt"),
+    "quaternions": ("e0", "e0"),
+    "quaternion_sd": ("sd_attitude", "e0"),
 }
-"""The column of each array of `Observed`."""
+"""The column of each array of `Observed`, and that without which it is left out."""
 
 
-@dataclass(frozen=True)
-class Heading:
+class Heading(NamedTuple):
     """The name of a column, and its unit where it has one."""
 
     name: str
@@ -80,26 +79,34 @@ class Heading:
 
     @property
     def key(self) -> str | None:
-        """What of `NAMES` it is."""
+        """What of `NAMES` it is; None for another."""
         name = self.name.lower().replace("sd ", "sd_").replace("sigma_", "sd_")
         return next((key for key, (names, _) in NAMES.items() if name in names), None)
 
-    def factor(self, unit: str) -> float:
-        """Return its unit in `unit`, SI; 1 where it has none or needs none.
+    def numbers(self, cells: Sequence[str], unit: str) -> list[float]:
+        """Return its cells, row by row, in `unit`, SI; NaN where nothing was measured.
 
         Raises:
-            ObservationError: for a unit of something else.
+            ObservationError: for a unit of something else, and for a cell that is no number.
         """
-        if not (self.unit and unit):
-            return 1.0
         try:
-            return in_si(f"1 {self.unit}", unit)
+            factor = in_si(f"1 {self.unit}", unit) if self.unit and unit else 1.0
         except ValueError:
             accepted = f"a unit of {_DIMENSIONS[unit]}, such as {unit}"
             raise ObservationError(f"column {self.name}: in {self.unit}, accepted: {accepted}") from None
+        found = []
+        for n, cell in enumerate(cells, start=1):
+            try:
+                found.append(math.nan if cell.lower() in _MISSING else factor * float(cell))
+            except ValueError:
+                accepted = f"a number [{self.unit or unit}]" if unit else "a number"
+                raise ObservationError(
+                    f"column {self.name}: row {n} is {cell!r}, accepted: {accepted}"
+                ) from None
+        return found
 
 
-def read_observed(path: str | PathLike[str], sd: Mapping[str, float] | None = None) -> Observed:
+def read_observed(path: str | PathLike[str], sd: Mapping[str, float | str] | None = None) -> Observed:
     """Read what was seen from a CSV file; commas, semicolons or tabs between its cells, # before a comment.
 
     A row is a touch where it has a number in the column `touch`, or where no column is of a film; another is
@@ -107,7 +114,8 @@ def read_observed(path: str | PathLike[str], sd: Mapping[str, float] | None = No
 
     Args:
         path: of the file.
-        sd: standard deviations of "time" [s], "height" [m] and "attitude" [rad], where the file has none.
+        sd: standard deviations of "time" [s], "height" [m] and "attitude" [rad], in SI or as texts with a
+            unit, where the file has none.
 
     Raises:
         ObservationError: naming the file, what is wrong and what is accepted.
@@ -116,9 +124,9 @@ def read_observed(path: str | PathLike[str], sd: Mapping[str, float] | None = No
     Warns:
         UnusedFieldWarning: for columns that are not used.
     """
-    require_deviations(sd or {})
+    deviations = _deviations({} if sd is None else sd)
     try:
-        return _observed(_rows(Path(path)), sd or {})
+        return _observed(_rows(Path(path)), deviations)
     except ObservationError as error:
         raise ObservationError(f"{path}: {error}") from None
     except TooLargeError as error:
@@ -132,16 +140,23 @@ def read_observed(path: str | PathLike[str], sd: Mapping[str, float] | None = No
         raise ObservationError(f"{path}: can't be read ({reason}); accepted: a CSV file in UTF-8") from None
 
 
-def require_deviations(sd: Mapping[str, float]) -> None:
-    """Refuse standard deviations that nothing has.
-
-    Raises:
-        FieldError: naming what is to have it, its value and what is accepted.
-    """
-    for name, value in sd.items():
-        if not LEAST_SD <= value <= LARGEST_SD:
-            bounds = f"{LEAST_SD:g} to {LARGEST_SD:g} {DEVIATIONS[name]}"
-            raise FieldError(name, value, f"a standard deviation from {bounds}")
+def _deviations(given: Mapping[str, float | str]) -> dict[str, float]:
+    """Return standard deviations in SI; refuse those that nothing has."""
+    if not (isinstance(given, Mapping) and set(given) <= set(DEVIATIONS)):
+        raise ObservationError(
+            f'sd: {shown(given)}, accepted: a dict such as {{"time": "1 ms"}}, of {", ".join(DEVIATIONS)}'
+        )
+    found = {}
+    for name, value in given.items():
+        unit = DEVIATIONS[name]
+        try:
+            found[name] = number(name, value, unit)
+        except SweepError:
+            found[name] = math.nan
+        if not LEAST_SD <= found[name] <= LARGEST_SD:
+            bounds = f"{LEAST_SD:g} to {LARGEST_SD:g} {unit}"
+            raise FieldError(f"sd.{name}", value, f"a standard deviation from {bounds}")
+    return found
 
 
 def _rows(path: Path) -> list[list[str]]:
@@ -163,33 +178,26 @@ def _with_point(cell: str) -> str:
 
 def _observed(rows: list[list[str]], sd: Mapping[str, float]) -> Observed:
     for at, row in enumerate(rows[:BEFORE_HEADER]):
-        headings = [Heading.of(cell) for cell in row]
-        if any(_IN_ONE_ROW.fullmatch(heading.name) for heading in headings):
-            return _of_one_row(headings, rows[at + 1 :], sd)
+        headings, below = [Heading.of(cell) for cell in row], rows[at + 1 :]
+        in_one_row = [i for i, heading in enumerate(headings) if _IN_ONE_ROW.fullmatch(heading.name)]
+        if in_one_row:
+            if len(below) != 1:
+                raise ObservationError(
+                    f"{len(below)} rows of touches; accepted: one, as phyphox exports them"
+                )
+            times = [(cell,) for i, cell in enumerate(below[0]) if i in in_one_row and cell.strip("0.,")]
+            return _of_columns({"time": (0, headings[in_one_row[0]])}, times, sd)
         if any(heading.key == "time" for heading in headings):
-            _require_whole(rows[at + 1 :], len(headings))
-            return _of_columns(_columns(headings), rows[at + 1 :], sd)
+            columns = _columns(headings)
+            least = 1 + max(i for i, _ in columns.values())
+            for n, cells in enumerate(below, start=1):
+                if len(cells) < least or any(cells[len(headings) :]):
+                    raise ObservationError(
+                        f"row {n} has {len(cells)} cells; accepted: {len(headings)}, one for each column; "
+                        "decimal commas need semicolons or tabs between the cells"
+                    )
+            return _of_columns(columns, below, sd)
     raise ObservationError(f"no column of times; accepted: {ACCEPTED}")
-
-
-def _require_whole(rows: list[list[str]], width: int) -> None:
-    """Refuse rows with more cells than headings: a decimal comma between commas would be lost."""
-    for n, row in enumerate(rows, start=1):
-        if any(row[width:]):
-            cells = f"row {n} has {len(row)} cells; accepted: {width}, one for each column"
-            raise ObservationError(f"{cells}; decimal commas need semicolons or tabs between the cells")
-
-
-def _of_one_row(headings: Sequence[Heading], rows: list[list[str]], sd: Mapping[str, float]) -> Observed:
-    if len(rows) != 1:
-        raise ObservationError(f"{len(rows)} rows of touches; accepted: one, as phyphox exports them")
-    times = [
-        heading.factor("s") * _number(cell, heading, "s", 1)
-        for cell, heading in zip(rows[0], headings, strict=False)
-        if _IN_ONE_ROW.fullmatch(heading.name)
-    ]
-    heard = np.array([time for time in times if time > 0])
-    return Observed(touch_times=heard, touch_sd=_sd({}, "time", len(heard), sd))
 
 
 def _columns(headings: Sequence[Heading]) -> dict[str, tuple[int, Heading]]:
@@ -217,77 +225,35 @@ def _columns(headings: Sequence[Heading]) -> dict[str, tuple[int, Heading]]:
 
 
 def _of_columns(
-    columns: Mapping[str, tuple[int, Heading]], rows: list[list[str]], sd: Mapping[str, float]
+    columns: Mapping[str, tuple[int, Heading]], rows: Sequence[Sequence[str]], sd: Mapping[str, float]
 ) -> Observed:
-    width = max((i for i, _ in columns.values()), default=0) + 1
-    short = next((n for n, row in enumerate(rows, start=1) if len(row) < width), None)
-    if short is not None:
-        raise ObservationError(f"row {short} has {len(rows[short - 1])} cells; accepted: one for each column")
-    values = {
-        key: heading.factor(unit := NAMES[key][1])
-        * np.array([_number(row[i], heading, unit, n) for n, row in enumerate(rows, 1)])
-        for key, (i, heading) in columns.items()
-        if key != "face"
-    }
-    some = [key for key in FRAME if key in values]
-    if any(key.startswith("e") for key in some) and not all(f"e{i}" in values for i in range(4)):
-        raise ObservationError(f"columns {', '.join(some)}; accepted: all of e0, e1, e2 and e3, or none")
-    if not np.isfinite(values["time"]).all():
-        late = int(np.argmin(np.isfinite(values["time"]))) + 1
-        raise ObservationError(f"column {columns['time'][1].name}: row {late} has no time")
-    is_touch = np.isfinite(values["touch"]) if "touch" in values else np.full(len(rows), not some)
-    letters = [row[columns["face"][0]][:1] or "?" for row in rows] if "face" in columns else []
-
-    def of_frames(key: str) -> Array:
-        return values[key][~is_touch] if key in values else np.empty(0)
-
-    def sd_of(what: str, among: NDArray[np.bool_], *, of: Sequence[str]) -> Array:
-        is_seen = among.any() and any(key in values for key in of)
-        return _sd(values, what, len(rows), sd)[among] if is_seen else np.empty(0)
-
+    """Return what the rows of a table say; NaN stands for a column that is not there."""
+    values = {key: np.full(len(rows), sd.get(key.removeprefix("sd_"), math.nan)) for key in NAMES}
+    for key, (i, heading) in columns.items():
+        cells = [row[i] for row in rows]
+        if key == "face":
+            values[key] = np.array([cell[:1] or "?" for cell in cells], dtype=str)
+        else:
+            numbers = np.array(heading.numbers(cells, NAMES[key][1]))
+            is_missing = np.isnan(numbers) & key.startswith("sd_")
+            values[key] = np.where(is_missing, values[key], numbers)
+    if 0 < len(columns.keys() & set(EULER)) < 4:
+        raise ObservationError(f"columns {', '.join(columns)}; accepted: all of e0, e1, e2 and e3, or none")
+    is_of_film = bool(columns.keys() & {"height", "tilt", "e0"})
+    is_touch = np.isfinite(values["touch"]) if "touch" in columns else np.full(len(rows), not is_of_film)
+    values["e0"] = np.column_stack([values[key] for key in EULER])
+    rows_of = {name: np.flatnonzero(is_touch == name.startswith(("touch", "face"))) for name in _ARRAYS}
     made: dict[str, Any] = {
-        "touch_times": values["time"][is_touch],
-        "touch_sd": sd_of("time", is_touch, of=["time"]),
-        "touch_numbers": values["touch"][is_touch] if "touch" in values else np.empty(0),
-        "faces": "".join(letter for letter, is_heard in zip(letters, is_touch, strict=False) if is_heard),
-        "times": values["time"][~is_touch],
-        "heights": of_frames("height"),
-        "height_sd": sd_of("height", ~is_touch, of=["height"]),
-        "tilts": of_frames("tilt"),
-        "tilt_sd": sd_of("attitude", ~is_touch, of=["tilt"]),
-        "quaternions": np.column_stack([of_frames(f"e{i}") for i in range(4)]),
-        "quaternion_sd": sd_of("attitude", ~is_touch, of=["e0"]),
+        name: values[key][rows_of[name]] for name, (key, needed) in _ARRAYS.items() if needed in columns
     }
     try:
-        return Observed(**made)
+        return Observed(**{**made, "faces": "".join(made.get("faces", ""))})
     except ValueRefusedError as error:
-        of_touches = error.name.startswith(("touch", "face"))
-        row = np.flatnonzero(is_touch if of_touches else ~is_touch)[error.index]
-        i, heading = columns[_OF_COLUMNS[error.name]]
+        key, row = _ARRAYS[error.name][0], rows_of[error.name][error.index]
+        if key not in columns:
+            accepted = f"a column {NAMES[key][0][0]}, or --{key.replace('_', '-')}"
+            raise ObservationError(f"no standard deviation of {key[3:]}; accepted: {accepted}") from None
+        i, heading = columns[key]
         cell = f"{rows[row][i] or 'empty'} {heading.unit}".strip()
         where = f"column {heading.name}: row {row + 1} is {cell}"
         raise ObservationError(f"{where}, accepted: {error.accepted}") from None
-
-
-def _sd(values: Mapping[str, Array], what: str, n: int, given: Mapping[str, float]) -> Array:
-    """Return standard deviations, (n,): those of the file, else what was given for it."""
-    found = values.get(f"sd_{what}", np.full(n, np.nan))
-    if what in given:
-        return np.where(np.isfinite(found), found, given[what])
-    if f"sd_{what}" not in values:
-        accepted = f"a column {NAMES[f'sd_{what}'][0][0]}, or --sd-{what}"
-        raise ObservationError(f"no standard deviation of {what}; accepted: {accepted}")
-    return found
-
-
-def _number(cell: str, heading: Heading, unit: str, row: int) -> float:
-    """Return a cell in the column's unit; NaN where nothing was measured."""
-    if cell.lower() in _MISSING:
-        return float("nan")
-    try:
-        return float(cell)
-    except ValueError:
-        accepted = f"a number [{heading.unit or unit}]" if unit else "a number"
-        raise ObservationError(
-            f"column {heading.name}: row {row} is {cell!r}, accepted: {accepted}"
-        ) from None

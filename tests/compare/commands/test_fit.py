@@ -10,8 +10,8 @@ from tests.helpers.command_line import cointoss, python, refused
 COIN = """[coin]\nmass = "5 g"\nradius = "12.5 mm"\nthickness = "2 mm"
 [floor]\nrestitution = 0.8\ncontact = "smooth"\n[release]\nposition = [0, 0, 0.3]\n"""
 HEARD = "t (s)\n1.200\n1.550\n1.812\n2.010\n"
-CALL = ("fit", "heard.csv", "coin.toml", "--free", "floor.restitution=0.4:0.95")
-FREE = ("--free", "release.position.z=0.1:1", "--free", "clock=0:1200 ms", "--starts", 64)
+CALL = ("fit", "heard.csv", "coin.toml", "--vary", "floor.restitution=0.4:0.95")
+FREE = ("--vary", "release.position.z=0.1:1", "--vary", "clock=0:1200 ms", "--starts", 64)
 
 
 @pytest.fixture(autouse=True)
@@ -47,21 +47,27 @@ def test_values_a_verdict_and_files(tmp_path):
     ("more", "named"),
     [
         ((), "heard.csv: no standard deviation of time; accepted: a column sd_t, or --sd-time"),
-        (("--sd-time", "1 mm"), "'--sd-time': 1 mm; accepted: a number in s"),
+        (("--sd-time", "1 mm"), "--sd-time 1 mm: accepted: a standard deviation from 1e-12 to 1e+09 s"),
         (("--sd-time", "0"), "--sd-time 0: accepted: a standard deviation from 1e-12 to 1e+09 s"),
         (("--sd-time", "1e-300"), "--sd-time 1e-300: accepted: a standard deviation from 1e-12 to"),
         (
-            ("--sd-time", "1 ms", "--free", "clock=1e300:2e300"),
+            ("--sd-time", "1 ms", "--vary", "clock=1e300:2e300"),
             "clock = 1e300: accepted: a finite number within",
         ),
         (
-            ("--sd-time", "1 ms", "--free", "floor.friction=-2:-1"),
+            ("--sd-time", "1 ms", "--vary", "floor.friction=-2:-1"),
             "floor.friction=-2:-1: floor.friction = -2.0",
         ),
-        (("--sd-time", "1 ms", "--free", "floor.bounce=0:1"), "floor.bounce: no numeric field"),
-        (("--sd-time", "1 ms", "--free", "clock=1"), "clock=1: accepted: FIELD=START:STOP, such as "),
-        (("--sd-time", "1 ms", "--free", "floor.restitution=0:1"), "accepted: from 1 to 12, each once"),
-        (("--sd-time", "1 ms", "--free", "ending.max_time=1:2"), "ending.max_time: can't be fitted"),
+        (("--sd-time", "1 ms", "--vary", "floor.bounce=0:1"), "floor.bounce: no numeric field"),
+        (("--sd-time", "1 ms", "--vary", "clock=1"), "vary: clock = '1', accepted: a dict such as"),
+        (
+            ("--sd-time", "1 ms", "--vary", "floor.restitution=0:1"),
+            "--vary floor.restitution=0:1: accepted: FIELD=START:STOP, each field once",
+        ),
+        (
+            ("--sd-time", "1 ms", "--vary", "ending.max_time=1:2"),
+            "ending.max_time: no field that may vary here",
+        ),
         (("--sd-time", "1 ms", "--out", "found.json"), "found.json: another kind of file"),
         (("--sd-time", "1 ms", "--out", "coin.toml"), "coin.toml: is the scenario; accepted: another file"),
         (("--sd-time", "1 ms", "--starts", "0"), "'--starts': 0; accepted: an integer >= 1"),
@@ -95,7 +101,7 @@ def test_a_missing_table_is_refused_before_the_engine_is_imported(tmp_path):
     """That takes seconds on a busy machine."""
     script = (
         "import sys; from cointoss.compare.cli import main\n"
-        "try: main(['fit', 'nosuch.csv', 'coin.toml', '--free', 'clock=0:1'])\n"
+        "try: main(['fit', 'nosuch.csv', 'coin.toml', '--vary', 'clock=0:1'])\n"
         "finally: print(*(name for name in sys.modules if name.startswith('cointoss.analytic')))"
     )
     answered = python("-c", script, folder=tmp_path)

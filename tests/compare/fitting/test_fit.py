@@ -10,7 +10,7 @@ from cointoss import Fitted, Observed, analytic, fit
 from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.fitting.misfit import Misfit
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.models.errors import ScenarioError
+from cointoss.models.errors import FieldError, ScenarioError
 from cointoss.models.scenario import Scenario
 
 MS = 1e-3
@@ -320,15 +320,16 @@ def test_a_span_may_run_downwards():
 @pytest.mark.parametrize(
     ("given", "named"),
     [
-        ({"free": "floor.restitution"}, "free: 'floor.restitution', accepted: a dict such as"),
-        ({"free": {"clock": 1.0}}, "free: clock = 1.0, accepted: its first and last value"),
-        ({"free": {"clock": (0.0, None)}}, "clock = None: accepted: a number in s"),
-        ({"free": {3: (0, 1)}}, "free: 3, accepted: a field's name"),
+        ({"vary": "floor.restitution"}, "vary: 'floor.restitution', accepted: a dict such as"),
+        ({"vary": {"clock": 1.0}}, "vary: clock = 1.0, accepted: a dict such as"),
+        ({"vary": {"clock": "0"}}, "vary: clock = '0', accepted: a dict such as"),
+        ({"vary": {"clock": (0.0, None)}}, "clock = None: accepted: a number in s"),
+        ({"vary": {3: (0, 1)}}, "3: accepted: the name of a field"),
         ({"sd": 0.001}, "sd: 0.001, accepted: a dict such as"),
-        ({"sd": {"time": None}}, "sd: time = None, accepted: a number in s"),
-        ({"sd": {"time": "1 mm"}}, "sd: time = '1 mm', accepted: a number in s"),
-        ({"sd": {"time": 0.0}}, "sd: time = 0.0: accepted: a standard deviation from 1e-12"),
-        ({"sd": {"times": 1.0}}, "sd: 'times', accepted: time, height, attitude"),
+        ({"sd": {"time": None}}, "sd.time = None: accepted: a standard deviation from 1e-12 to 1e.09 s"),
+        ({"sd": {"time": "1 mm"}}, 'sd.time = "1 mm": accepted: a standard deviation'),
+        ({"sd": {"time": 0.0}}, "sd.time = 0.0: accepted: a standard deviation from 1e-12"),
+        ({"sd": {"times": 1.0}}, "sd: .*, of time, height, attitude"),
         ({"observed": 3}, "observed: 3, accepted: an Observed, or the path of a CSV file"),
         ({"starts": 1.5}, "starts: 1.5, accepted: a whole number from 1 to"),
         ({"starts": 0}, "starts: 0, accepted: a whole number from 1 to"),
@@ -338,25 +339,26 @@ def test_a_span_may_run_downwards():
 def test_arguments_of_a_wrong_kind_are_named(tmp_path, given, named):
     path = tmp_path / "heard.csv"
     path.write_text("t\n0.3\n")
-    arguments = {"observed": path, "free": ANY, "sd": {"time": "1 ms"}, **given}
-    with pytest.raises((ObservationError, SweepError), match=named):
+    arguments = {"observed": path, "vary": ANY, "sd": {"time": "1 ms"}, **given}
+    with pytest.raises((ObservationError, FieldError, SweepError), match=named):
         fit(scenario=FLAT, **arguments)
 
 
 @pytest.mark.parametrize(
-    ("free", "named"),
+    ("vary", "named"),
     [
-        ({}, "free fields none: accepted: from 1 to 12"),
+        ({}, "vary: nothing; accepted: from 1 to 12 fields"),
         ({"floor.bounce": (0, 1)}, "floor.bounce: no numeric field"),
         ({"floor.restitution": (0.5, 0.5)}, "START = STOP"),
-        ({"ending.max_time": (1, 2)}, "ending.max_time: can't be fitted"),
-        ({"release.quaternion.e0": (0.1, 1)}, "accepted: release.angles"),
+        ({"floor.restitution": (0.5, 0.9), "restitution": "0.4:0.9"}, "each once"),
+        ({"ending.max_time": (1, 2)}, "ending.max_time: no field that may vary here"),
+        ({"release.quaternion.e0": (0.1, 1)}, "release.quaternion.e0: no field that may vary here"),
         ({"clock": ("1 m", 2)}, "clock = 1 m: accepted: a number in s"),
     ],
 )
-def test_what_can_not_be_free_is_named(free, named):
+def test_what_can_not_vary_is_named(vary, named):
     with pytest.raises(SweepError, match=named):
-        fit(Observed(touch_times=[0.3], touch_sd=MS), FLAT, free)
+        fit(Observed(touch_times=[0.3], touch_sd=MS), FLAT, vary)
 
 
 def test_spans_without_a_scenario_are_refused():

@@ -18,7 +18,6 @@ def minimum(residuals: list[float], tested: list[bool]) -> Minimum:
         residuals=np.array(residuals),
         is_tested=np.array(tested),
         touch_times=np.zeros(len(tested)),
-        trusted=sum(tested),
     )
     return Minimum(values=np.zeros(1), predicted=predicted, covariance=np.eye(1), determined=1)
 

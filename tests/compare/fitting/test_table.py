@@ -92,7 +92,7 @@ def test_a_path_that_this_program_wrote(read):
         ("t,time\n0,0\n", "columns t and time; accepted: one of them"),
         ("t,y,y\n0,0,0\n", "column y twice"),
         ("t,z\n0\n", "row 1 has 1 cells"),
-        ("t,z\n,1\n", "column t: row 1 has no time"),
+        ("t,z\n,1\n", "column t: row 1 is empty, accepted: numbers within"),
         ("t,e0\n0,1\n", "accepted: all of e0, e1, e2 and e3"),
         ("Start (s),Stop (s)\n1,2\n3,4\n", "2 rows of touches"),
         ("t,face\n0.1,H\n0.2,X\n", "column face: row 2 is X, accepted: H, T or "),
