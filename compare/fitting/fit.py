@@ -148,7 +148,7 @@ class Fit:
         return f"<Fit: {', '.join(told)}; {self.verdict}>"
 
     def as_dict(self) -> dict[str, Any]:
-        """Return it in the form of `cointoss fit --json`; None for what is infinite or NaN.
+        """Return it in the form of `cointoss fit --json`, which has null for what is infinite or NaN.
 
         A model that is refused has no errors of its values: no `sd`, no interval, no covariance.
         """
@@ -156,26 +156,24 @@ class Fit:
             "values": {
                 each.span.field: {
                     "value": each.value,
-                    "sd": _finite(each.sd) if each.interval else None,
-                    "interval": each.interval and list(each.interval),
+                    "sd": each.sd if each.interval else None,
+                    "interval": each.interval,
                     "unit": each.span.unit,
                     "at_end": each.at_end,
                     "cut": each.is_cut,
                 }
                 for each in self.values
             },
-            "covariance": (
-                [[_finite(x) for x in row] for row in self.covariance.tolist()] if self.is_possible else None
-            ),
+            "covariance": self.covariance.tolist() if self.is_possible else None,
             "chi_square": self.chi_square,
             "degrees": self.degrees,
-            "p_value": _finite(self.p_value),
+            "p_value": self.p_value,
             "possible": self.is_possible,
             "verdict": self.verdict,
             "residuals": self.residuals.tolist(),
             "tested": self.tested.tolist(),
-            "untested_touches": list(self.untested_touches),
-            "touch_times": [_finite(time) for time in self.touch_times.tolist()],
+            "untested_touches": self.untested_touches,
+            "touch_times": self.touch_times.tolist(),
             "others": [{each.span.field: each.value for each in other.values} for other in self.others],
             "scenario": self.scenario.as_tables(),
         }
@@ -259,14 +257,10 @@ def fit(
 
 def _fit_of(misfit: Misfit, minimum: Minimum, ends: Array) -> Fit:
     deviations, shown = np.sqrt(np.diag(minimum.covariance)), minimum.predicted
+    columns = minimum.values.tolist(), deviations.tolist(), np.sort(ends, axis=1).tolist()
     values = tuple(
-        Fitted(
-            span=span,
-            value=float(value),
-            sd=float(sd),
-            interval=(float(min(*both)), float(max(*both))),
-        )
-        for span, value, sd, both in zip(misfit.spans, minimum.values, deviations, ends, strict=True)
+        Fitted(span=span, value=value, sd=sd, interval=(low, high))
+        for span, value, sd, (low, high) in zip(misfit.spans, *columns, strict=True)
     )
     for array in (misfit.times, minimum.covariance, shown.residuals, shown.is_tested, shown.touch_times):
         array.setflags(write=False)
@@ -303,7 +297,3 @@ def _span(name: str, ends: object, scenario: Scenario) -> Span:
 
 def _is_at_end(value: float, span: Span) -> bool:
     return min(abs(value - span.start), abs(value - span.stop)) < AT_END * abs(span.stop - span.start)
-
-
-def _finite(number: float) -> float | None:
-    return number if np.isfinite(number) else None

@@ -143,7 +143,8 @@ class Misfit:
 
     def _ends(self, clock: Array, until: float = np.inf) -> Array:
         """Return when tosses end whose release was at `clock` [s]: after all that was seen, or `until`."""
-        return (np.maximum(min(self.times.max(), until) - clock, 0.0) + SOON) * (1 + LATER)
+        later = LATER if np.any(self.observed.touch_times <= until) else 0.0
+        return (np.maximum(min(self.times.max(), until) - clock, 0.0) + SOON) * (1 + later)
 
     def predicted(self, values: Array) -> Predicted:
         """Return what the toss with these values, (k,), shows; raise `ScenarioError` for what is none."""

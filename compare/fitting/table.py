@@ -46,6 +46,7 @@ ACCEPTED = (
 )
 _IN_ONE_ROW = re.compile(r"(start|stop|stop \d+|bounce \d+)", re.IGNORECASE)
 """Touches as phyphox's acoustic stopwatch and its (in)elastic collision export them: one row, 0 for none."""
+_NONE = re.compile(r"nan|\?|[0.,]*(e[-+]?\d+)?", re.IGNORECASE)
 _HEADING = re.compile(r"(?P<name>[^(\[]*?)\s*(?:[(\[](?P<unit>[^)\]]*)[)\]])?")
 _MISSING = ("", "nan", "?")
 _DIMENSIONS = {"s": "time", "m": "length", "rad": "angle"}
@@ -129,10 +130,6 @@ def read_observed(path: str | PathLike[str], sd: Mapping[str, float | str] | Non
         return _observed(_rows(Path(path)), deviations)
     except ObservationError as error:
         raise ObservationError(f"{path}: {error}") from None
-    except TooLargeError as error:
-        raise ObservationError(
-            f"{path}: {error}; accepted: a CSV file of at most {LARGEST:,} bytes"
-        ) from None
     except FileNotFoundError:
         raise ObservationError(f"{path}: no such file; accepted: a CSV file") from None
     except (OSError, UnicodeDecodeError) as error:
@@ -141,7 +138,7 @@ def read_observed(path: str | PathLike[str], sd: Mapping[str, float | str] | Non
 
 
 def _deviations(given: Mapping[str, float | str]) -> dict[str, float]:
-    """Return standard deviations in SI; refuse those that nothing has."""
+    """Return standard deviations in SI, by the column that they stand for; refuse those that nothing has."""
     if not (isinstance(given, Mapping) and set(given) <= set(DEVIATIONS)):
         raise ObservationError(
             f'sd: {shown(given)}, accepted: a dict such as {{"time": "1 ms"}}, of {", ".join(DEVIATIONS)}'
@@ -150,24 +147,25 @@ def _deviations(given: Mapping[str, float | str]) -> dict[str, float]:
     for name, value in given.items():
         unit = DEVIATIONS[name]
         try:
-            found[name] = number(name, value, unit)
+            sd = number(name, value, unit)
         except SweepError:
-            found[name] = math.nan
-        if not LEAST_SD <= found[name] <= LARGEST_SD:
+            sd = math.nan
+        if not LEAST_SD <= sd <= LARGEST_SD:
             bounds = f"{LEAST_SD:g} to {LARGEST_SD:g} {unit}"
             raise FieldError(f"sd.{name}", value, f"a standard deviation from {bounds}")
+        found[f"sd_{name}"] = sd
     return found
 
 
 def _rows(path: Path) -> list[list[str]]:
     """Return the cells of a file that are neither empty lines nor comments."""
-    lines = read_bounded(path, LARGEST).decode("utf-8-sig").splitlines()
-    lines = [line for line in lines if line.strip() and not line.startswith("#")]
-    mark = max(";\t,", key=lambda mark: sum(line.count(mark) > 0 for line in lines[:BEFORE_HEADER]))
     try:
+        lines = read_bounded(path, LARGEST).decode("utf-8-sig").splitlines()
+        lines = [line for line in lines if line.strip() and not line.startswith("#")]
+        mark = max(";\t,", key=lambda mark: sum(line.count(mark) > 0 for line in lines[:BEFORE_HEADER]))
         rows = [[cell.strip() for cell in row] for row in csv.reader(lines, delimiter=mark)]
-    except csv.Error as error:
-        raise ObservationError(f"{error}; accepted: a CSV file") from None
+    except (csv.Error, TooLargeError) as error:
+        raise ObservationError(f"{error}; accepted: a CSV file of at most {LARGEST:,} bytes") from None
     return rows if mark == "," else [[_with_point(cell) for cell in row] for row in rows]
 
 
@@ -185,7 +183,9 @@ def _observed(rows: list[list[str]], sd: Mapping[str, float]) -> Observed:
                 raise ObservationError(
                     f"{len(below)} rows of touches; accepted: one, as phyphox exports them"
                 )
-            times = [(cell,) for i, cell in enumerate(below[0]) if i in in_one_row and cell.strip("0.,")]
+            times = [
+                (cell,) for i, cell in enumerate(below[0]) if i in in_one_row and not _NONE.fullmatch(cell)
+            ]
             return _of_columns({"time": (0, headings[in_one_row[0]])}, times, sd)
         if any(heading.key == "time" for heading in headings):
             columns = _columns(headings)
@@ -228,15 +228,14 @@ def _of_columns(
     columns: Mapping[str, tuple[int, Heading]], rows: Sequence[Sequence[str]], sd: Mapping[str, float]
 ) -> Observed:
     """Return what the rows of a table say; NaN stands for a column that is not there."""
-    values = {key: np.full(len(rows), sd.get(key.removeprefix("sd_"), math.nan)) for key in NAMES}
+    values = {key: np.full(len(rows), sd.get(key, math.nan)) for key in NAMES}
     for key, (i, heading) in columns.items():
         cells = [row[i] for row in rows]
         if key == "face":
             values[key] = np.array([cell[:1] or "?" for cell in cells], dtype=str)
         else:
             numbers = np.array(heading.numbers(cells, NAMES[key][1]))
-            is_missing = np.isnan(numbers) & key.startswith("sd_")
-            values[key] = np.where(is_missing, values[key], numbers)
+            values[key] = np.where(np.isnan(numbers), values[key], numbers)
     if 0 < len(columns.keys() & set(EULER)) < 4:
         raise ObservationError(f"columns {', '.join(columns)}; accepted: all of e0, e1, e2 and e3, or none")
     is_of_film = bool(columns.keys() & {"height", "tilt", "e0"})
