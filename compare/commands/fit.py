@@ -59,8 +59,9 @@ def fit(
 
     Seen are the times of its touches, as a microphone hears them, faces up, or heights and attitudes, as a
     film shows them. FIELD is a dotted path into the scenario, such as floor.restitution or
-    release.position.z; START and STOP are in SI or carry a unit. The FIELD clock is the time that your clock
-    shows at the release; without it your clock begins then. All other fields stay as the scenario has them.
+    release.position.z, or its last part; START and STOP are in SI or carry a unit. The FIELD clock is the
+    time that your clock shows at the release; without it your clock begins then. All other fields stay as the
+    scenario has them.
 
     Printed are the values with their 99 % intervals, whether this model can do what was seen at all, other
     values that would explain it too, and each touch. Where it cannot, there are no intervals, and the exit

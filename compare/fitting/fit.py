@@ -247,12 +247,12 @@ def fit(
         raise ScenarioError(
             "no start of the spans makes a scenario; accepted: spans in which the coin is free"
         )
-    found = [_fit_of(misfit, minimum, searched.ends) for minimum in searched.minima]
-    others = tuple(other for other in found[1:] if other.is_possible)
-    best, values = found[0], found[0].values
+    minima, ends = searched
+    best, *others = (_fit_of(misfit, minimum, ends) for minimum in minima)
+    values = best.values
     if not best.is_possible:
         values = tuple(replace(each, interval=None) for each in values)
-    return replace(best, values=values, others=others)
+    return replace(best, values=values, others=tuple(other for other in others if other.is_possible))
 
 
 def _fit_of(misfit: Misfit, minimum: Minimum, ends: Array) -> Fit:

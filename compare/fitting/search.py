@@ -7,7 +7,6 @@ until all has.
 """
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,16 +81,7 @@ class Minimum:
         return self.chi_square + UNTESTED * int(np.sum(~self.predicted.is_tested))
 
 
-class Minima(NamedTuple):
-    """What a search found."""
-
-    minima: tuple[Minimum, ...]
-    """The best first."""
-    ends: Array
-    """The ends of the interval of each value, (k, 2)."""
-
-
-class LeastSquaresSearch:
+class Search:
     """A search for the least squares of a misfit; points are in parts of the spans, 0 to 1."""
 
     def __init__(self, misfit: Misfit, *, starts: int, seed: int) -> None:
@@ -102,8 +92,9 @@ class LeastSquaresSearch:
         self._order = np.argsort(misfit.times, kind="stable")
         self._best: tuple[Array, float, int] | None = None
 
-    def found(self) -> Minima | None:
-        """Return what was found; None where no start makes a scenario."""
+    def found(self) -> tuple[tuple[Minimum, ...], Array] | None:
+        """Return minima, the best first, and the ends of the interval of each value, (k, 2); None where no
+        start makes a scenario."""
         sampler = qmc.Sobol(self._descent.size, rng=self._rng)
         starts = sampler.random_base2(int(np.ceil(np.log2(self._starts))))[: self._starts]
         starts = starts[self._misfit.accepts(self._descent.values(starts))]
@@ -119,7 +110,7 @@ class LeastSquaresSearch:
             return None
         with stage("measuring the intervals", detail=self._so_far):
             ends = self._ends(minima, np.vstack([known[-1].points, deepest]), known[-EARLIER - 1 : -1])
-        return Minima(self._apart(minima), ends)
+        return self._apart(minima), ends
 
     def _fitted(self, points: Array) -> list[Known]:
         """Return points that explain what was seen until ever later times, at last all."""

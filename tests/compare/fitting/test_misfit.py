@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from cointoss import Observed, analytic
-from cointoss.compare.fitting.misfit import Misfit
+from cointoss.compare.fitting.misfit import IMPOSSIBLE, Misfit
 from cointoss.compare.sweep.axes import Span
 from tests.helpers.draws import scenario
 
@@ -43,3 +43,21 @@ def test_an_attitude_misses_by_the_rotation_to_what_was_seen():
         observed = Observed(times=at, quaternions=1.01 * sign * seen, quaternion_sd=0.1)
         missed = Misfit(scenario=COIN, spans=SPANS, observed=observed).residuals(TRUE)[0]
         assert missed == pytest.approx(rotations.ravel() / 0.1, abs=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("field", "inside", "outside"),
+    [
+        ("release.position.z", 0.2, -0.2),
+        ("floor.restitution", 0.8, 1.2),
+        ("coin.thickness", 2e-3, -2e-3),
+        ("coin.center_of_mass.xi", 1e-3, 1.0),
+    ],
+)
+def test_values_that_make_no_scenario_miss_everything_and_are_not_tossed(field, inside, outside):
+    observed = Observed(touch_times=analytic.toss(COIN).impacts.time[:2], touch_sd=1.0)
+    span = Span(field=field, start=outside, stop=inside, unit="")
+    misfit = Misfit(scenario=COIN, spans=(span,), observed=observed)
+    missed = misfit.residuals(np.array([[outside], [inside], [np.nan]]))
+    assert np.all(missed[[0, 2]] == IMPOSSIBLE)
+    assert np.all(np.abs(missed[1]) < 1)
