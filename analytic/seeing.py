@@ -18,7 +18,7 @@ from cointoss.models.kernel.arrays import Array, Cube, Table
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import IMPACT_ROW
 from cointoss.models.rows import (
-    AIR_EXPONENT,
+    AT,
     bodies_alike,
     body_of,
     has_linear_air,
@@ -60,7 +60,7 @@ def see_each(rows: Table, limits: ContactLimits, times: Table, found: Sightings)
         if has_linear_air(rows[first]):
             _see_run(body_of(rows[first], None), rows, limits, times, found, first, end)
         else:
-            _see_run(body_of(rows[first], rows[first, AIR_EXPONENT]), rows, limits, times, found, first, end)
+            _see_run(body_of(rows[first], rows[first, AT.air_exponent]), rows, limits, times, found, first, end)
         first = end
 
 

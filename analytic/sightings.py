@@ -5,7 +5,7 @@ import numpy as np
 from cointoss.analytic.entries import see_each
 from cointoss.analytic.flight.state_vector import STATE_SIZE
 from cointoss.analytic.seeing import Sightings
-from cointoss.analytic.settings import FINE, Settings, contact_limits
+from cointoss.analytic.settings import FINE, AnalyticSettings, contact_limits
 from cointoss.models.records import Array
 from cointoss.models.tiles import in_tiles
 
@@ -14,7 +14,7 @@ TILE = 512
 
 
 def sightings(
-    rows: Array, times: Array, *, most: int, settings: Settings = FINE, workers: int | None = None
+    rows: Array, times: Array, *, most: int, settings: AnalyticSettings = FINE, workers: int | None = None
 ) -> Sightings:
     """Return what tosses show, each as `toss` makes it.
 

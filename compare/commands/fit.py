@@ -7,7 +7,7 @@ import click
 
 from cointoss.compare.commands.common import (
     SCENARIO_HELP,
-    Count,
+    CountType,
     Place,
     naming_options,
     plain_errors,

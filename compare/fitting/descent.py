@@ -54,7 +54,11 @@ class Descent:
             held: coordinates whose derivatives are 0, (p, k); by default none.
         """
         found = np.zeros((len(points), len(rows), self.size))
-        at, field = np.nonzero(np.ones(points.shape, bool) if held is None else ~held)
+        is_tossed = np.ones(points.shape, bool) if held is None else ~held
+        for i, slope in self.misfit.known_slopes.items():
+            found[:, :, i] = np.where(is_tossed[:, i, None], self.width[i] * slope[rows], 0.0)
+            is_tossed[:, i] = False
+        at, field = np.nonzero(is_tossed)
         moved = points[at]
         steps = np.where(moved[np.arange(len(at)), field] + STEP <= 1, STEP, -STEP)
         moved[np.arange(len(at)), field] += steps

@@ -14,7 +14,7 @@ from cointoss.analytic import toss
 from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.fitting.misfit import CLOCK, Misfit
 from cointoss.compare.fitting.observed import Observed
-from cointoss.compare.fitting.search import LEVEL, Minimum, Search
+from cointoss.compare.fitting.search import LEVEL, Minimum, LeastSquaresSearch
 from cointoss.compare.fitting.table import read_observed
 from cointoss.compare.sweep.axes import NUMBERS, Span, require_ends, span_of
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
@@ -28,7 +28,7 @@ STARTS, MOST_STARTS = 2048, 1 << 20
 AT_END = 1e-6
 """A value nearer to an end of its span than this part of it is at the end."""
 MOST_FIELDS = 12
-"""That are free; more are not found from one toss."""
+"""The most free fields; more are not found from one toss."""
 FIELDS = {CLOCK: "s"} | {
     field: unit
     for field, unit in NUMBERS.items()
@@ -241,7 +241,7 @@ def fit(
     elif not isinstance(observed, Observed):
         raise ObservationError(f"observed: {observed!r}, accepted: an Observed, or the path of a CSV file")
     misfit = Misfit(scenario=described, spans=spans, observed=observed)
-    searched = Search(misfit, starts=starts, seed=seed).found()
+    searched = LeastSquaresSearch(misfit, starts=starts, seed=seed).found()
     if searched is None:
         misfit.scenario_of(np.array([(span.start + span.stop) / 2 for span in spans]))  # says why
         raise ScenarioError(

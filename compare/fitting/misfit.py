@@ -115,6 +115,16 @@ class Misfit:
         found[is_toss] = np.hstack([self._missed_touches(shown, clock), self._missed_frames(states)])
         return found
 
+    @cached_property
+    def known_slopes(self) -> dict[int, Array]:
+        """By place among the values, derivatives of all residuals, (n,), that are the same for all tosses.
+
+        Without a film the clock shifts the touches, and nothing else.
+        """
+        of_clock = [i for i, span in enumerate(self.spans) if span.field == CLOCK]
+        late = np.append(-1.0 / self.observed.touch_sd, np.zeros(len(self._faces)))
+        return dict.fromkeys(of_clock, late) if not len(self.observed.times) else {}
+
     def accepts(self, values: Array) -> NDArray[np.bool_]:
         """Return which values make a scenario, (p,), from values of the fields, (p, k)."""
         return ~refused(self._rows(values), self._columns)

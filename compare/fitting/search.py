@@ -81,7 +81,7 @@ class Minimum:
         return self.chi_square + UNTESTED * int(np.sum(~self.predicted.is_tested))
 
 
-class Search:
+class LeastSquaresSearch:
     """A search for the least squares of a misfit; points are in parts of the spans, 0 to 1."""
 
     def __init__(self, misfit: Misfit, *, starts: int, seed: int) -> None:

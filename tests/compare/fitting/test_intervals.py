@@ -21,7 +21,7 @@ class Formula:
     """A misfit whose residuals are a formula of points from 0 to 1."""
 
     def __init__(self, formula: Callable[[Array], Array], size: int) -> None:
-        self.formula = formula
+        self.formula, self.known_slopes = formula, {}
         self.spans = [Span(field=str(i), start=0.0, stop=1.0, unit="") for i in range(size)]
         self.times = np.zeros(len(formula(np.zeros((1, size)))[0]))
 
