@@ -20,7 +20,7 @@ from cointoss.compare.reproduction.setups.planar_maps import (
     SPINS,
     case,
     faces_after,
-    releases,
+    planar_rows,
 )
 from cointoss.models.records import Array
 
@@ -48,7 +48,7 @@ def make(progress: Progress, centers: int = 200, count: int = 60) -> Findings:
     found = Findings(data=data, at_hand={})
     alike: dict[str, list[Estimate]] = {}
     for landing in LANDINGS:
-        width = np.array([stripe_width(landing, z, w) for z, w in zip(heights, spins, strict=True)])
+        width = stripe_widths(landing, heights, spins)
         progress(2 * len(found.at_hand) + 1, 2 * len(LANDINGS))
         rows = []
         for ratio in RATIOS:
@@ -78,24 +78,24 @@ def _listed(alike: Array) -> str:
 
 
 def _faces(landing: str, heights: Array, spins: Array) -> NDArray[np.int8]:
-    if landing == "soft floor":
-        return faces_after(case(air=True), releases(heights, spins), 0)
-    return analytic.toss_many(case(air=True), releases(heights, spins)).outcome
+    rows = planar_rows(case(air=True), heights, spins)
+    return faces_after(rows, 0) if landing == "soft floor" else analytic.toss_rows(rows).outcome
 
 
-def stripe_width(landing: str, height: float, spin: float) -> float:
-    """Return how far apart the next boundaries above and below a release are, as `LADDER` finds them [m].
+def stripe_widths(landing: str, heights: Array, spins: Array) -> Array:
+    """Return how far apart the boundaries above and below releases are, as `LADDER` finds them, (n,) [m].
 
     Args:
         landing: one of `LANDINGS`.
-        height: of the release [m].
-        spin: about ξ [rad/s].
+        heights: of the releases, (n,) [m].
+        spins: about ξ, (n,) [rad/s].
     """
     steps = np.concatenate([[0.0], LADDER, -LADDER])
-    faces = _faces(landing, height + steps, np.full(len(steps), spin))
-    other = faces[1:].reshape(2, -1) != faces[0]
-    found = [float(LADDER[np.argmax(side)]) if side.any() else float(LADDER[-1]) for side in other]
-    return sum(found)
+    tossed = heights[:, None] + steps
+    faces = _faces(landing, tossed.ravel(), np.repeat(spins, len(steps))).reshape(tossed.shape)
+    other = (faces[:, 1:] != faces[:, :1]).reshape(len(heights), 2, len(LADDER))
+    found = np.where(other.any(axis=2), LADDER[np.argmax(other, axis=2)], LADDER[-1])
+    return found.sum(axis=1)
 
 
 def _alike(

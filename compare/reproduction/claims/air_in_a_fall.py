@@ -14,7 +14,8 @@ from cointoss.compare.metrics.estimates import share
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.setups.planar_maps import SPINS, case, releases
+from cointoss.compare.reproduction.setups.planar_maps import SPINS, case, planar_rows
+from cointoss.models.batch import states_of
 from cointoss.models.parts import EndingCriteria, Release
 from cointoss.models.reading import load
 from cointoss.models.records import Array
@@ -95,8 +96,7 @@ def landing_shifts(height: float, spins: Array) -> tuple[float, float, float, Es
     rows = []
     for air in (True, False):
         scenario = _one_touch(case(air=air))
-        start = releases(np.full_like(spins, height), spins)
-        states = [np.array([0, 0, height, 0, 0, 0, 1.0, 0, 0, 0, *w]) for w in start.angular_velocity]
+        states = states_of(planar_rows(scenario, np.full_like(spins, height), spins))
         rows.append(np.array([run(scenario.body, scenario.rules, y).rows[0] for y in states]))
     air, vacuum = rows
     body = case(air=True).body
@@ -117,8 +117,10 @@ def _one_touch(scenario: Scenario) -> Scenario:
 
 def _bounced(spins: Array) -> Estimate:
     """Return the share of the tosses from a hand's height whose final face the air changes."""
-    start = releases(np.full_like(spins, FALLS[HAND]), spins)
-    air, vacuum = (analytic.toss_many(case(air=air), start).outcome for air in (True, False))
+    heights = np.full_like(spins, FALLS[HAND])
+    air, vacuum = (
+        analytic.toss_rows(planar_rows(case(air=air), heights, spins)).outcome for air in (True, False)
+    )
     return share(air != vacuum)
 
 

@@ -12,7 +12,8 @@ from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared, listed
 from cointoss.compare.reproduction.setups.kellers_map import FASTEST, HIGHEST, middles, thrown
-from cointoss.compare.reproduction.setups.planar_maps import case, toss_many_by_mujoco
+from cointoss.compare.reproduction.setups.planar_maps import case, toss_rows_by_mujoco
+from cointoss.models.batch import rows_from_states
 from cointoss.models.records import Array, Face
 from cointoss.models.scenario import Scenario
 
@@ -36,17 +37,16 @@ def make(progress: Progress, points: int = 90, line: int = 2500, tosses_mujoco: 
         faces = _faces(scenario, over, up)
         data[body] = faces.reshape(points, points)
         progress(2 * len(widths) + 1, 2 * len(BODIES) + 1)
-        lines = [int(crossings(_faces(scenario, fine, np.full(line, speed)))) for speed in SPEEDS]
+        along = _faces(scenario, np.tile(fine, len(SPEEDS)), np.repeat(SPEEDS, line))
+        lines = crossings(along.reshape(len(SPEEDS), line))
         # Keller's boundaries lie at odd quarters of a turn.
         widths[body] = np.floor(2 * FASTEST * SPEEDS + 1 / 2) / np.maximum(lines, 1)
-        data |= {f"{body}, width": widths[body], f"{body}, boundaries": np.array(lines)}
+        data |= {f"{body}, width": widths[body], f"{body}, boundaries": lines}
         progress(2 * len(widths), 2 * len(BODIES) + 1)
     few = np.random.default_rng(SEED).choice(len(over), tosses_mujoco, replace=False)
-    mujoco = {
-        body: toss_many_by_mujoco(_scenario(body), thrown(_scenario(body), over[few], up[few]))
-        for body in BODIES
-    }
-    same = [int(np.sum(mujoco[body].outcome == data[body].ravel()[few])) for body in BODIES]
+    rows = np.concatenate([_rows(_scenario(body), over[few], up[few]) for body in BODIES])
+    mujoco = toss_rows_by_mujoco(rows).outcome.reshape(len(BODIES), -1)
+    same = [int(np.sum(row == data[body].ravel()[few])) for row, body in zip(mujoco, BODIES, strict=True)]
     progress(2 * len(BODIES) + 1, 2 * len(BODIES) + 1)
     by_mujoco = [f"{n} of {tosses_mujoco} {ALIKE} ({body})" for n, body in zip(same, BODIES, strict=True)]
     near, far = ({body: width[at] for body, width in widths.items()} for at in (0, -1))
@@ -73,8 +73,12 @@ def _scenario(body: str) -> Scenario:
     return scenario.replace("coin.inertia", inertia)
 
 
+def _rows(scenario: Scenario, over: Array, up: Array) -> Array:
+    return rows_from_states(scenario, thrown(scenario, over, up))
+
+
 def _faces(scenario: Scenario, over: Array, up: Array) -> NDArray[np.int8]:
-    return analytic.toss_many(scenario, thrown(scenario, over, up)).outcome
+    return analytic.toss_rows(_rows(scenario, over, up)).outcome
 
 
 def _draw(data: Data) -> Figure:

@@ -7,7 +7,6 @@ from cointoss import analytic
 from cointoss.analytic.runs import run
 from cointoss.coin_mj.toss import impacts_of
 from cointoss.compare.metrics.estimates import share
-from cointoss.compare.metrics.release_arrays import chosen, moved
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared
@@ -16,16 +15,15 @@ from cointoss.compare.reproduction.setups.planar_maps import (
     SPINS,
     case,
     faces_after,
-    releases,
-    toss_many_by_mujoco,
+    planar_rows,
+    toss_rows_by_mujoco,
 )
-from cointoss.models.parts import Release
-from cointoss.models.records import Outcome
-from cointoss.models.releases import Releases, states_of
+from cointoss.models.batch import PLACE, scenario_of_row, states_of
+from cointoss.models.records import Array, Outcome
 
 SEED = 71
 ASIDE = np.array([0.0, 0.01, 0.1, 1.0, 3.0, 10.0, 20.0])
-"""Spins about ζ that are added to that about ξ [rad/s]."""
+"""Spins about ζ that are added to that about ξ, first none [rad/s]."""
 SHOWN = 5
 """The spin of `ASIDE` whose effect is shown."""
 HEIGHTS_OF_DROP = np.array([0.015, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0])
@@ -43,53 +41,46 @@ def make(progress: Progress, count: int = 2000, tosses_mujoco: int = 200) -> Fin
     found = Findings()
     scenario = case(air=True)
     rng = np.random.default_rng(SEED)
-    flat = releases(rng.uniform(*HEIGHTS, count), rng.uniform(*SPINS, count))
-    outcome = analytic.toss_many(scenario, flat).outcome
-    first = faces_after(scenario, flat, 0)
-    found.apart, found.mujoco = _in_plane(flat)
-    turned = moved(chosen(flat, slice(tosses_mujoco)), angular_velocity=np.array([0, 0, ASIDE[SHOWN]]))
-    found.heads_mujoco = np.mean(toss_many_by_mujoco(scenario, turned).outcome == Outcome.HEADS)
-    whole = 1 + len(ASIDE) + len(HEIGHTS_OF_DROP)
-    progress(1, whole)
-    found.changed, found.changed_first, found.heads = [], [], []
-    for done, spin in enumerate(ASIDE, start=2):
-        turned = moved(flat, angular_velocity=np.array([0, 0, spin]))
-        ended = analytic.toss_many(scenario, turned).outcome
-        found.changed.append(share(ended != outcome))
-        found.changed_first.append(np.mean(faces_after(scenario, turned, 0) != first))
-        found.heads.append(np.mean(ended == Outcome.HEADS))
-        progress(done, whole)
-    found.uncertain = []
-    spins = rng.uniform(*DROP_SPINS, count)
-    for done, height in enumerate(HEIGHTS_OF_DROP, start=2 + len(ASIDE)):
-        one, other = (
-            analytic.toss_many(scenario, releases(np.full(count, height + step), spins)).outcome
-            for step in (0.0, ACCURACY)
-        )
-        found.uncertain.append(share(one != other))
-        progress(done, whole)
+    flat = planar_rows(scenario, rng.uniform(*HEIGHTS, count), rng.uniform(*SPINS, count))
+    found.apart, found.mujoco = _in_plane(flat[:FOLLOWED])
+    turned = np.tile(flat, (len(ASIDE), 1))
+    turned[:, PLACE["release.angular_velocity.zeta"]] = np.repeat(ASIDE, count)
+    by_mujoco = toss_rows_by_mujoco(turned[SHOWN * count :][:tosses_mujoco]).outcome
+    found.heads_mujoco = np.mean(by_mujoco == Outcome.HEADS)
+    progress(1, 3)
+    ended, first = analytic.toss_rows(turned).outcome, faces_after(turned, 0)
+    ended, first = (faces.reshape(len(ASIDE), count) for faces in (ended, first))
+    found.changed = [share(row != ended[0]) for row in ended]
+    found.changed_first = np.mean(first != first[0], axis=1)
+    found.heads = np.mean(ended == Outcome.HEADS, axis=1)
+    progress(2, 3)
+    spins = np.tile(rng.uniform(*DROP_SPINS, count), len(HEIGHTS_OF_DROP))
+    one, other = (
+        analytic.toss_rows(planar_rows(scenario, np.repeat(HEIGHTS_OF_DROP + step, count), spins)).outcome
+        for step in (0.0, ACCURACY)
+    )
+    found.uncertain = [share(row) for row in (one != other).reshape(-1, count)]
+    progress(3, 3)
     found.data = {
         "aside": ASIDE,
         "changed": np.array([one.value for one in found.changed]),
-        "changed first": np.array(found.changed_first),
-        "heads": np.array(found.heads),
+        "changed first": found.changed_first,
+        "heads": found.heads,
         "height": HEIGHTS_OF_DROP,
         "uncertain": np.array([one.value for one in found.uncertain]),
     }
     return found
 
 
-def _in_plane(flat: Releases) -> tuple[tuple[float, float], str]:
+def _in_plane(rows: Array) -> tuple[tuple[float, float], str]:
     """Return how far coins come off their plane and, in it, aside [m], and what MuJoCo finds in words."""
-    scenario = case(air=True)
     off, aside, off_mujoco, between = [], [], [], []
-    for state in states_of(flat)[:FOLLOWED]:
+    for row, state in zip(rows, states_of(rows), strict=True):
+        scenario = scenario_of_row(row)
         places = run(scenario.body, scenario.rules, state).rows["position"]
         off.append(np.abs(places[:, 0]).max())
         aside.append(np.abs(places[:, 1]).max())
-        release = Release(position=(0.0, 0.0, float(state[2])), angular_velocity=(float(state[10]), 0.0, 0.0))
-        shorter = scenario.replace("release", release, "ending.max_impacts", IMPACTS)
-        found = impacts_of(shorter).position
+        found = impacts_of(scenario.replace("ending.max_impacts", IMPACTS)).position
         off_mujoco.append(np.abs(found[:, 0]).max())
         between.append(np.abs(found[: len(places)] - places[: len(found)]).max())
     by_mujoco = (

@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 from cointoss import analytic
 from cointoss.compare.metrics.estimate import Estimate
 from cointoss.compare.metrics.estimates import jackknife, mean, scatter_of_shares
-from cointoss.compare.metrics.release_arrays import chosen
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, INK, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.setups.hands import releases_of_hands
+from cointoss.compare.reproduction.setups.hands import states_of_hands
 from cointoss.compare.reproduction.setups.kellers_map import caught
-from cointoss.compare.reproduction.setups.planar_maps import faces_after, toss_many_by_mujoco
+from cointoss.compare.reproduction.setups.planar_maps import faces_after, toss_rows_by_mujoco
+from cointoss.models.batch import rows_from_states
 from cointoss.models.laws import ContactLaw
 from cointoss.models.parts import Floor
 from cointoss.models.reading import load
@@ -44,25 +44,24 @@ def make(progress: Progress, hands: int = 1000, each: int = 20, tosses_mujoco: i
     rng = np.random.default_rng(SEED)
     heads: dict[tuple[str, str], Array] = {}
     whole = len(ASIDE) * len(LANDINGS) + 1
-    first_faces, tossed = np.empty(0, dtype=np.int8), None
+    first_faces, tossed, bounced = np.empty(0, dtype=np.int8), np.empty((0, 13)), []
     for kind, aside in ASIDE.items():
-        tossed = releases_of_hands(rng, hands, each, spread=SPREAD, aside=aside)
-        first_faces = faces_after(scenario, tossed, 0)
+        tossed = states_of_hands(rng, hands, each, spread=SPREAD, aside=aside)
+        first_faces = faces_after(rows_from_states(scenario, tossed), 0)
         back = np.where(caught(scenario, tossed) > 0, Face.HEADS, Face.TAILS)
-        faces = [back, first_faces]
-        faces += [analytic.toss_many(_on(scenario, floor), tossed).outcome for floor in FLOORS.values()]
-        for landing, face in zip(LANDINGS, faces, strict=True):
+        bounced = [
+            analytic.toss_rows(rows_from_states(_on(scenario, floor), tossed)).outcome
+            for floor in FLOORS.values()
+        ]
+        for landing, face in zip(LANDINGS, (back, first_faces, *bounced), strict=True):
             heads[kind, landing] = np.mean((face == Face.HEADS).reshape(hands, each), axis=1)
             progress(len(heads), whole)
-    assert tossed is not None
     every = slice(None, None, len(tossed) // tosses_mujoco)
-    few = chosen(tossed, every)
-    found.same = int(np.sum(faces_after(scenario, few, 0, toss_many_by_mujoco) == first_faces[every]))
-    ended, by_analytic = (
-        toss_many(_on(scenario, next(iter(FLOORS.values()))), few).outcome
-        for toss_many in (toss_many_by_mujoco, analytic.toss_many)
-    )
-    found.heads_few = [float(np.mean(outcomes == Face.HEADS)) for outcomes in (ended, by_analytic)]
+    few = tossed[every]
+    first_mujoco = faces_after(rows_from_states(scenario, few), 0, toss_rows_by_mujoco)
+    found.same = int(np.sum(first_mujoco == first_faces[every]))
+    by_mujoco = toss_rows_by_mujoco(rows_from_states(_on(scenario, FLOORS[SMOOTH]), few)).outcome
+    found.heads_few = [float(np.mean(faces == Face.HEADS)) for faces in (by_mujoco, bounced[0][every])]
     progress(whole, whole)
     bias = {key: scatter_of_shares(shares, each) for key, shares in heads.items()}
     found.together = {key: mean(shares, "hands") for key, shares in heads.items()}

@@ -1,5 +1,7 @@
 """Section 5.2: the probability of heads in a ball about a release, as the ball shrinks."""
 
+from collections.abc import Callable
+
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
@@ -16,11 +18,12 @@ from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHTS,
     SPINS,
     case,
-    releases,
-    toss_many_by_mujoco,
+    planar_rows,
+    toss_rows_by_mujoco,
 )
+from cointoss.models.answers import Answers
+from cointoss.models.batch import rows_from_states
 from cointoss.models.records import Array, Outcome
-from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
 
 SEED = 52
@@ -48,16 +51,16 @@ def make(
         rows = []
         for z, w in points:
             balls = [ball_about(scenario, z, w, radius, count, rng) for radius in RADII]
-            rows.append([_heads(analytic.toss_many(scenario, ball).outcome) for ball in balls])
+            rows.append(_heads_in(balls))
             progress(len(heads) * centers + len(rows), 2 * centers + 2)
         heads[kind] = np.array(rows)
     z, w = inside[0]
     ball = ball_about(scenario, z, w, MUJOCO_RADIUS, tosses_mujoco, rng)
-    found.mujoco = _heads(toss_many_by_mujoco(scenario, ball).outcome)
+    found.mujoco = float(_heads_in([ball], toss_rows_by_mujoco)[0])
     progress(2 * centers + 1, 2 * centers + 2)
     others = np.column_stack([rng.uniform(*HEIGHTS, many), rng.uniform(*SPINS, many)])
     alike = {
-        radius: np.array([_heads_about(scenario, z, w, radius, rng) for z, w in others])
+        radius: _heads_in([ball_about(scenario, z, w, radius, FEW, rng) for z, w in others])
         for radius in (RADII[-1], RADII[0])
     }
     found.pure_ball = share((alike[RADII[-1]] == 0) | (alike[RADII[-1]] == 1), "releases")
@@ -88,18 +91,18 @@ def boundary_above(scenario: Scenario, height: float, spin: float) -> float:
     """
 
     def outcome(z: float) -> int:
-        return int(analytic.toss_many(scenario, releases(np.array([z]), np.array([spin]))).outcome[0])
+        return int(analytic.toss_rows(planar_rows(scenario, np.array([z]), np.array([spin]))).outcome[0])
 
     line = np.linspace(height, height + REACH, SAMPLES)
-    faces = analytic.toss_many(scenario, releases(line, np.full_like(line, spin))).outcome
+    faces = analytic.toss_rows(planar_rows(scenario, line, np.full_like(line, spin))).outcome
     change = int(np.flatnonzero(faces[1:] != faces[:-1])[0])
     return halved(float(line[change]), float(line[change + 1]), outcome)[0]
 
 
 def ball_about(
     scenario: Scenario, height: float, spin: float, radius: float, count: int, rng: np.random.Generator
-) -> Releases:
-    """Draw releases uniformly from a ball about one of the map; all twelve numbers vary.
+) -> Array:
+    """Draw tosses, as rows, whose releases are uniform in a ball about one of the map; twelve numbers vary.
 
     Args:
         scenario: of the map.
@@ -108,22 +111,27 @@ def ball_about(
         radius: in the units of `RADII`.
         count: how many.
         rng: the source of chance.
+
+    Returns:
+        The tosses, (count, 46).
     """
     r, g = scenario.coin.radius, scenario.gravity
     drawn = rng.normal(size=(count, 12))
     drawn *= radius * rng.uniform(0, 1, (count, 1)) ** (1 / 12) / np.linalg.norm(drawn, axis=1, keepdims=True)
     place, speed, turn, spins = np.split(drawn, 4, axis=1)
-    return Releases(
-        position=np.array([0, 0, height]) + r * place,
-        velocity=np.sqrt(g * r) * speed,
-        quaternion=Rotation.from_rotvec(turn).as_quat(scalar_first=True),
-        angular_velocity=np.array([spin, 0, 0]) + np.sqrt(g / r) * spins,
+    parts = (
+        np.array([0, 0, height]) + r * place,
+        np.sqrt(g * r) * speed,
+        Rotation.from_rotvec(turn).as_quat(scalar_first=True),
+        np.array([spin, 0, 0]) + np.sqrt(g / r) * spins,
     )
+    return rows_from_states(scenario, np.hstack(parts))
 
 
-def _heads_about(scenario: Scenario, z: float, w: float, radius: float, rng: np.random.Generator) -> float:
-    """Return prob(heads) in a ball, from `FEW` tosses."""
-    return _heads(analytic.toss_many(scenario, ball_about(scenario, z, w, radius, FEW, rng)).outcome)
+def _heads_in(balls: list[Array], toss_rows: Callable[[Array], Answers] = analytic.toss_rows) -> Array:
+    """Return prob(heads) in each of some balls, from the tosses of each, as many in all."""
+    outcomes = toss_rows(np.concatenate(balls)).outcome
+    return np.mean((outcomes == Outcome.HEADS).reshape(len(balls), -1), axis=1)
 
 
 def _scatter(heads: Array) -> Estimate:
@@ -134,10 +142,6 @@ def _scatter(heads: Array) -> Estimate:
         return float(np.sqrt(max(p.var(ddof=1) - np.mean(p * (1 - p)) / (FEW - 1), 0)))
 
     return jackknife(spread, len(heads), "releases")
-
-
-def _heads(outcomes: NDArray[np.int8]) -> float:
-    return float(np.mean(outcomes == Outcome.HEADS))
 
 
 def _draw(data: Data) -> Figure:

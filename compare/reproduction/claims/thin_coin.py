@@ -11,18 +11,17 @@ from cointoss import analytic
 from cointoss.analytic.runs import run
 from cointoss.compare.metrics.estimate import Estimate
 from cointoss.compare.metrics.estimates import difference, jackknife, share
-from cointoss.compare.metrics.release_arrays import chosen, moved
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, INK, SKY, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.setups.face_changes import changes, share_after_row
-from cointoss.compare.reproduction.setups.hands import releases_of_hands
-from cointoss.compare.reproduction.setups.planar_maps import faces_after, toss_many_by_mujoco
+from cointoss.compare.reproduction.setups.hands import states_of_hands
+from cointoss.compare.reproduction.setups.planar_maps import faces_after, toss_rows_by_mujoco
+from cointoss.models.batch import rows_from_states
 from cointoss.models.laws import ContactLaw
 from cointoss.models.parts import Coin, Floor
 from cointoss.models.reading import load
-from cointoss.models.records import Outcome
-from cointoss.models.releases import Releases, states_of
+from cointoss.models.records import Array, Outcome
 from cointoss.models.scenario import Scenario
 
 SEED = 6
@@ -37,7 +36,8 @@ FLOOR = {
 }
 STEP = 1e-5
 """By which the height of a release differs from the next toss of Fig. 24 [m]."""
-HIGHER = np.array([0.0, 0.0, STEP])
+HIGHER = STEP * np.eye(13)[2]
+"""The same of a state."""
 COLORS = {THIN: BLUE, NEAR: SKY, REAL: VERMILION}
 
 
@@ -71,32 +71,30 @@ def make(
         followed: tosses of each coin whose faces are followed.
         tosses_mujoco: tosses of MuJoCo's.
     """
-    tossed = releases_of_hands(np.random.default_rng(SEED), count, aside=ASIDE)
+    tossed = states_of_hands(np.random.default_rng(SEED), count, aside=ASIDE)
     whole = len(FLOORS) * len(COINS) + 2
     done = 0
-    some = chosen(tossed, slice(count_real))
-    first = {coin: faces_after(_case(coin, SMOOTH), some, 0) for coin in COINS}
+    few = tossed[:count_real]
+    first = {coin: faces_after(rows_from_states(_case(coin, SMOOTH), few), 0) for coin in COINS}
     progress(done := done + 1, whole)
     made: dict[tuple[str, str], ThinCoinTosses] = {}
     after_row: dict[str, Estimate] = {}
     for floor in FLOORS:
         for coin in COINS:
             scenario = _case(coin, floor)
-            some = chosen(tossed, slice(count_real if coin == REAL else count))
-            ended = analytic.toss_many(scenario, some)
-            few = slice(count_real)
-            higher = analytic.toss_many(scenario, moved(chosen(some, few), position=HIGHER))
-            made[coin, floor] = ThinCoinTosses(
+            some = few if coin == REAL else tossed
+            ended = analytic.toss_rows(rows_from_states(scenario, some))
+            higher = analytic.toss_rows(rows_from_states(scenario, few + HIGHER))
+            made[coin, floor] = Tossed(
                 outcome=ended.outcome,
                 impacts=ended.impacts,
-                uncertain=higher.outcome != ended.outcome[few],
+                uncertain=higher.outcome != ended.outcome[: len(few)],
             )
             if floor == SMOOTH:
-                after_row[coin] = _share_after_row(scenario, chosen(tossed, slice(followed)))
+                after_row[coin] = _share_after_row(scenario, tossed[:followed])
             progress(done := done + 1, whole)
-    first_mujoco = faces_after(
-        _case(REAL, SMOOTH), chosen(tossed, slice(tosses_mujoco)), 0, toss_many_by_mujoco
-    )
+    by_mujoco = rows_from_states(_case(REAL, SMOOTH), tossed[:tosses_mujoco])
+    first_mujoco = faces_after(by_mujoco, 0, toss_rows_by_mujoco)
     progress(done + 1, whole)
     heads = {key: tosses.share(Outcome.HEADS) for key, tosses in made.items()}
     uncertain = {key: share(tosses.uncertain) for key, tosses in made.items()}
@@ -146,8 +144,8 @@ def _case(coin: str, floor: str) -> Scenario:
     return zloty.replace(*changed, "floor", FLOOR[floor])
 
 
-def _share_after_row(scenario: Scenario, tossed: Releases) -> Estimate:
-    kinds = [changes(run(scenario.body, scenario.rules, state).rows["face"]) for state in states_of(tossed)]
+def _share_after_row(scenario: Scenario, starts: Array) -> Estimate:
+    kinds = [changes(run(scenario.body, scenario.rules, state).rows["face"]) for state in starts]
     return share_after_row(np.array([[len(kind) for kind in both] for both in kinds]))
 
 

@@ -18,7 +18,7 @@ from cointoss.compare.reproduction.setups.planar_maps import (
     SPINS,
     case,
     faces_after,
-    releases,
+    planar_rows,
 )
 from cointoss.models.records import Array, Face
 
@@ -37,11 +37,10 @@ def make(progress: Progress, tosses: int = 200_000) -> Findings:
     """Toss from everywhere in the map, and count heads cell by cell and for each habit of a hand."""
     rng = np.random.default_rng(SEED)
     z, w = rng.uniform(size=(2, tosses))
-    start = releases(_between(*HEIGHTS, z), _between(*SPINS, w))
-    scenario = case(air=True)
-    soft = faces_after(scenario, start, 0) == Face.HEADS
+    rows = planar_rows(case(air=True), _between(*HEIGHTS, z), _between(*SPINS, w))
+    soft = faces_after(rows, 0) == Face.HEADS
     progress(1, 2)
-    bouncing = analytic.toss_many(scenario, start).outcome == Face.HEADS
+    bouncing = analytic.toss_rows(rows).outcome == Face.HEADS
     progress(2, 2)
     heads = dict(zip(LANDINGS, (soft, bouncing), strict=True))
     spread = {

@@ -24,10 +24,11 @@ from cointoss.compare.reproduction.setups.mujoco_impacts import (
 )
 from cointoss.compare.reproduction.setups.mujoco_study import RESTITUTIONS, RUBBED, Spread, spread
 from cointoss.compare.reproduction.setups.study import study
+from cointoss.models.batch import rows_from_states
 from cointoss.models.cores import cores_used
 from cointoss.models.laws import ContactLaw
 from cointoss.models.reading import load
-from cointoss.models.releases import Releases
+from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
 
 SEED, TOSSES, TOUCHES = 5, 400, 100
@@ -55,7 +56,7 @@ class FixedSteps(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Speed:
-    """Of one realisation, at the default settings of `coin_mj.toss_many`."""
+    """Of one realisation, at the default settings of `coin_mj.toss_rows`."""
 
     tosses_per_second: float
     """On so many threads, each with a core of its own: by the processor time."""
@@ -85,34 +86,31 @@ class TossSpeeds:
 def compute(progress: Progress, tosses: int = TOSSES, touches: int = TOUCHES, seed: int = SEED) -> TossSpeeds:
     """Time `tosses` tosses by each realisation, and measure the errors of `touches` impacts."""
     rng = np.random.default_rng(seed)
-    scenario, releases = load(SCENARIO), draw_releases(rng, tosses)
+    scenario, starts = load(SCENARIO), draw_states(rng, tosses)
     smooth = draw_touches(rng, touches, RESTITUTIONS)
     speeds, threads = {}, cores_used()
     for number, (realisation, settings) in enumerate(SETTINGS.items(), start=1):
-        speeds[realisation.value] = _speed(scenario, releases, settings, smooth, threads)
+        speeds[realisation.value] = _speed(scenario, starts, settings, smooth, threads)
         progress(number, len(SETTINGS))
     return TossSpeeds(threads=threads, speeds=speeds)
 
 
-def draw_releases(rng: np.random.Generator, count: int) -> Releases:
-    """Draw releases from a hand's height, in any attitude, with spins up to 40 rad/s about each axis."""
+def draw_states(rng: np.random.Generator, count: int) -> Array:
+    """Draw states at a hand's height, in any attitude, with spins up to 40 rad/s about each axis, (n, 13)."""
     e = rng.normal(size=(count, 4))
     height = np.stack([np.zeros(count), np.zeros(count), rng.uniform(0.05, 0.6, count)], axis=1)
-    return Releases(
-        position=height,
-        velocity=rng.uniform(-0.3, 0.3, (count, 3)),
-        quaternion=e / np.linalg.norm(e, axis=1)[:, None],
-        angular_velocity=rng.uniform(-40, 40, (count, 3)),
-    )
+    velocity, spin = rng.uniform(-0.3, 0.3, (count, 3)), rng.uniform(-40, 40, (count, 3))
+    return np.hstack([height, velocity, e / np.linalg.norm(e, axis=1)[:, None], spin])
 
 
 def _speed(
-    scenario: Scenario, releases: Releases, settings: MujocoSettings, smooth: list[Scenario], threads: int
+    scenario: Scenario, starts: Array, settings: Settings, smooth: list[Scenario], threads: int
 ) -> Speed:
+    rows = rows_from_states(scenario, starts)
     # The first toss compiles.
-    coin_mj.toss_many(scenario, draw_releases(np.random.default_rng(0), 1), settings=settings)
+    coin_mj.toss_rows(rows[:1], settings=settings)
     start = time.process_time()
-    outcomes = coin_mj.toss_many(scenario, releases, settings=settings)
+    outcomes = coin_mj.toss_rows(rows, settings=settings)
     seconds = time.process_time() - start
     restitution = spread(restitution_errors(smooth, settings))
     duration = float(outcomes.end_time.mean())
@@ -122,7 +120,7 @@ def _speed(
     }
     rubbed = [on_floor(case, ContactLaw.COULOMB, RUBBED) for case in smooth]
     return Speed(
-        tosses_per_second=threads * len(releases) / seconds,
+        tosses_per_second=threads * len(rows) / seconds,
         duration=duration,
         restitution=restitution,
         smooth=spread(impulse_errors(smooth, settings)),

@@ -21,7 +21,7 @@ from cointoss.compare.reproduction.setups.planar_maps import (
     case,
     faces_after,
     final_faces,
-    releases,
+    planar_rows,
     whole_grid,
 )
 from cointoss.models.records import Face, Outcome
@@ -37,24 +37,23 @@ def make(progress: Progress, points: int = 400, points_mujoco: int = 16, tosses:
     landed, settled = {}, {}
     for done, medium in enumerate(("air", "vacuum")):
         scenario = case(air=medium == "air")
-        landed[medium] = faces_after(scenario, grid.releases, 0).reshape(grid.shape)
+        landed[medium] = faces_after(grid.rows(scenario), 0).reshape(grid.shape)
         progress(2 * done + 1, 5)
         settled[medium] = final_faces(scenario, grid)
         progress(2 * done + 2, 5)
     away = distance_to_doubt(landed["vacuum"]) > 1
     found.wrong = int(np.sum((landed["vacuum"] != _closed_form(grid)) & away))
     coarse = whole_grid(points_mujoco)
-    faces = faces_after(case(air=True), coarse.releases, 0).reshape(coarse.shape)
+    faces = faces_after(coarse.rows(case(air=True)), 0).reshape(coarse.shape)
     found.same = int(np.sum(_first_touches(case(air=True), coarse) == faces))
     progress(5, 5)
     found.lines = {name: crossings(maps[::20]).mean() for name, maps in settled.items()}
     found.lines_landed = {name: crossings(maps[::20]).mean() for name, maps in landed.items()}
     found.stripes = {name: crossings(maps).mean() for name, maps in landed.items()}
     rng = np.random.default_rng(SEED)
-    random = releases(rng.uniform(*HEIGHTS, tosses), rng.uniform(*SPINS, tosses))
-    found.changed = share(
-        faces_after(case(air=True), random, 0) != faces_after(case(air=False), random, 0), "tosses"
-    )
+    random = rng.uniform(*HEIGHTS, tosses), rng.uniform(*SPINS, tosses)
+    air, vacuum = (faces_after(planar_rows(case(air=air), *random), 0) for air in (True, False))
+    found.changed = share(air != vacuum, "tosses")
     found.undecided = sum(fractions(maps)[Outcome.UNDECIDED] for maps in settled.values())
     found.pixels = away.sum()
     found.coarse_pixels = faces.size

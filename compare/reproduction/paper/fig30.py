@@ -25,8 +25,8 @@ from cointoss.compare.reproduction.setups.planar_maps import (
     Grid,
     case,
     final_faces,
-    releases,
-    toss_many_by_mujoco,
+    planar_rows,
+    toss_rows_by_mujoco,
 )
 from cointoss.compare.reproduction.setups.uncertain_shares import ACCURACIES, kept_run, slope
 from cointoss.compare.reproduction.threads import all_cores
@@ -165,7 +165,7 @@ def _window(stage: NDArray[np.intp]) -> Array:
 def _boundary_near(scenario: Scenario) -> float:
     """Return the height of the boundary that is the nearest to `NEAR` on a line through it [m]."""
     z = np.linspace(NEAR[0] - REACH, NEAR[0] + REACH, 4 * POINTS)
-    faces = analytic.toss_many(scenario, releases(z, np.full_like(z, NEAR[1]))).outcome
+    faces = analytic.toss_rows(planar_rows(scenario, z, np.full_like(z, NEAR[1]))).outcome
     changes = z[np.flatnonzero(faces[1:] != faces[:-1])]
     return float(changes[np.argmin(np.abs(changes - NEAR[0]))])
 
@@ -186,13 +186,11 @@ def _magnified(scenario: Scenario, spin: float) -> Magnified:
 
 def _by_mujoco(scenario: Scenario, heights: Array, spins: Array) -> str:
     """Return how many of MuJoCo's outcomes agree, and how many of its tosses are uncertain, in words."""
-    start = releases(heights, spins)
-    by_analytic = analytic.toss_many(scenario, start).outcome
-    by_mujoco, nearby = (
-        toss_many_by_mujoco(scenario, releases(heights + step, spins)).outcome
-        for step in (0.0, ACCURACY_MUJOCO)
+    both = np.concatenate([heights, heights + ACCURACY_MUJOCO]), np.tile(spins, 2)
+    rows = planar_rows(scenario, *both)
+    (by_analytic, nearby_analytic), (by_mujoco, nearby) = (
+        toss_rows(rows).outcome.reshape(2, -1) for toss_rows in (analytic.toss_rows, toss_rows_by_mujoco)
     )
-    nearby_analytic = analytic.toss_many(scenario, releases(heights + ACCURACY_MUJOCO, spins)).outcome
     return (
         f"{np.sum(by_mujoco == by_analytic)} of {len(heights)} outcomes as the analytic engine; "
         f"{ACCURACY_MUJOCO:.0e} m higher changes {np.sum(by_mujoco != nearby)} of them, of the analytic "

@@ -24,8 +24,8 @@ from cointoss.compare.reproduction.setups.planar_maps import (
     SPINS,
     case,
     faces_after,
-    releases,
-    toss_many_by_mujoco,
+    planar_rows,
+    toss_rows_by_mujoco,
     touched_faces,
     whole_grid,
 )
@@ -95,7 +95,7 @@ def make(
     for medium in MEDIA:
         scenario = case(air=medium == "air")
         for n in SHOWN:
-            data[f"{medium}, map {n}"] = faces_after(scenario, grid.releases, n).reshape(grid.shape)
+            data[f"{medium}, map {n}"] = faces_after(grid.rows(scenario), n).reshape(grid.shape)
         progress(done := done + tosses, whole)
         twins = []
         for n, limit in enumerate(most):
@@ -111,10 +111,10 @@ def make(
         }
     few = slice(round(PARTS_BEYOND * tosses))
     last, narrow = (
-        faces_after(case(air=True), releases(heights[few] + step, spins[few]), TOUCHES - 1)
+        faces_after(planar_rows(case(air=True), heights[few] + step, spins[few]), TOUCHES - 1)
         for step in (0.0, NARROW)
     )
-    lasting = analytic.toss_many(case(air=True), releases(heights, spins)).impacts
+    lasting = analytic.toss_rows(planar_rows(case(air=True), heights, spins)).impacts
     data["elastic"] = shares = _elastic_shares(heights[:elastic], spins[:elastic])
     progress(whole, whole)
     return Findings(
@@ -158,7 +158,7 @@ def _differing(scenario: Scenario, rng: np.random.Generator, most: int, n: int) 
         while differ[i] < FEWEST and made[i] < most:
             block = min(BLOCK, most - made[i])
             z, spin = rng.uniform(*HEIGHTS, block), rng.uniform(*SPINS, block)
-            faces = [faces_after(scenario, releases(at, spin), n) for at in (z, z + step)]
+            faces = [faces_after(planar_rows(scenario, at, spin), n) for at in (z, z + step)]
             differ[i] += np.sum(faces[0] != faces[1])
             made[i] += block
         if differ[i] < FEWEST or (i and _boundaries(np.stack([differ, made])).is_converged):
@@ -217,7 +217,7 @@ def _elastic_shares(heights: Array, spins: Array) -> Array:
 def _ended(heights: Array, spins: Array) -> int:
     """Return how many tosses end within `MOST` impacts where these lose nothing, in vacuum."""
     scenario = case(air=False, restitution=1.0, max_impacts=MOST)
-    outcome = analytic.toss_many(scenario, releases(heights, spins)).outcome
+    outcome = analytic.toss_rows(planar_rows(scenario, heights, spins)).outcome
     return int(np.sum((outcome == Outcome.HEADS) | (outcome == Outcome.TAILS)))
 
 
@@ -230,9 +230,9 @@ def _mixed(shares: Array) -> str:
 
 def _same_by_mujoco(scenario: Scenario, heights: Array, spins: Array) -> str:
     """Return how many faces agree with MuJoCo's after each of `SHOWN` impacts, in words."""
-    faces, start = touched_faces(scenario, heights, spins, TOUCHES), releases(heights, spins)
-    scenario = scenario.replace("ending", EndingCriteria())
-    same = [int(np.sum(faces_after(scenario, start, n, toss_many_by_mujoco) == faces[:, n])) for n in SHOWN]
+    faces = touched_faces(scenario, heights, spins, TOUCHES)
+    rows = planar_rows(scenario.replace("ending", EndingCriteria()), heights, spins)
+    same = [int(np.sum(faces_after(rows, n, toss_rows_by_mujoco) == faces[:, n])) for n in SHOWN]
     impacts = ", ".join(map(str, SHOWN))
     return f"{', '.join(map(str, same))} of {len(heights)} faces alike after {impacts} impacts"
 

@@ -1,7 +1,5 @@
 """Figs 5-7: a British 2-pound coin bounces: stills by MuJoCo, and what it does there."""
 
-from dataclasses import replace
-
 import numpy as np
 from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
@@ -13,9 +11,11 @@ from cointoss.compare.metrics.sequences import common_prefix
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import ANALYTIC, GREY, MUJOCO
 from cointoss.compare.reproduction.declared import Data, Findings, declared
+from cointoss.compare.reproduction.setups.planar_maps import faces_after
+from cointoss.models.batch import rows_of
+from cointoss.models.fields import COMPONENTS
 from cointoss.models.reading import load
-from cointoss.models.records import Face
-from cointoss.models.releases import Releases
+from cointoss.models.records import Array, Face
 from cointoss.models.scenario import Scenario
 
 ROWS, COLUMNS = 3, 5
@@ -33,7 +33,7 @@ def make(progress: Progress, count: int = 2000) -> Findings:
     """Toss the coin by both engines, draw it, and toss it `count` times from slightly other attitudes."""
     found = Findings()
     scenario = load("fig5")
-    begun = _up_to(scenario, IMPACTS)
+    begun = scenario.replace("ending.max_impacts", IMPACTS)
     by_analytic, mujoco = analytic.toss(begun), coin_mj.toss(begun)
     progress(1, 3)
     last = mujoco.impacts.time[SHOWN_IMPACTS - 1] + BEFORE
@@ -41,9 +41,7 @@ def make(progress: Progress, count: int = 2000) -> Findings:
     drawn = stills(scenario, states)
     progress(2, 3)
     nearby = _nearby(scenario, count)
-    first, last_seen = (
-        analytic.toss_many(_up_to(scenario, n), nearby).after(n - 1) == Face.HEADS for n in (1, IMPACTS)
-    )
+    first, last_seen = (faces_after(nearby, n - 1) == Face.HEADS for n in (1, IMPACTS))
     found.agreed = common_prefix(by_analytic.sequence, mujoco.sequence)
     tosses = (by_analytic, mujoco)
     found.sequences, found.trusted = [toss.sequence for toss in tosses], mujoco.trusted_impacts
@@ -75,16 +73,13 @@ def make(progress: Progress, count: int = 2000) -> Findings:
     return found
 
 
-def _up_to(scenario: Scenario, impacts: int) -> Scenario:
-    return scenario.replace("ending.max_impacts", impacts)
-
-
-def _nearby(scenario: Scenario, count: int) -> Releases:
-    """Return the scenario's release `count` times, its attitude turned a little at random."""
+def _nearby(scenario: Scenario, count: int) -> Array:
+    """Return the scenario `count` times, the attitude at release turned a little at random, (count, 46)."""
     rng = np.random.default_rng(SEED)
     turned = Rotation.from_rotvec(rng.uniform(-SPREAD, SPREAD, (count, 3)))
     attitude = Rotation.from_quat(scenario.release.attitude, scalar_first=True) * turned
-    return replace(Releases.of(scenario, count), quaternion=attitude.as_quat(scalar_first=True))
+    fields = [f"release.quaternion.{name}" for name in COMPONENTS["release.quaternion"]]
+    return rows_of(scenario, count, dict(zip(fields, attitude.as_quat(scalar_first=True).T, strict=True)))
 
 
 def _draw(data: Data) -> Figure:

@@ -16,7 +16,6 @@ from cointoss.compare.shares.plan import Plan
 from cointoss.models.hand import Hand
 from cointoss.models.kernel.digests import code_digest
 from cointoss.models.records import Array
-from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
 
 SEED = 1993
@@ -68,10 +67,10 @@ class EdgeClass:
             }
         )
 
-    def releases(self, count: int) -> Releases:
-        """Draw releases, with either side up as likely."""
+    def starts(self, count: int) -> Array:
+        """Draw states at release, with either side up as likely, (count, 13)."""
         rng = np.random.default_rng([SEED, zlib.crc32(self.name.encode()), 0])
-        return self.hand.releases(self.scenario.body, rng, count)
+        return self.hand.states(self.scenario.body, rng, count)
 
 
 def hand_of(wobble: str, **other: Any) -> Hand:

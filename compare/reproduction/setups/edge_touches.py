@@ -1,7 +1,5 @@
 """Coins at their first touch, let go at rest, and on their edge: what the edge's share follows from."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from cointoss import analytic
@@ -11,9 +9,9 @@ from cointoss.compare.reproduction.setups.edge_classes import DIAMETRAL, EdgeCla
 from cointoss.compare.reproduction.setups.ends import Ends, counted
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.barriers import highest_on_floor
+from cointoss.models.batch import rows_from_states
 from cointoss.models.geometry import gap
 from cointoss.models.records import Array, Outcome
-from cointoss.models.releases import Releases, states_of
 
 DROP = 1e-4
 """Height of the lowest point of a coin that is let go at rest [m]."""
@@ -30,28 +28,28 @@ def attitudes(turned: str, rng: np.random.Generator, count: int) -> Array:
     return np.array([quaternion_from_angles((0.0, tilt, 0.0)) for tilt in rng.uniform(0, 2 * np.pi, count)])
 
 
-def tossed(kind: EdgeClass, turned: str, rng: np.random.Generator, count: int) -> Releases:
-    """Draw releases of a class, flat to turn about a diameter, or with any attitude and as much spin."""
-    drawn = kind.releases(count)
-    if turned == DIAMETRAL:
-        return drawn
-    return replace(drawn, quaternion=attitudes(turned, rng, count))
+def tossed(kind: EdgeClass, turned: str, rng: np.random.Generator, count: int) -> Array:
+    """Draw states, (n, 13), flat to turn about a diameter, or in any attitude with as much spin."""
+    drawn = kind.starts(count)
+    if turned != DIAMETRAL:
+        drawn[:, 6:10] = attitudes(turned, rng, count)
+    return drawn
 
 
-def first_touches(kind: EdgeClass, start: Releases) -> Part:
+def first_touches(kind: EdgeClass, starts: Array) -> Part:
     """Toss coins of a class up to their first impact.
 
     Args:
         kind: the class.
-        start: the releases, (count,).
+        starts: the states at release, (count, 13).
 
     Returns:
         Whether C is then on the edge's side of the rim, and the energy left over that of the pass, (count,).
     """
     scenario = kind.scenario.replace("ending.max_impacts", 1)
     body = scenario.body
-    on_edge, energy = np.empty(len(start), dtype=bool), np.empty(len(start))
-    for i, state in enumerate(states_of(start)):
+    on_edge, energy = np.empty(len(starts), dtype=bool), np.empty(len(starts))
+    for i, state in enumerate(starts):
         row = run(body, scenario.rules, state).rows[0]
         n_z = rotation_matrix(tuple(row["quaternion"]))[2][2]
         on_edge[i] = abs(n_z) < np.sin(corner(kind.aspect))
@@ -63,13 +61,9 @@ def let_go(kind: EdgeClass, turned: str, rng: np.random.Generator, count: int) -
     """Let coins of a class go at rest just above the floor; return which end on their edge, (count,)."""
     scenario, quaternions = kind.scenario, attitudes(turned, rng, count)
     height = np.array([DROP - gap(scenario.body, 0.0, rotation_matrix(tuple(e))[2]) for e in quaternions])
-    start = Releases(
-        position=height[:, None] * [0, 0, 1],
-        velocity=np.zeros((count, 3)),
-        quaternion=quaternions,
-        angular_velocity=np.zeros((count, 3)),
-    )
-    return {"on_edge": analytic.toss_many(scenario, start).outcome == Outcome.EDGE}
+    starts = np.zeros((count, 13))
+    starts[:, 2], starts[:, 6:10] = height, quaternions
+    return {"on_edge": analytic.toss_rows(rows_from_states(scenario, starts)).outcome == Outcome.EDGE}
 
 
 def way_to_rest(kind: EdgeClass, count: int) -> Part:
@@ -79,7 +73,7 @@ def way_to_rest(kind: EdgeClass, count: int) -> Part:
         The time from their last impact to the end [s], and the way of C in it, as the crow flies [m].
     """
     scenario, times, ways = kind.scenario, [], []
-    for state in states_of(kind.releases(count)):
+    for state in kind.starts(count):
         log = run(scenario.body, scenario.rules, state)
         if log.outcome == Outcome.EDGE:
             last = log.rows[-1]
@@ -90,4 +84,4 @@ def way_to_rest(kind: EdgeClass, count: int) -> Part:
 
 def endings_of(kind: EdgeClass, count: int) -> Ends:
     """Toss coins of a class, and return how many end how, by outcome and ending."""
-    return counted(analytic.toss_many(kind.scenario, kind.releases(count)))
+    return counted(analytic.toss_rows(rows_from_states(kind.scenario, kind.starts(count))))

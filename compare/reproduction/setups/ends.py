@@ -3,20 +3,23 @@
 from collections import Counter
 from collections.abc import Iterable
 
+import numpy as np
+from numpy.typing import NDArray
+
 from cointoss.compare.metrics.estimate import Estimate
 from cointoss.compare.metrics.estimates import chance_alike, share_of
 from cointoss.compare.shares.counting import counting
 from cointoss.compare.shares.plan import Plan
-from cointoss.models.outcomes import Outcomes
+from cointoss.models.answers import Answers
 from cointoss.models.records import Ending, Outcome
 
 Ends = dict[str, int]
 """Numbers of tosses by outcome, as in "edge", or by outcome and ending, as in "edge, paper"."""
 
 
-def counted(ended: Outcomes) -> Ends:
-    """Return how many tosses ended how."""
-    codes = zip(ended.outcome, ended.ending, strict=True)
+def counted(ended: Answers, which: NDArray[np.bool_] | slice = slice(None)) -> Ends:
+    """Return how many tosses, or how many of some of them, ended how."""
+    codes = zip(ended.outcome[which], ended.ending[which], strict=True)
     return dict(sorted(Counter(f"{Outcome(outcome)}, {Ending(ending)}" for outcome, ending in codes).items()))
 
 

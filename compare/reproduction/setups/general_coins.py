@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from cointoss.models.batch import rows_from_states
 from cointoss.models.records import Array
-from cointoss.models.releases import Releases, states_of
 from cointoss.models.scenario import Scenario
 
 SEED = 15
@@ -63,26 +63,26 @@ class CoinClass:
             }
         )
 
-    def releases(self, count: int) -> Releases:
-        """Draw releases from a hand's height: every attitude, the spin mostly about one diameter.
+    def starts(self, count: int) -> Array:
+        """Draw states at release from a hand's height: every attitude, the spin mostly about one diameter.
 
         Args:
             count: how many; the draws are those of this class and this number.
+
+        Returns:
+            Position, velocity, Euler parameters and angular velocity, (count, 13).
         """
         rng = np.random.default_rng([SEED, CLASSES.index(self)])
         height, velocity = rng.uniform(0.2, 0.6, count), rng.normal(0, 0.3, (count, 3))
         e = rng.normal(size=(count, 4))
         spin = [rng.normal(0, 10, count), rng.uniform(20, 60, count), rng.normal(0, 10, count)]
-        return Releases(
-            position=np.stack([np.zeros(count), np.zeros(count), height], axis=1),
-            velocity=velocity,
-            quaternion=e / np.linalg.norm(e, axis=1, keepdims=True),
-            angular_velocity=np.stack(spin, axis=1),
-        )
+        place = np.stack([np.zeros(count), np.zeros(count), height], axis=1)
+        turned = e / np.linalg.norm(e, axis=1, keepdims=True)
+        return np.hstack([place, velocity, turned, np.stack(spin, axis=1)])
 
-    def starts(self, count: int) -> Array:
-        """Return the states of those releases, (count, 13)."""
-        return states_of(self.releases(count))
+    def rows(self, count: int) -> Array:
+        """Return the tosses from those states as rows, (count, 46)."""
+        return rows_from_states(self.scenario, self.starts(count))
 
 
 CLASSES = tuple(

@@ -4,7 +4,6 @@ import numpy as np
 
 from cointoss.models.attitude import quaternion_from_angles
 from cointoss.models.records import Array
-from cointoss.models.releases import Releases
 
 LEAN = np.radians(7)
 """The coin is released heads up and this far from flat, as that of Fig. 24 [rad]."""
@@ -12,10 +11,10 @@ HEIGHTS, SPEEDS, SPINS = (0.8, 1.2), (1.0, 3.0), (20.0, 60.0)
 """Ranges of the habits: height [m], speed upwards [m/s], and spin about η [rad/s]."""
 
 
-def releases_of_hands(
+def states_of_hands(
     rng: np.random.Generator, hands: int, each: int = 1, *, spread: float = 0.0, aside: float
-) -> Releases:
-    """Draw the releases of some hands, (hands each).
+) -> Array:
+    """Draw the states at release of some hands, (hands each, 13).
 
     Args:
         rng: the source of chance.
@@ -30,12 +29,7 @@ def releases_of_hands(
     )
     drawn = np.repeat(habits, each, axis=0)
     drawn *= 1 + spread * rng.normal(size=drawn.shape)
-    upright = _along_z(drawn[:, 0]), _along_z(drawn[:, 1])
-    attitude = np.tile(quaternion_from_angles((0.0, float(LEAN), 0.0)), (len(drawn), 1))
-    return Releases(
-        position=upright[0], velocity=upright[1], quaternion=attitude, angular_velocity=drawn[:, 2:]
-    )
-
-
-def _along_z(values: Array) -> Array:
-    return values[:, None] * np.array([0.0, 0.0, 1.0])
+    states = np.zeros((len(drawn), 13))
+    states[:, 2], states[:, 5], states[:, 10:] = drawn[:, 0], drawn[:, 1], drawn[:, 2:]
+    states[:, 6:10] = quaternion_from_angles((0.0, float(LEAN), 0.0))
+    return states

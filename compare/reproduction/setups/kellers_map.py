@@ -5,7 +5,6 @@ import numpy as np
 from cointoss.analytic.flight.integrated_flight import sample_flight
 from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.records import Array
-from cointoss.models.releases import Releases, states_of
 from cointoss.models.scenario import Scenario
 
 sample_flight = by_numba(sample_flight)
@@ -19,21 +18,18 @@ def middles(end: float, count: int) -> Array:
     return (np.arange(count) + 0.5) * end / count
 
 
-def thrown(scenario: Scenario, over: Array, up: Array) -> Releases:
-    """Return releases flat, one radius above the floor, with ω_0/π [1/s] and v_0/g [s]."""
-    zero = np.zeros_like(over)
-    return Releases(
-        position=np.column_stack([zero, zero, zero + scenario.coin.radius]),
-        velocity=np.column_stack([zero, zero, up * scenario.gravity]),
-        quaternion=np.column_stack([zero + 1, zero, zero, zero]),
-        angular_velocity=np.column_stack([over * np.pi, zero, zero]),
-    )
+def thrown(scenario: Scenario, over: Array, up: Array) -> Array:
+    """Return states flat, one radius above the floor, with ω_0/π [1/s] and v_0/g [s], (n, 13)."""
+    states = np.zeros((len(over), 13))
+    states[:, 2], states[:, 5] = scenario.coin.radius, up * scenario.gravity
+    states[:, 6], states[:, 10] = 1.0, over * np.pi
+    return states
 
 
-def caught(scenario: Scenario, tossed: Releases) -> Array:
+def caught(scenario: Scenario, starts: Array) -> Array:
     """Return n_z when coins would be back, in vacuum, at the height of their release, (n,)."""
     heights, state = [], np.empty((1, 13))
-    for start in states_of(tossed):
+    for start in starts:
         sample_flight(scenario.body, start, 0.0, np.array([2 * start[5] / scenario.gravity]), state)
         heights.append(1 - 2 * (state[0, 7] ** 2 + state[0, 8] ** 2))
     return np.array(heights)

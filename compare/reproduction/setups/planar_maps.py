@@ -12,11 +12,11 @@ from cointoss.analytic.runs import run
 from cointoss.compare.basins.maps import OutcomeCodes
 from cointoss.compare.basins.picture import MapAxis
 from cointoss.compare.output.style import BLUE, VERMILION
-from cointoss.models.outcomes import Outcomes
+from cointoss.models.answers import Answers
+from cointoss.models.batch import PLACE, rows_from_states, states_of
 from cointoss.models.parts import Air
 from cointoss.models.reading import load
 from cointoss.models.records import Array
-from cointoss.models.releases import Releases, states_of
 from cointoss.models.scenario import Scenario
 
 HEIGHTS, SPINS = (0.2, 0.6), (20.0, 60.0)
@@ -27,7 +27,7 @@ MEDIA = {"air": BLUE, "vacuum": VERMILION}
 LANDINGS = {"soft floor": BLUE, "bouncing": VERMILION}
 """How a toss ends, at its first touch or after its bounces; both with the colours of their curves."""
 
-toss_many_by_mujoco = partial(coin_mj.toss_many, settings=coin_mj.FINE)
+toss_rows_by_mujoco = partial(coin_mj.toss_rows, settings=coin_mj.FINE)
 """MuJoCo's tosses where single ones are compared."""
 
 
@@ -40,11 +40,10 @@ class Grid:
     spins: Array
     """(y) [rad/s]."""
 
-    @property
-    def releases(self) -> Releases:
-        """All points, row by row, (y x)."""
+    def rows(self, scenario: Scenario) -> Array:
+        """Return the tosses of all points, line by line, as rows, (y x, 46)."""
         z, w = (part.ravel() for part in np.meshgrid(self.heights, self.spins))
-        return releases(z, w)
+        return planar_rows(scenario, z, w)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -57,15 +56,17 @@ def whole_grid(points: int) -> Grid:
     return Grid(heights=np.linspace(*HEIGHTS, points), spins=np.linspace(*SPINS, points))
 
 
-def releases(heights: Array, spins: Array) -> Releases:
-    """Return releases of the coin flat, heads up, at rest but for its spin about ξ; both arguments (n,)."""
-    zero, one = np.zeros_like(heights), np.ones_like(heights)
-    return Releases(
-        position=np.stack([zero, zero, heights], axis=1),
-        velocity=np.stack([zero, zero, zero], axis=1),
-        quaternion=np.stack([one, zero, zero, zero], axis=1),
-        angular_velocity=np.stack([spins, zero, zero], axis=1),
-    )
+def planar_rows(scenario: Scenario, heights: Array, spins: Array) -> Array:
+    """Return tosses of a coin released flat, heads up, at rest but for its spin about ξ, as rows, (n, 46).
+
+    Args:
+        scenario: what is tossed.
+        heights: of the releases, (n,) [m].
+        spins: about ξ, (n,) [rad/s].
+    """
+    states = np.zeros((len(heights), 13))
+    states[:, 2], states[:, 6], states[:, 10] = heights, 1.0, spins
+    return rows_from_states(scenario, states)
 
 
 def case(*, air: bool, restitution: float = 0.6, max_impacts: int | None = None) -> Scenario:
@@ -83,17 +84,22 @@ def case(*, air: bool, restitution: float = 0.6, max_impacts: int | None = None)
 
 def final_faces(scenario: Scenario, grid: Grid) -> OutcomeCodes:
     """Return the map of the outcomes, (y, x)."""
-    return analytic.toss_many(scenario, grid.releases).outcome.reshape(grid.shape)
+    return analytic.toss_rows(grid.rows(scenario)).outcome.reshape(grid.shape)
 
 
 def faces_after(
-    scenario: Scenario,
-    points: Releases,
-    impacts: int,
-    toss_many: Callable[[Scenario, Releases], Outcomes] = analytic.toss_many,
+    rows: Array, impacts: int, toss_rows: Callable[[Array], Answers] = analytic.toss_rows
 ) -> NDArray[np.int8]:
-    """Return the face up at the touch after n impacts, the outcome where the toss ended before, (n,)."""
-    return toss_many(scenario.replace("ending.max_impacts", impacts + 1), points).after(impacts)
+    """Return the face up at the touch after some impacts, the outcome where a toss ended before, (n,).
+
+    Args:
+        rows: of the tosses, (n, 46).
+        impacts: how many.
+        toss_rows: the engine's.
+    """
+    shorter = rows.copy()
+    shorter[:, PLACE["ending.max_impacts"]] = impacts + 1
+    return toss_rows(shorter).after(impacts)
 
 
 def touched_faces(scenario: Scenario, heights: Array, spins: Array, touches: int) -> NDArray[np.int8]:
@@ -107,7 +113,7 @@ def touched_faces(scenario: Scenario, heights: Array, spins: Array, touches: int
     """
     body, rules = scenario.body, scenario.replace("ending.max_impacts", touches).rules
     faces = np.empty((len(heights), touches), dtype=np.int8)
-    for row, state in zip(faces, states_of(releases(heights, spins)), strict=True):
+    for row, state in zip(faces, states_of(planar_rows(scenario, heights, spins)), strict=True):
         tossed = run(body, rules, state)
         row[: len(tossed.rows)] = tossed.rows["face"]
         row[len(tossed.rows) :] = tossed.outcome

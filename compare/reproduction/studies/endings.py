@@ -1,7 +1,7 @@
 """How thousands of random tosses end, by coin, floor and air, and how far both engines agree in it."""
 
 from collections import Counter, defaultdict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import product
 from typing import Any, NamedTuple
@@ -17,14 +17,15 @@ from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.setups.ends import Ends, counted, ended_as, together, tosses
 from cointoss.compare.reproduction.setups.general_coins import AIR, paper_coin
 from cointoss.compare.reproduction.setups.study import study
-from cointoss.compare.reproduction.threads import all_cores
-from cointoss.models.outcomes import Outcomes
-from cointoss.models.records import Outcome
-from cointoss.models.releases import Releases
+from cointoss.models.answers import Answers
+from cointoss.models.records import Array, Outcome
+from cointoss.models.rows import row_of
 from cointoss.models.scenario import Scenario
 
 COUNT, COUNT_MUJOCO, SEED = 10_000, 5_000, 2008
 """Tosses of each coin by the analytic engine, and by MuJoCo; and the seed."""
+BLOCK = 1000
+"""Tosses that are made together."""
 LEAST_PROBABLE = 1e-3
 """By chance one of ten tests falls below it once in a hundred runs."""
 COINS = ("ideal", "imperfect")
@@ -66,21 +67,19 @@ def compute(
     progress: Progress, count: int = COUNT, count_mujoco: int = COUNT_MUJOCO, seed: int = SEED
 ) -> EndingCounts:
     """Toss `count` coins of each of `COINS` by the analytic engine, and `count_mujoco` by MuJoCo."""
-    jobs = [(seed, coin, number) for coin in range(len(COINS)) for number in range(count)]
-    jobs_mujoco = [(seed + 1, coin, number) for coin in range(len(COINS)) for number in range(count_mujoco)]
     outcomes: dict[str, Counter[str]] = defaultdict(Counter)
     mujoco: dict[str, Counter[str]] = defaultdict(Counter)
-    most, longest = 0, 0.0
-    whole = len(jobs) + len(jobs_mujoco)
-    with all_cores() as pool:
-        for done, (kind, ended) in enumerate(pool.map(_toss, jobs), start=1):
-            outcomes[_name(kind)].update(counted(ended))
-            if ended.outcome[0] not in (Outcome.UNDECIDED, Outcome.PERPETUAL, Outcome.TRANSIENT):
-                most, longest = max(most, int(ended.impacts[0])), max(longest, float(ended.end_time[0]))
-            progress(done, whole)
-        for done, (kind, ended) in enumerate(pool.map(toss_by_mujoco, jobs_mujoco), start=len(jobs) + 1):
-            mujoco[_name(kind)].update(counted(ended))
-            progress(done, whole)
+    most, longest, done = 0, 0.0, 0
+    whole = len(COINS) * (count + count_mujoco)
+    for kinds, ended in _tossed(seed, count, draw_toss, analytic.toss_rows):
+        _count(outcomes, kinds, ended)
+        decided = ~np.isin(ended.outcome, (Outcome.UNDECIDED, Outcome.PERPETUAL, Outcome.TRANSIENT))
+        most = max(most, int(ended.impacts[decided].max(initial=0)))
+        longest = max(longest, float(ended.end_time[decided].max(initial=0.0)))
+        progress(done := done + len(kinds), whole)
+    for kinds, ended in _tossed(seed + 1, count_mujoco, draw_for_both, coin_mj.toss_rows):
+        _count(mujoco, kinds, ended)
+        progress(done := done + len(kinds), whole)
     return EndingCounts(_ordered(outcomes), _ordered(mujoco), most, longest)
 
 
@@ -116,18 +115,31 @@ def _release(rng: np.random.Generator) -> dict[str, Any]:
     }
 
 
-def _toss(job: tuple[int, int, int]) -> tuple[TossKind, Outcomes]:
-    kind, scenario = draw_toss(np.random.default_rng(job), COINS[job[1]])
-    return kind, analytic.toss_many(scenario, Releases.of(scenario, 1))
-
-
-def toss_by_mujoco(job: tuple[int, int, int]) -> tuple[TossKind, Outcomes]:
-    """Make a toss by MuJoCo on one of the floors `BY_BOTH`."""
-    rng = np.random.default_rng(job)
-    kind, scenario = draw_toss(rng, COINS[job[1]])
+def draw_for_both(rng: np.random.Generator, coin: str) -> tuple[Kind, Scenario]:
+    """Draw a toss on one of the floors `BY_BOTH`; see `draw_toss`."""
+    kind, scenario = draw_toss(rng, coin)
     while kind.floor not in BY_BOTH:
-        kind, scenario = draw_toss(rng, COINS[job[1]])
-    return kind, coin_mj.toss_many(scenario, Releases.of(scenario, 1))
+        kind, scenario = draw_toss(rng, coin)
+    return kind, scenario
+
+
+def _tossed(
+    seed: int,
+    count: int,
+    draw: Callable[[np.random.Generator, str], tuple[Kind, Scenario]],
+    toss_rows: Callable[[Array], Answers],
+) -> Iterator[tuple[list[str], Answers]]:
+    """Toss each of `COINS`, `BLOCK` at a time, and yield the kinds of the tosses and how they ended."""
+    for (i, coin), first in product(enumerate(COINS), range(0, count, BLOCK)):
+        numbers = range(first, min(first + BLOCK, count))
+        drawn = [draw(np.random.default_rng((seed, i, number)), coin) for number in numbers]
+        yield [_name(kind) for kind, _ in drawn], toss_rows(np.array([row_of(case) for _, case in drawn]))
+
+
+def _count(counts: dict[str, Counter[str]], kinds: list[str], ended: Answers) -> None:
+    """Add how tosses ended to the counts of their kinds."""
+    for kind in set(kinds):
+        counts[kind].update(counted(ended, np.array(kinds) == kind))
 
 
 def _name(kind: TossKind) -> str:

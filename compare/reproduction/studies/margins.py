@@ -18,13 +18,12 @@ from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMIL
 from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.parts import Part, kept
 from cointoss.compare.reproduction.setups.general_coins import CoinClass
-from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, releases
+from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, planar_rows
 from cointoss.compare.reproduction.setups.study import study
+from cointoss.models.batch import rows_from_states, scenario_of_row
 from cointoss.models.kernel.digests import code_digest
 from cointoss.models.reading import load
 from cointoss.models.records import Array
-from cointoss.models.releases import Releases
-from cointoss.models.scenario import Scenario
 
 SEED = 316
 COUNT = 120
@@ -74,77 +73,64 @@ def compute(
         planar: tosses of the planar coin.
         proofs: of their margins from below.
     """
-    zloty, flat = load("zloty"), case(air=False)
+    drawn = rows_from_states(load("zloty"), FAMILY.starts(count))
     general: dict[str, list[float]] = {}
     steps = len(QUANTITIES) + 2
     for done, quantity in enumerate(QUANTITIES):
-        drawn = FAMILY.releases(count)
-        general[quantity.name] = _kept_margins(parts, zloty, drawn, quantity, "zloty")
+        general[quantity.name] = _kept_margins(parts, drawn, quantity, "zloty")
         progress(done + 1, steps)
-    drawn = planar_releases(planar)
-    found = _kept_margins(parts, flat, drawn, HEIGHT, "planar")
-    uncertain = {
-        f"{one:g}": uncertain_within(flat, drawn, one / HEIGHT.factor).tolist() for one in ACCURACIES
-    }
+    flat = draw_planar(planar)
+    found = _kept_margins(parts, flat, HEIGHT, "planar")
+    uncertain = {f"{one:g}": uncertain_within(flat, one / HEIGHT.factor).tolist() for one in ACCURACIES}
     progress(steps - 1, steps)
     from cointoss.compare.reproduction.precision.proved_change import proved_change  # takes python-flint
 
     proved = [
-        proved_change(at_release(flat, drawn, i), HEIGHT, found[i] / HEIGHT.factor) * HEIGHT.factor
+        proved_change(scenario_of_row(flat[i]), HEIGHT, found[i] / HEIGHT.factor) * HEIGHT.factor
         for i in range(proofs)
     ]
     progress(steps, steps)
     return Margins(general=general, planar=found, proved=proved, uncertain=uncertain)
 
 
-def planar_releases(count: int) -> Releases:
-    """Return releases uniform in height and spin, flat, at rest but for the spin."""
+def draw_planar(count: int) -> Array:
+    """Draw tosses in vacuum, uniform in height and spin, flat, at rest but for the spin, as rows, (n, 46)."""
     rng = np.random.default_rng(SEED)
-    return releases(rng.uniform(*HEIGHTS, count), rng.uniform(*SPINS, count))
+    return planar_rows(case(air=False), rng.uniform(*HEIGHTS, count), rng.uniform(*SPINS, count))
 
 
-def at_release(scenario: Scenario, start: Releases, i: int) -> Scenario:
-    """Return a scenario that has the height and the spin about ξ of one of its releases."""
-    height, spin = float(start.position[i, 2]), float(start.angular_velocity[i, 0])
-    return scenario.replace("release.position.z", height, "release.angular_velocity.xi", spin)
-
-
-def found_margins(scenario: Scenario, start: Releases, quantity: Quantity) -> Array:
+def found_margins(rows: Array, quantity: Quantity) -> Array:
     """Return the margins of tosses along a quantity, in its unit, without their signs, (n,)."""
-
-    def outcomes(changed: Releases) -> Codes:
-        return analytic.toss_many(scenario, changed).outcome
-
-    found = smallest_changes(scenario, start, quantity, outcomes=outcomes, search=MANY)
+    found = smallest_changes(rows, quantity, outcomes=_outcomes, search=MANY)
     return np.abs(found) * quantity.factor
 
 
-def _kept_margins(
-    parts: Path, scenario: Scenario, start: Releases, quantity: Quantity, name: str
-) -> list[float]:
+def _outcomes(rows: Array) -> Codes:
+    return analytic.toss_rows(rows).outcome
+
+
+def _kept_margins(parts: Path, rows: Array, quantity: Quantity, name: str) -> list[float]:
     """Return the margins that an earlier computation kept, or find them and keep them."""
 
     def compute_part() -> Part:
-        return {"margins": found_margins(scenario, start, quantity)}
+        return {"margins": found_margins(rows, quantity)}
 
     made_by = code_digest()
-    part = kept(parts, f"{made_by}, {name}, {quantity.name}, {len(start)}", compute_part)
+    part = kept(parts, f"{made_by}, {name}, {quantity.name}, {len(rows)}", compute_part)
     margins = part["margins"]
     return np.where(np.isfinite(margins), margins, -1.0).tolist()
 
 
-def uncertain_within(scenario: Scenario, start: Releases, accuracy: float) -> NDArray[np.bool_]:
+def uncertain_within(rows: Array, accuracy: float) -> NDArray[np.bool_]:
     """Return whether a release that much higher, or lower, has another outcome, (n,).
 
     Args:
-        scenario: what is tossed.
-        start: the releases.
+        rows: of the tosses, (n, 46).
         accuracy: ε [m].
     """
-    own = analytic.toss_many(scenario, start).outcome
-    by = np.full(len(start), accuracy)
-    ends = [analytic.toss_many(scenario, HEIGHT.change(start, sign * by)).outcome for sign in (1, -1)]
-    return (ends[0] != own) | (ends[1] != own)
+    several = [HEIGHT.change(rows, np.full(len(rows), by)) for by in (0.0, accuracy, -accuracy)]
+    own, above, below = _outcomes(np.concatenate(several)).reshape(3, -1)
+    return (above != own) | (below != own)
 
 
 def sizes_of(margins: Sequence[float]) -> Array:

@@ -9,14 +9,15 @@ from cointoss import analytic
 from cointoss.compare.metrics.estimates import difference, in_words, share
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.tables import paragraphs, table
-from cointoss.compare.reproduction.setups.hands import releases_of_hands
+from cointoss.compare.reproduction.setups.hands import states_of_hands
 from cointoss.compare.reproduction.setups.study import study
+from cointoss.models.batch import PLACE, rows_from_states
 from cointoss.models.reading import load
 from cointoss.models.records import Outcome
-from cointoss.models.scenario import Scenario
 
 COUNT, SEED = 1000, 5460
 """Hand tosses of the zloty for each threshold, and the seed."""
+THRESHOLD = "floor.restitution_threshold"
 THRESHOLDS = (0.0, 1e-3, 1e-2, 3e-2, 1e-1)
 """Speeds up to which a touch is plastic [m/s]."""
 MODERATE = 1e-2
@@ -51,33 +52,33 @@ class PlasticTouchesRecord:
     hands: dict[str, HandTosses]
 
 
-def zloty(threshold: float) -> Scenario:
-    """Return the zloty's scenario with such a threshold of restitution."""
-    return load("zloty").replace("floor.restitution_threshold", threshold)
-
-
 def one_toss(threshold: float) -> OneToss:
     """Toss the zloty as its scenario says."""
-    tossed = analytic.toss(zloty(threshold))
+    tossed = analytic.toss(load("zloty").replace(THRESHOLD, threshold))
     end = f"{tossed.outcome}, {tossed.ending}"
     return OneToss(len(tossed.impacts), len(tossed.contacts), tossed.end_time, end)
 
 
-def hand_tosses(threshold: float, count: int, seed: int) -> HandTosses:
-    """Toss the zloty by hand; the releases are those of every threshold."""
-    releases = releases_of_hands(np.random.default_rng(seed), count, aside=10.0)
-    ended = analytic.toss_many(zloty(threshold), releases)
-    return HandTosses(ended.impacts.tolist(), ended.outcome.tolist())
+def hand_tosses(count: int, seed: int) -> list[HandTosses]:
+    """Toss the zloty by hand from the same releases for each of `THRESHOLDS`."""
+    starts = states_of_hands(np.random.default_rng(seed), count, aside=10.0)
+    rows = np.tile(rows_from_states(load("zloty"), starts), (len(THRESHOLDS), 1))
+    rows[:, PLACE[THRESHOLD]] = np.repeat(THRESHOLDS, count)
+    ended = analytic.toss_rows(rows)
+    both = (column.reshape(len(THRESHOLDS), count).tolist() for column in (ended.impacts, ended.outcome))
+    return [HandTosses(*one) for one in zip(*both, strict=True)]
 
 
 def compute(progress: Progress, count: int = COUNT, seed: int = SEED) -> PlasticTouchesRecord:
     """Toss the zloty once, and by `count` hands, for each of `THRESHOLDS`."""
-    alone, hands = {}, {}
-    for done, threshold in enumerate(THRESHOLDS, start=1):
-        alone[f"{threshold:g}"] = one_toss(threshold)
-        hands[f"{threshold:g}"] = hand_tosses(threshold, count, seed)
-        progress(done, len(THRESHOLDS))
-    return PlasticTouchesRecord(alone, hands)
+    names = [f"{threshold:g}" for threshold in THRESHOLDS]
+    alone = [one_toss(threshold) for threshold in THRESHOLDS]
+    progress(1, 2)
+    hands = hand_tosses(count, seed)
+    progress(2, 2)
+    return PlasticTouchesRecord(
+        zloty=dict(zip(names, alone, strict=True)), hands=dict(zip(names, hands, strict=True))
+    )
 
 
 def ended(tosses: HandTosses, outcome: Outcome) -> list[bool]:

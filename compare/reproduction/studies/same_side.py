@@ -33,6 +33,7 @@ from cointoss.compare.reproduction.setups.same_side_fit import (
     without,
 )
 from cointoss.compare.reproduction.setups.study import study
+from cointoss.models.batch import rows_from_states
 from cointoss.models.hand import Hand
 from cointoss.models.records import Array
 
@@ -192,8 +193,7 @@ def _bounced(
     """Toss a hand's releases onto a floor, and count the first side up."""
     kind = CoinClass(thick=True, imperfect=False, air=True, coulomb=floor == ROUGH)
     scenario = kind.scenario.replace("floor.restitution", chi)
-    start = hand.releases(scenario.body, rng, count)
-    found = first_side(scenario, start, engine)
+    found = first_side(rows_from_states(scenario, hand.states(scenario.body, rng, count)), engine)
     return Bounced(
         floor=floor,
         chi=chi,
