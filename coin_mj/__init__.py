@@ -4,7 +4,8 @@ from cointoss.coin_mj.bounces.inverse import Rebounds, solref_of
 from cointoss.coin_mj.bounces.pair import PairBounce, bounce
 from cointoss.coin_mj.bounces.recipe import Bounce, solref
 from cointoss.coin_mj.many import require_rows, toss_rows
-from cointoss.coin_mj.model.settings import FINE, MANY, Friction, MujocoSettings, Realisation
+from cointoss.coin_mj.model.settings import FINE, MANY, Friction, Realisation, Settings
+from cointoss.coin_mj.release_fields import release_fields
 from cointoss.coin_mj.toss import impacts_of, require_supported, toss
 
 __all__ = [
@@ -18,6 +19,7 @@ __all__ = [
     "Rebounds",
     "bounce",
     "impacts_of",
+    "release_fields",
     "require_rows",
     "require_supported",
     "solref",

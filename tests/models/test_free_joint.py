@@ -6,12 +6,22 @@ import mujoco
 import numpy as np
 import pytest
 
-from cointoss import Releases, analytic, load
+from cointoss import analytic, coin_mj, load
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.settings import FINE
+from cointoss.models.batch import STATE
+from cointoss.models.errors import ScenarioError
+from cointoss.models.parts import Release
+from tests.helpers.many import PARTS
 
 MJ: Any = mujoco
 COIN = load("fig24b").replace("coin.center_of_mass", [0.001, -0.002, 0.0003])
+
+
+def as_array(fields):
+    """Return the fields of releases as states, (n, 13)."""
+    assert list(fields) == list(STATE)
+    return np.stack(list(fields.values()), axis=1)
 
 
 def random_joint(n, seed=0):
@@ -23,17 +33,17 @@ def random_joint(n, seed=0):
 
 def test_the_mass_centre_is_where_mujoco_has_it_and_moves_so():
     qpos, qvel = random_joint(5)
-    releases = Releases.from_mujoco(qpos, qvel, COIN)
+    states = as_array(coin_mj.release_fields(qpos, qvel, COIN))
     machine = machine_of(COIN, FINE)
     model, data = machine.model, machine.data
     body = model.body(model.jnt_bodyid[0]).id
     for i in range(5):
         data.qpos[:], data.qvel[:] = qpos[i], qvel[i]
         MJ.mj_forward(model, data)
-        np.testing.assert_allclose(releases.position[i], data.xipos[body], atol=1e-15)
+        np.testing.assert_allclose(states[i, :3], data.xipos[body], atol=1e-15)
         jacobian = np.zeros((3, model.nv))
         MJ.mj_jacBodyCom(model, data, jacobian, None, body)
-        np.testing.assert_allclose(releases.velocity[i], jacobian @ qvel[i], atol=1e-14)
+        np.testing.assert_allclose(states[i, 3:6], jacobian @ qvel[i], atol=1e-14)
 
 
 def test_states_go_to_mujoco_and_back():
@@ -44,20 +54,34 @@ def test_states_go_to_mujoco_and_back():
     assert np.linalg.norm(qpos[:, :3] - states.position, axis=1) == pytest.approx(
         np.linalg.norm(COIN.coin.center_of_mass)
     )
-    back = Releases.from_mujoco(qpos, qvel, COIN)
-    for name in ("position", "velocity", "quaternion", "angular_velocity"):
-        np.testing.assert_allclose(getattr(back, name), getattr(states, name), atol=1e-13)
+    parts = np.split(as_array(coin_mj.release_fields(qpos, qvel, COIN)), [3, 6, 10], axis=1)
+    for name, back in zip(PARTS, parts, strict=True):
+        np.testing.assert_allclose(back, getattr(states, name), atol=1e-13)
 
 
 def test_one_state_is_one_release_and_other_shapes_are_refused():
     qpos, qvel = random_joint(1)
-    assert len(Releases.from_mujoco(qpos[0], qvel[0], "fig24a")) == 1
+    assert as_array(coin_mj.release_fields(qpos[0], qvel[0], "fig24a")).shape == (1, 13)
     for bad in ("abc", [[0.0, 1.0], [2.0]], {"a": 1}):
-        with pytest.raises(ValueError, match=r"from_mujoco: qpos: .*, accepted: numbers, \(7,\) or \(n, 7\)"):
-            Releases.from_mujoco(bad, qvel, COIN)  # pyright: ignore[reportArgumentType]
-    with pytest.raises(ValueError, match=r"from_mujoco: qvel: shape \(1, 7\), accepted: \(1, 6\)"):
-        Releases.from_mujoco(qpos, qpos, COIN)
-    with pytest.raises(ValueError, match="norm 1 within"):
-        Releases.from_mujoco(2 * qpos, qvel, COIN)
-    with pytest.raises(ValueError, match="above the floor"):
-        Releases.from_mujoco(qpos * [1, 1, -1, 1, 1, 1, 1], qvel, COIN)
+        with pytest.raises(ValueError, match=r"^qpos: .*, accepted: numbers, \(7,\) or \(n, 7\)"):
+            coin_mj.release_fields(bad, qvel, COIN)  # pyright: ignore[reportArgumentType]
+    with pytest.raises(ValueError, match=r"^qvel: shape \(1, 7\), accepted: numbers, \(6,\) or \(n, 6\)"):
+        coin_mj.release_fields(qpos, qpos, COIN)
+    with pytest.raises(ValueError, match=r"^qvel: shape \(2, 6\), accepted: \(1, 6\)"):
+        coin_mj.release_fields(qpos, np.vstack([qvel, qvel]), COIN)
+    for wrong in (2.0, np.nan):
+        with pytest.raises(ValueError, match=r"^qpos: row 1: Euler parameters \[.*norm 1 within"):
+            coin_mj.release_fields(np.vstack([qpos, wrong * qpos]), np.vstack([qvel, qvel]), COIN)
+    below = qpos * [1, 1, -1, 1, 1, 1, 1]
+    with pytest.raises(ScenarioError, match=r"above the floor.* \(row 1\)$"):
+        coin_mj.release_fields(np.vstack([qpos, below]), np.vstack([qvel, qvel]), COIN)
+    with pytest.raises(ScenarioError, match=r"release\.velocity"):
+        coin_mj.release_fields(qpos, qvel * [np.inf, 1, 1, 1, 1, 1], COIN)
+
+
+def test_euler_parameters_are_brought_to_norm_1_as_those_of_one_release():
+    qpos, qvel = random_joint(50)
+    qpos[:, 3:] *= 1 + np.random.default_rng(1).uniform(-9e-4, 9e-4, 50)[:, None]
+    found = as_array(coin_mj.release_fields(qpos, qvel, "fig24a"))[:, 6:10]
+    for e, given in zip(found.tolist(), qpos[:, 3:].tolist(), strict=True):
+        assert tuple(e) == Release(position=(0.0, 0.0, 1.0), quaternion=tuple(given)).attitude
