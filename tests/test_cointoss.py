@@ -15,6 +15,7 @@ import pytest
 
 import cointoss
 from cointoss.compare.report.comparison import compare
+from cointoss.models.batch import rows_of
 from cointoss.models.distribution import DISTRIBUTION
 from tests.helpers.command_line import python
 
@@ -132,13 +133,11 @@ def test_either_engine_tosses_by_its_name():
     ("engine", "name"), [("analytic", "AnalyticSettings"), ("coin_mj", "MujocoSettings")]
 )
 @pytest.mark.parametrize("wrong", [3, None, {"steps": 2}], ids=str)
-def test_settings_of_another_type_are_refused(engine, name, wrong):
-    package, releases = getattr(cointoss, engine), cointoss.Releases.of("fig24a", 1)
-    for toss in (package.toss, lambda one, **more: package.toss_many(one, releases, **more)):
-        with pytest.raises(TypeError, match=f"^settings: of type .*, accepted: {engine}.{name}, such as"):
-            toss("fig24a", settings=wrong)
-    with pytest.raises(TypeError, match=r"^releases: of type list, accepted: Releases, as of Releases.of"):
-        package.toss_many("fig24a", [0, 0, 1])
+def test_settings_of_another_type_are_refused(engine, wrong):
+    package, described = getattr(cointoss, engine), cointoss.load("fig24a")
+    for toss, given in ((package.toss, described), (package.toss_rows, rows_of(described, 1))):
+        with pytest.raises(TypeError, match=f"^settings: of type .*, accepted: {engine}.Settings, such as"):
+            toss(given, settings=wrong)
 
 
 def test_the_package_compare_is_described_as_the_function_once_it_is_asked():

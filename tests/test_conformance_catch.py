@@ -7,11 +7,12 @@ import pytest
 from scipy.optimize import brentq
 
 from cointoss.compare.engines import Engine
+from cointoss.models.batch import rows_from_states
 from cointoss.models.records import Ending, Outcome
 from tests.helpers.command_line import cointoss
 from tests.helpers.draws import AIR, IMPERFECT, scenario
 from tests.helpers.engines import toss
-from tests.helpers.many import releases_of
+from tests.helpers.many import same_states
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
@@ -92,17 +93,16 @@ def test_an_arc_just_above_the_hand_is_caught_and_one_just_below_is_not(engine):
 @engines
 def test_many_caught_tosses_are_those_of_one_at_a_time(engine):
     held, n = thrown(air=AIR), 40
-    releases = releases_of(
-        n, velocity=np.linspace([0, 0, 1.5], [0, 0, 3.0], n), angular_velocity=[38.0, 0, 0]
-    )
-    many = engine.package.toss_many(held, releases, settings=engine.package.FINE)
+    velocity = np.linspace([0, 0, 1.5], [0, 0, 3.0], n)
+    rows = rows_from_states(held, same_states(n, velocity=velocity, angular_velocity=[38.0, 0, 0]))
+    many = engine.package.toss_rows(rows, settings=engine.package.FINE)
     for i in (0, 10, 20, 39):
-        alone = toss(engine, held.replace("release.velocity", releases.velocity[i].tolist()))
+        alone = toss(engine, held.replace("release.velocity", velocity[i].tolist()))
         assert (many.outcome[i], many.impacts[i]) == (alone.outcome, len(alone.impacts))
     is_held = many.outcome != Outcome.UNDECIDED
     assert (np.diff(is_held.astype(int)) >= 0).all()
     # Air stops some that in vacuum would just come to the hand.
-    arrives = releases.velocity[:, 2] > np.sqrt(2 * G * (HAND - 1))
+    arrives = velocity[:, 2] > np.sqrt(2 * G * (HAND - 1))
     assert 10 < is_held.sum() <= arrives.sum()
     assert {Outcome.HEADS, Outcome.TAILS} <= {*many.outcome}
 

@@ -11,7 +11,7 @@ from cointoss.models.laws import ContactLaw
 from cointoss.models.records import Ending, Outcome
 from tests.helpers import engines
 from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, scenario
-from tests.helpers.many import as_releases
+from tests.helpers.many import as_states
 from tests.helpers.states import energies
 from tests.helpers.symmetries import SYMMETRIES
 
@@ -197,7 +197,7 @@ def test_a_symmetry_of_the_release_is_one_of_the_whole_toss(engine, name, symmet
 @pytest.mark.parametrize(("engine", "name"), BOTH)
 def test_one_of_many_tosses_is_that_of_toss_to_the_bit(engine, name):
     drawn = [CASES[name][2], SYMMETRIES["a turn about the vertical"].release(CASES[name][2])]
-    outcomes = engines.toss_many(engine, described(name), as_releases(drawn))
+    outcomes = engines.toss_many(engine, described(name), as_states(drawn))
     for i, release in enumerate(drawn):
         tossed = engines.toss_as_many(engine, described(name, release))
         assert len(tossed.contacts) > 0

@@ -7,11 +7,12 @@ import pytest
 
 from cointoss import analytic
 from cointoss.compare.engines import Engine
+from cointoss.models.batch import rows_from_states
 from cointoss.models.laws import ContactLaw
 from cointoss.models.records import Outcome
 from tests.helpers import engines
 from tests.helpers.draws import AIR, IMPERFECT, THIN, ZLOTY, draw_release, scenario
-from tests.helpers.many import as_releases
+from tests.helpers.many import as_states
 from tests.helpers.mirror import SPACE, Mirror
 from tests.helpers.symmetries import SYMMETRIES
 
@@ -48,14 +49,14 @@ def test_a_mirrored_toss_is_the_same_to_the_bit_and_no_pair_is_certain_of_one_fa
     for coin, air in product(COINS, ({}, AIR)):
         parts = parts_of(coin, floor, air)
         drawn = [draw_release(rng) for _ in range(count)]
-        here, there = (
-            analytic.toss_many(scenario(coin=shape, **described), as_releases(releases), certain=True)
-            for described in [{name: part for name, part in parts.items() if name != "coin"}]
+        rows, mirrored = (
+            rows_from_states(scenario(**parts | {"coin": shape}), as_states(releases))
             for shape, releases in (
                 (parts["coin"], drawn),
                 (mirror.coin(parts["coin"]), [mirror.release(one) for one in drawn]),
             )
         )
+        here, there = (analytic.toss_rows(each, trust="certain") for each in (rows, mirrored))
         assert there.end_time.tolist() == here.end_time.tolist()
         assert there.impacts.tolist() == here.impacts.tolist()
         assert there.trusted_impacts == pytest.approx(here.trusted_impacts, abs=1)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from cointoss.compare.engines import Engine
-from cointoss.compare.reproduction.setups.hands import releases_of_hands
+from cointoss.compare.reproduction.setups.hands import states_of_hands
 from cointoss.models.records import Ending, Outcome
 from tests.helpers.draws import AIR, THIN, ZLOTY, scenario
 from tests.helpers.engines import toss, toss_many
@@ -132,8 +132,8 @@ def test_nickels_tossed_by_hand_come_to_rest_alike_on_both_engines():
         floor={"contact": "coulomb", "friction": 0.3, "restitution": 0.5, "restitution_threshold": 0.02}
         | {"rolling_friction": 1e-3, "pivoting_friction": 1e-3},
     )
-    releases = releases_of_hands(np.random.default_rng(1993), n, aside=10.0)
-    found = [toss_many(engine, case, releases) for engine in Engine]
+    starts = states_of_hands(np.random.default_rng(1993), n, aside=10.0)
+    found = [toss_many(engine, case, starts) for engine in Engine]
     for outcomes in found:
         assert set(outcomes.ending) <= {Ending.PAPER, Ending.LYING, Ending.AT_REST}
         assert set(outcomes.outcome) <= {Outcome.HEADS, Outcome.TAILS, Outcome.EDGE}

@@ -1,33 +1,40 @@
 """Many tosses: each is that of `toss`, to the bit."""
 
+import signal
+import threading
+import time
 from typing import Any
 
 import numpy as np
 import pytest
 
 from cointoss import analytic
+from cointoss.analytic import many
 from cointoss.analytic.entries import certainty_of
 from cointoss.analytic.runs import horizon_of, run
 from cointoss.analytic.toss import state_at_release
+from cointoss.models.answers import ANSWER, NOT_TOSSED, Answers
+from cointoss.models.batch import rows_from_states, rows_of
+from cointoss.models.errors import ScenarioError
 from cointoss.models.hand import Hand
 from cointoss.models.laws import ContactLaw
-from cointoss.models.outcomes import Outcomes
 from cointoss.models.parts import Release
 from cointoss.models.records import Ending, Face, Outcome
-from cointoss.models.scenario import Scenario
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
-from tests.helpers.many import as_releases, assert_same_toss, draw_releases, releases_of
+from cointoss.models.rows import row_of
+from cointoss.models.scenario import MOST_KEPT, Scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
+from tests.helpers.many import assert_same_toss, draw_states, same_states
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
 OFF_CENTER = np.array(PAPER_OFFSET)
 
 
-def assert_each_is_a_toss(case: Scenario, drawn: list[dict[str, Any]], outcomes: Outcomes) -> None:
+def assert_each_is_a_toss(case: Scenario, drawn: list[dict[str, Any]], answers: Answers) -> None:
     for i, release in enumerate(drawn):
         # What `toss` makes its record of; it also follows the errors, which takes ten times as long.
         assert_same_toss(
-            outcomes, i, run(case.body, case.rules, state_at_release(Release.model_validate(release)))
+            answers, i, run(case.body, case.rules, state_at_release(Release.model_validate(release)))
         )
 
 
@@ -46,8 +53,32 @@ def test_each_toss_is_that_of_toss_to_the_bit(law, air, thickness, offset, n):
         floor={"restitution": 0.5, "contact": str(law), "friction": 0.3},
         ending={"max_impacts": 30, "max_time": 2.0},
     )
-    drawn, releases = draw_releases(rng, n)
-    assert_each_is_a_toss(case, drawn, analytic.toss_many(case, releases))
+    drawn, states = draw_states(rng, n)
+    assert_each_is_a_toss(case, drawn, analytic.toss_rows(rows_from_states(case, states)))
+
+
+def test_rows_that_differ_in_everything_are_tossed_as_each_alone():
+    """Coins, floors, airs of all kinds, releases and endings, each after others; to the bit."""
+    rng, cases = np.random.default_rng(12), []
+    for number, law in enumerate([*ContactLaw] * 6):
+        air = ({}, AIR, {**AIR, "exponent": 0.5})[number % 3]
+        cases.append(
+            scenario(
+                gravity=rng.uniform(5, 15),
+                coin=draw_coin(rng),
+                air=air,
+                floor={"restitution": rng.uniform(0, 0.9), "contact": str(law), "friction": 0.3},
+                release=draw_release(rng),
+                ending={"max_impacts": 3 if "exponent" in air else int(rng.integers(4, 30)), "max_time": 2.0},
+            )
+        )
+    rows = np.array([row_of(case) for case in cases])
+    for order in (np.arange(len(cases)), rng.permutation(len(cases))):
+        answers = analytic.toss_rows(rows[order])
+        for i, number in enumerate(order):
+            case = cases[number]
+            assert_same_toss(answers, i, run(case.body, case.rules, state_at_release(case.release)))
+    assert len({*answers.outcome}) > 2
 
 
 @pytest.mark.parametrize("air", [{}, AIR])
@@ -56,16 +87,17 @@ def test_many_tosses_tell_how_far_each_can_be_trusted(air, contact):
     """As the horizon of one toss does; and that changes no toss."""
     floor = {"restitution": 0.5, "contact": contact, "friction": 0.3 * (contact == "coulomb")}
     case = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}, air=air, floor=floor)
-    drawn, releases = draw_releases(np.random.default_rng(4), 12)
-    plain, outcomes = (analytic.toss_many(case, releases, horizon=horizon) for horizon in (False, True))
-    certain = analytic.toss_many(case, releases, certain=True)
-    assert plain.trusted_impacts is plain.outcome_certain is outcomes.outcome_certain is None
-    assert outcomes.trusted_impacts is not None
+    drawn, states = draw_states(np.random.default_rng(4), 12)
+    rows = rows_from_states(case, states)
+    plain, trusting = analytic.toss_rows(rows), analytic.toss_rows(rows, trust="impacts")
+    certain = analytic.toss_rows(rows, trust="certain")
+    assert plain.trusted_impacts is plain.outcome_certain is trusting.outcome_certain is None
+    assert trusting.trusted_impacts is not None
     starts = [state_at_release(Release.model_validate(release)) for release in drawn]
     logs = [run(case.body, case.rules, start, analytic.MANY) for start in starts]
     horizons = [horizon_of(case.body, case.rules, log) for log in logs]
     trusted = [horizon.impacts for horizon in horizons]
-    assert outcomes.trusted_impacts.tolist() == trusted
+    assert trusting.trusted_impacts.tolist() == trusted
     assert max(trusted) > min(trusted) > 0
     in_turn = [
         certainty_of(case.body, case.rules, log.rows, log.started, log.verdict, horizon).certain
@@ -75,12 +107,17 @@ def test_many_tosses_tell_how_far_each_can_be_trusted(air, contact):
     assert certain.trusted_impacts is not None
     assert certain.outcome_certain.tolist() == in_turn
     assert 0 < sum(in_turn)
-    assert np.array_equal(certain.trusted_impacts, outcomes.trusted_impacts)
+    assert np.array_equal(certain.trusted_impacts, trusting.trusted_impacts)
     for name in ("outcome", "ending", "impacts", "last_face", "end_time"):
-        assert np.array_equal(getattr(plain, name), getattr(outcomes, name))
+        assert np.array_equal(getattr(plain, name), getattr(trusting, name))
         assert np.array_equal(getattr(plain, name), getattr(certain, name))
-    assert "trusted_impacts" in outcomes.to_dataframe()
-    assert "trusted_impacts" not in plain.to_dataframe()
+
+
+def test_where_trust_is_asked_for_no_more_impacts_are_accepted_than_are_kept():
+    rows = rows_of(scenario(), 3, {"ending.max_impacts": [5, MOST_KEPT + 1, np.nan]})
+    with pytest.raises(ScenarioError, match=rf"ending\.max_impacts = {MOST_KEPT + 1}: accepted: "):
+        analytic.toss_rows(rows, trust="impacts")
+    assert analytic.toss_rows(rows).impacts[0] == 5
 
 
 def test_the_endings_of_toss_are_all_met():
@@ -95,8 +132,8 @@ def test_the_endings_of_toss_are_all_met():
         case = scenario(
             floor={"restitution": chi, "contact": law, "friction": friction}, ending=ending, air=AIR
         )
-        drawn, releases = draw_releases(np.random.default_rng(7), 40)
-        outcomes = analytic.toss_many(case, releases)
+        drawn, states = draw_states(np.random.default_rng(7), 40)
+        outcomes = analytic.toss_rows(rows_from_states(case, states))
         assert_each_is_a_toss(case, drawn, outcomes)
         met |= set(outcomes.ending.tolist())
     assert met >= {Ending.SETTLED, Ending.MAX_IMPACTS, Ending.MAX_TIME, Ending.NO_SOLUTION, Ending.CHATTER}
@@ -105,8 +142,8 @@ def test_the_endings_of_toss_are_all_met():
 def test_a_touch_without_solution_is_no_impact_and_shows_no_face():
     floor = {"restitution": 0.8, "contact": "sliding_friction", "friction": 1.5}
     case = scenario(floor=floor, ending={"max_impacts": 40}, air=AIR)
-    drawn, releases = draw_releases(np.random.default_rng(7), 40)
-    outcomes = analytic.toss_many(case, releases)
+    drawn, states = draw_states(np.random.default_rng(7), 40)
+    outcomes = analytic.toss_rows(rows_from_states(case, states))
     turned = 0
     for i in np.flatnonzero((outcomes.ending == Ending.NO_SOLUTION) & (outcomes.impacts > 0)):
         tossed = analytic.toss(case.replace("release", drawn[i]))
@@ -116,23 +153,23 @@ def test_a_touch_without_solution_is_no_impact_and_shows_no_face():
     assert turned > 0, "some coin should turn over before the touch without solution"
 
 
-def test_the_order_is_that_of_the_releases_over_many_tiles():
+def test_the_order_is_that_of_the_rows_over_many_tiles():
     rng = np.random.default_rng(3)
     case = scenario(air=AIR, ending={"max_impacts": 3})
-    drawn, releases = draw_releases(rng, 1000)
-    here, there = analytic.toss_many(case, releases), analytic.toss_many(case, as_releases(drawn[::-1]))
+    rows = rows_from_states(case, draw_states(rng, 1000)[1])
+    here, there = analytic.toss_rows(rows), analytic.toss_rows(rows[::-1].copy(), workers=3)
     assert np.array_equal(here.end_time, there.end_time[::-1])
     assert np.array_equal(here.outcome, there.outcome[::-1])
     assert len(np.unique(here.end_time)) == 1000
 
 
 def test_the_face_after_impacts_is_the_face_of_that_touch_or_the_final_face():
-    drawn, releases = draw_releases(np.random.default_rng(4), 60)
+    drawn, states = draw_states(np.random.default_rng(4), 60)
     whole = scenario(floor={"restitution": 0.4}, air=AIR)
     stopped = 0
     for after in (0, 1, 12):
         case = scenario(floor={"restitution": 0.4}, air=AIR, ending={"max_impacts": after + 1})
-        faces = analytic.toss_many(case, releases).after(after)
+        faces = analytic.toss_rows(rows_from_states(case, states)).after(after)
         for face, release in zip(faces, drawn, strict=True):
             tossed = analytic.toss(whole.replace("release", release))
             there = len(tossed.impacts) > after
@@ -140,13 +177,33 @@ def test_the_face_after_impacts_is_the_face_of_that_touch_or_the_final_face():
             assert face == (tossed.impacts.face[after] if there else tossed.outcome)
     assert 0 < stopped < 60, "some of the tosses should end before their last touch"
     with pytest.raises(ValueError, match=r"set ending\.max_impacts = 1"):
-        analytic.toss_many(whole, releases).after(0)
+        analytic.toss_rows(rows_from_states(whole, states)).after(0)
 
 
-def test_no_releases_give_no_outcomes():
-    outcomes = analytic.toss_many(scenario(), releases_of(0))
-    assert len(outcomes) == 0
-    assert outcomes.after(0).shape == (0,)
+def test_no_rows_give_no_answers():
+    answers = analytic.toss_rows(rows_from_states(scenario(), same_states(0)), trust="certain")
+    assert [len(column) for column in answers if column is not None] == [0] * len(ANSWER)
+    assert answers.after(0).shape == (0,)
+
+
+def test_what_an_interruption_leaves_undone_is_not_tossed(monkeypatch):
+    """Ctrl-C after the first of four tiles."""
+    rows = rows_from_states(scenario(air=AIR), draw_states(np.random.default_rng(5), 400)[1])
+    toss_some = many.toss_some
+
+    def interrupting(*arguments):
+        toss_some(*arguments)
+        signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
+        time.sleep(0.5)
+
+    monkeypatch.setattr(many, "toss_some", interrupting)
+    table = np.empty((len(rows), len(ANSWER)))
+    with pytest.raises(KeyboardInterrupt):
+        analytic.toss_rows(rows, workers=1, answers=table)
+    monkeypatch.undo()
+    made = Answers.of_table(table)
+    assert (made.outcome[100:] == NOT_TOSSED).all()
+    assert np.array_equal(made.end_time[:100], analytic.toss_rows(rows[:100]).end_time)
 
 
 @pytest.mark.parametrize("chi", [0.0, 0.6])
@@ -155,7 +212,7 @@ def test_a_square_section_that_turns_in_its_plane_ends_on_its_edge_as_often_as_o
     thick = {**ZLOTY, "thickness": 2 * ZLOTY["radius"]}
     case = scenario(coin=thick, floor={"contact": "coulomb", "friction": 0.3, "restitution": chi})
     count = 600
-    ended = analytic.toss_many(case, Hand().releases(case.body, np.random.default_rng(17), count))
+    ended = analytic.toss_rows(rows_of(case, count, Hand().releases(case, count, seed=17)))
     assert set(ended.outcome) == {Outcome.HEADS, Outcome.TAILS, Outcome.EDGE}
     # Four standard deviations of a fair draw.
     assert abs(np.mean(ended.outcome == Outcome.EDGE) - 1 / 2) < 2 / count**0.5

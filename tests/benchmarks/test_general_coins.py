@@ -12,8 +12,8 @@ import pytest
 from cointoss import analytic
 from cointoss.analytic.runs import run
 from cointoss.compare.reproduction.setups.general_coins import CLASSES, CoinClass
+from cointoss.models.batch import rows_from_states
 from cointoss.models.records import Array, Ending
-from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
 from tests.benchmarks.one_coin import mechanics
 from tests.benchmarks.rates import report
@@ -40,16 +40,16 @@ def number_of_tosses(benchmark: Any) -> int:
 def test_whole_tosses(benchmark, capsys, monkeypatch, kind):
     monkeypatch.setenv("COINTOSS_THREADS", "1")
     scenario, number = kind.scenario, number_of_tosses(benchmark)
-    releases = kind.releases(number)
+    rows = kind.rows(number)
 
     def toss():
-        return analytic.toss_many(scenario, releases)
+        return analytic.toss_rows(rows)
 
     end_times = toss().end_time[:FEW]
     starts = kind.starts(number)[:FEW]
     assert end_times.tolist() == [run(scenario.body, scenario.rules, start).end_time for start in starts]
     benchmark(toss)
-    report(capsys, benchmark, f"{kind.name}, whole: analytic.toss_many", number, toss)
+    report(capsys, benchmark, f"{kind.name}, whole: analytic.toss_rows", number, toss)
 
 
 def bouncing(kind: CoinClass, number: int) -> tuple[Scenario, Array]:
@@ -94,12 +94,12 @@ def test_first_impacts_by_heyoka(benchmark, capsys, kind, batch):
 def test_first_impacts_by_the_engine(benchmark, capsys, monkeypatch, kind):
     monkeypatch.setenv("COINTOSS_THREADS", "1")
     scenario, starts = bouncing(kind, number_of_tosses(benchmark))
-    releases = Releases(**as_parts(starts))
+    rows = rows_from_states(scenario, starts)
 
     def toss():
-        return analytic.toss_many(scenario, releases)
+        return analytic.toss_rows(rows)
 
     assert (toss().impacts == IMPACTS).all()
     benchmark(toss)
     name = f"{kind.name}, {IMPACTS} impacts: "
-    report(capsys, benchmark, f"{name}analytic.toss_many", len(starts), toss, heyoka=f"{name}heyoka")
+    report(capsys, benchmark, f"{name}analytic.toss_rows", len(starts), toss, heyoka=f"{name}heyoka")

@@ -16,13 +16,12 @@ from cointoss.analytic.flight.flying import fly
 from cointoss.analytic.runs import run
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.kernel.compiled import by_numba
-from cointoss.models.releases import Releases
+from cointoss.models.rows import row_of
 from cointoss.models.scenario import Scenario
 from tests.benchmarks import scipy_toss
 from tests.benchmarks.one_coin import OneCoin, mechanics
 from tests.benchmarks.rates import report
 from tests.helpers.draws import AIR, THIN, scenario
-from tests.helpers.many import as_parts
 
 fly = by_numba(fly)
 MANY, FEW = 8192, 8
@@ -44,10 +43,6 @@ def family(n: int, air: dict[str, float]) -> list[Scenario]:
         )
         for _ in range(n)
     ]
-
-
-def releases_of(cases: list[Scenario]) -> Releases:
-    return Releases(**as_parts(np.array([state_at_release(case.release) for case in cases])))
 
 
 IN_AIR = family(FEW, AIR)
@@ -93,8 +88,8 @@ def test_other_integrators_make_the_same_tosses(benchmark, capsys, toss: Callabl
 def test_many_tosses(benchmark, capsys, monkeypatch, air, cores):
     # As many as are worth timing only where they are timed.
     cases = family(FEW if benchmark.disabled else MANY, air)
-    releases = releases_of(cases)
-    outcomes = analytic.toss_many(cases[0], releases)
+    rows = np.array([row_of(case) for case in cases])
+    outcomes = analytic.toss_rows(rows)
     for i in range(FEW):
         tossed = run(cases[i].body, cases[i].rules, state_at_release(cases[i].release))
         assert outcomes.end_time[i] == tossed.end_time
@@ -102,10 +97,10 @@ def test_many_tosses(benchmark, capsys, monkeypatch, air, cores):
         monkeypatch.setenv("COINTOSS_THREADS", "1")
 
     def toss():
-        return analytic.toss_many(cases[0], releases)
+        return analytic.toss_rows(rows)
 
     benchmark(toss)
-    name = f"planar, analytic.toss_many, {'in air' if air else 'in vacuum'}, cores: {cores}"
+    name = f"planar, analytic.toss_rows, {'in air' if air else 'in vacuum'}, cores: {cores}"
     report(capsys, benchmark, name, len(cases), toss, heyoka=BY_HEYOKA)
 
 

@@ -16,8 +16,8 @@ from cointoss.coin_mj import MANY
 from cointoss.coin_mj.model.library import PATH
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.toss import impacts_of, run
+from cointoss.models.batch import rows_of
 from cointoss.models.records import UnusableEngineError
-from cointoss.models.releases import Releases
 from cointoss.models.stages import stages
 from tests.helpers.draws import AIR, IMPERFECT, draw_release, scenario
 
@@ -134,7 +134,7 @@ def test_a_callback_that_is_set_during_a_toss_stays_set(monkeypatch):
     "make",
     [
         lambda case: impacts_of(case, settings=MANY),
-        lambda case: coin_mj.toss_many(case, Releases.of(case, 2)),
+        lambda case: coin_mj.toss_rows(rows_of(case, 2)),
     ],
 )
 def test_where_the_user_filters_contacts_no_coin_is_tossed(make):

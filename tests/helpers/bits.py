@@ -72,6 +72,6 @@ def numbers_of(case):
 
 def numbers_of_many(kind):
     """Return the numbers of many tosses of a class of general coins."""
-    many = analytic.toss_many(kind.scenario, kind.releases(MANY), certain=True)
+    many = analytic.toss_rows(kind.rows(MANY), trust="certain")
     names = ("outcome", "impacts", "end_time", "trusted_impacts", "outcome_certain")
     return {name: (getattr(many, name) + 0).tolist() for name in names}

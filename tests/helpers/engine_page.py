@@ -7,11 +7,10 @@ from pathlib import Path
 from cointoss.compare.web import wasm
 from cointoss.compare.web.scripts import ENGINE_POLICY, import_map
 from cointoss.compare.web.wasm.carried import engine_scripts
-from cointoss.models.fields import COMPONENTS
+from cointoss.models.batch import STATE
 from cointoss.models.rows import fields_of
 
 ENGINE = Path(wasm.__file__).parent / "engine.wasm"
-PARTS = ("position", "velocity", "quaternion", "angular_velocity")
 
 
 def engine_page() -> str:
@@ -39,10 +38,6 @@ def written(case):
     return json.dumps(fields_of(case))
 
 
-def changes(releases):
-    """Return releases as values of fields, as JavaScript."""
-    found = {}
-    for part in PARTS:
-        names, columns = COMPONENTS[f"release.{part}"], getattr(releases, part).T.tolist()
-        found |= {f"release.{part}.{name}": column for name, column in zip(names, columns, strict=True)}
-    return json.dumps(found)
+def changes(states):
+    """Return states at release, (n, 13), as values of fields, as JavaScript."""
+    return json.dumps(dict(zip(STATE, states.T.tolist(), strict=True)))

@@ -3,9 +3,9 @@
 import warnings
 
 from cointoss.compare.engines import Engine
-from cointoss.models.outcomes import Outcomes
-from cointoss.models.records import ApproximationWarning, Toss
-from cointoss.models.releases import Releases
+from cointoss.models.answers import Answers
+from cointoss.models.batch import rows_from_states
+from cointoss.models.records import ApproximationWarning, Array, Toss
 from cointoss.models.scenario import Scenario
 
 
@@ -21,7 +21,7 @@ def toss_as_many(engine: Engine, case: Scenario) -> Toss:
         return engine.package.toss(case, settings=engine.package.MANY)
 
 
-def toss_many(engine: Engine, case: Scenario, releases: Releases) -> Outcomes:
-    """Return many tosses, with the engine's settings for many."""
+def toss_many(engine: Engine, case: Scenario, states: Array) -> Answers:
+    """Return the tosses of a scenario from many states, (n, 13), with the engine's settings for many."""
     with warnings.catch_warnings(action="ignore", category=ApproximationWarning):
-        return engine.package.toss_many(case, releases)
+        return engine.package.toss_rows(rows_from_states(case, states))

@@ -9,6 +9,7 @@ import pytest
 
 from cointoss import analytic
 from cointoss.models.attitude import rotation_matrix
+from cointoss.models.batch import STATE, rows_from_states, scenario_of_row
 from cointoss.models.errors import ScenarioError
 from cointoss.models.hand import Hand, load_hand, same_side_probability
 from cointoss.models.reading import load
@@ -21,12 +22,10 @@ COINS = [load("fig29"), load("zloty")]
 @pytest.mark.parametrize("scenario", COINS, ids=["ideal", "imperfect"])
 def test_a_coin_is_released_flat_with_its_angular_momentum_at_psi(scenario):
     hand = Hand(height=0.7, speed=1.5, spin=80.0, psi=1.0, scatter=0.0)
-    made = hand.releases(scenario.body, np.random.default_rng(0), 500)
-    assert (made.quaternion == (1, 0, 0, 0)).all()
-    assert (made.position == (0, 0, 0.7)).all()
-    assert (made.velocity == (0, 0, 1.5)).all()
+    made = hand.states(scenario.body, np.random.default_rng(0), 500)
+    assert (made[:, :10] == (0, 0, 0.7, 0, 0, 1.5, 1, 0, 0, 0)).all()
     inertia = np.array(scenario.body.inertia)
-    momentum = made.angular_velocity @ inertia
+    momentum = made[:, 10:] @ inertia
     assert np.linalg.norm(momentum, axis=1) == pytest.approx(80 * inertia[0, 0])
     assert momentum[:, 2] == pytest.approx(80 * inertia[0, 0] * np.cos(1.0))
     aside = np.arctan2(momentum[:, 1], momentum[:, 0])
@@ -43,8 +42,8 @@ def test_peoples_hand_has_the_wobble_that_was_found_from_their_flips():
 def test_releases_scatter_as_asked():
     hand = Hand(height=0.7, speed=1.5, spin=80.0, psi=1.3, scatter=0.1, psi_scatter=0.05)
     body = COINS[0].body
-    made = hand.releases(body, np.random.default_rng(1), 20_000)
-    height, momentum = made.position[:, 2], made.angular_velocity @ np.array(body.inertia)
+    made = hand.states(body, np.random.default_rng(1), 20_000)
+    height, momentum = made[:, 2], made[:, 10:] @ np.array(body.inertia)
     size = np.linalg.norm(momentum, axis=1)
     assert height.std() / height.mean() == pytest.approx(0.1, rel=0.03)
     assert size.std() / size.mean() == pytest.approx(0.1, rel=0.03)
@@ -62,14 +61,29 @@ def test_the_probability_of_the_same_side_is_the_published_one():
 def test_a_coin_in_flight_has_its_first_side_up_for_that_part_of_the_time(psi):
     scenario = load("fig29").replace("air", {}).replace("coin.thickness", 0.0)
     hand = Hand(height=200.0, spin=150.0, psi=psi, scatter=0.0)
-    made = hand.releases(scenario.body, np.random.default_rng(2), 1)
-    for field, axes in (("position", "xyz"), ("angular_velocity", ("xi", "eta", "zeta"))):
-        for i, axis in enumerate(axes):
-            scenario = scenario.replace(f"release.{field}.{axis}", float(getattr(made, field)[0, i]))
-    toss = analytic.toss(scenario.replace("release.angles", (0.0, 0.0, 0.0)).replace("ending.max_impacts", 1))
+    made = hand.states(scenario.body, np.random.default_rng(2), 1)
+    described = scenario_of_row(rows_from_states(scenario, made)[0])
+    toss = analytic.toss(described.replace("ending.max_impacts", 1))
     times = np.linspace(0, toss.impacts.time[0], 20_000)[:-1]
     up = np.array([rotation_matrix(e)[2][2] > 0 for e in toss.sample(times).quaternion])
     assert up.mean() == pytest.approx(float(same_side_probability(psi)), abs=4e-3)
+
+
+def test_releases_are_the_fields_of_the_states_that_a_seed_draws():
+    hand, scenario = Hand(psi_scatter=0.2, up="either"), COINS[1]
+    made = hand.releases(scenario, 20, seed=4)
+    states = hand.states(scenario.body, np.random.default_rng(4), 20)
+    assert list(made) == list(STATE)
+    assert np.array_equal(np.transpose(list(made.values())), states)
+    catching = replace(hand, caught=0.6).releases("zloty", 20, seed=4)
+    assert list(catching) == [*STATE, "ending.caught"]
+    assert catching["ending.caught"] == 0.6
+
+
+@pytest.mark.parametrize("n", [0, -1, 2.5, True, 10**9])
+def test_a_number_of_releases_is_a_whole_number_in_its_range(n):
+    with pytest.raises(ValueError, match=r"^n: .*, accepted: a whole number from 1 to 10000000$"):
+        Hand().releases("zloty", n)
 
 
 @pytest.mark.parametrize("value", ["1 m", None, True, [1.0]])
@@ -84,33 +98,33 @@ def test_the_side_that_is_up_is_a_word_or_a_member():
         assert repr(Hand(up=up)) == repr(hand)
 
 
-def rotations(releases):
-    return np.array([rotation_matrix(tuple(e)) for e in releases.quaternion])
+def rotations(states):
+    return np.array([rotation_matrix(tuple(e)) for e in states[:, 6:10]])
 
 
 @pytest.mark.parametrize("scenario", COINS, ids=["ideal", "imperfect"])
 def test_half_of_the_coins_start_on_the_other_side_and_turn_alike_in_space(scenario):
     plain, either = (
-        Hand(psi_scatter=0.2, up=up).releases(scenario.body, np.random.default_rng(1), 400)
+        Hand(psi_scatter=0.2, up=up).states(scenario.body, np.random.default_rng(1), 400)
         for up in ("heads", "either")
     )
     R = rotations(either)
     assert 150 < np.sum(R[:, 2, 2] < -0.999) < 250
-    assert np.einsum("nij,nj->ni", R, either.angular_velocity) == pytest.approx(plain.angular_velocity)
+    assert np.einsum("nij,nj->ni", R, either[:, 10:]) == pytest.approx(plain[:, 10:])
 
 
 @pytest.mark.parametrize("scenario", COINS, ids=["ideal", "imperfect"])
 def test_a_spun_coin_touches_the_floor_and_turns_about_the_vertical(scenario):
     hand = Hand(spun=True, spin=90.0, psi_scatter=0.2, up="either")
-    made, body = hand.releases(scenario.body, np.random.default_rng(3), 500), scenario.body
+    made, body = hand.states(scenario.body, np.random.default_rng(3), 500), scenario.body
     R = rotations(made)
-    in_space = np.einsum("nij,nj->ni", R, made.angular_velocity)
+    in_space = np.einsum("nij,nj->ni", R, made[:, 10:])
     assert in_space[:, :2] == pytest.approx(0, abs=1e-12)
     assert (in_space[:, 2].mean(), in_space[:, 2].std()) == (
         pytest.approx(90, rel=0.02),
         pytest.approx(9, rel=0.2),
     )
-    assert (made.velocity == 0).all()
+    assert (made[:, 3:6] == 0).all()
     assert np.arccos(R[:, 2, 2]).std() == pytest.approx(0.2, rel=0.15)
     # The lowest of many points of both rims, from the mass centre.
     angles = np.linspace(0, 2 * np.pi, 2000, endpoint=False)
@@ -119,7 +133,7 @@ def test_a_spun_coin_touches_the_floor_and_turns_about_the_vertical(scenario):
         np.concatenate([rim + np.array([0, 0, z]) for z in np.array([-1, 1]) * body.thickness / 2])
         - body.center
     )
-    lowest = made.position[:, 2] + (points @ R[:, 2].T).min(axis=0)
+    lowest = made[:, 2] + (points @ R[:, 2].T).min(axis=0)
     assert lowest == pytest.approx(0, abs=1e-5 * body.radius)
     around = np.arctan2(R[:, 2, 0], R[:, 2, 1])
     assert np.histogram(around, 4, (-np.pi, np.pi))[0].min() > 90

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from cointoss.models.interruptible import begun, interruptible
-from cointoss.models.tiles import toss_in_tiles
-from tests.helpers.many import releases_of
+from cointoss.models.tiles import in_tiles
 
 
 def test_the_main_thread_waits_for_another_which_does_nested_work_itself():
@@ -46,27 +45,24 @@ def test_warnings_and_numpy_errors_are_treated_as_the_caller_asks():
 @pytest.mark.parametrize(("n", "size"), [(0, 5), (1, 1), (4, 1), (15, 1), (24, 3), (1000, 5), (1003, 5)])
 def test_every_tile_is_made_once_and_each_thread_has_some(n, size, monkeypatch):
     monkeypatch.setenv("COINTOSS_THREADS", "2")
-    told = []
+    times, sizes = np.zeros(n, dtype=int), np.zeros(n, dtype=int)
 
-    def number(tile):
-        tile.outcome[:] = 3
-        for column in tile[2:]:
-            column[:] = len(tile.states)
+    def number(part):
+        times[part] += 1
+        sizes[part] = part.stop - part.start
 
-    made = toss_in_tiles(releases_of(n), 5, number, lambda *so_far: told.append(so_far))
-    assert made.outcome.tolist() == [3] * n
-    assert made.impacts.tolist() == [size] * (n - n % size) + [n % size] * (n % size)
-    assert sorted(told) == told
-    assert told[-1:] == [(n, n)] * (n > 0)
+    in_tiles(n, 5, number)
+    assert times.tolist() == [1] * n
+    assert sizes.tolist() == [size] * (n - n % size) + [n % size] * (n % size)
 
 
 def test_a_tile_that_fails_keeps_those_not_begun_from_being_made():
     made = []
 
-    def failing(tile):
-        made.append(len(tile.states))
+    def failing(part):
+        made.append(part)
         raise LookupError("a tile")
 
     with pytest.raises(LookupError, match="a tile"):
-        toss_in_tiles(releases_of(1000), 1, failing, lambda *_: None)
+        in_tiles(1000, 1, failing)
     assert 1 <= len(made) <= threading.active_count() + 64

@@ -1,34 +1,20 @@
-"""What Python and a notebook show of a toss and of outcomes: short texts, HTML, labelled arrays, plots."""
+"""What Python and a notebook show of a toss: short texts, HTML, labelled arrays, plots."""
 
 import xml.etree.ElementTree as ET
 
-import numpy as np
 import pytest
 from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 from cointoss import analytic
 from cointoss.models.notebook import shares_picture, shortened, with_bar
-from cointoss.models.outcomes import Outcomes
 from cointoss.models.reading import load
-from cointoss.models.records import Ending, Face, Outcome
-from tests.helpers.many import releases_of
+from cointoss.models.records import Ending
 
 
 @pytest.fixture(scope="module")
 def tossed():
     return analytic.toss("fig24a")
-
-
-@pytest.fixture
-def outcomes():
-    return Outcomes(
-        outcome=np.array([Outcome.HEADS, Outcome.TAILS, Outcome.HEADS], np.int8),
-        ending=np.full(3, Ending.SETTLED, np.int8),
-        impacts=np.array([3, 1, 0], np.int32),
-        last_face=np.array([Face.HEADS, Face.TAILS, 0], np.int8),
-        end_time=np.array([0.5, 0.25, 0.125]),
-    )
 
 
 def test_a_name_or_a_path_is_tossed_as_its_scenario(tossed, tmp_path):
@@ -41,15 +27,13 @@ def test_a_name_or_a_path_is_tossed_as_its_scenario(tossed, tmp_path):
     assert analytic.toss(path).scenario == load(path)
 
 
-def test_one_line_says_how_it_ended(tossed, outcomes):
+def test_one_line_says_how_it_ended(tossed):
     assert repr(tossed) == (
         f"<Toss by analytic: heads, settled at {tossed.end_time:.6g} s; "
         f"{len(tossed.impacts)} impacts: {with_bar(tossed.sequence, tossed.trusted_impacts)}>"
     )
     assert repr(tossed.impacts) == f"<Impacts: {len(tossed.impacts)}, {tossed.sequence}>"
     assert repr(tossed.sample([0, 0.25])) == "<States: 2 from 0 to 0.25 s>"
-    assert repr(outcomes) == "<Outcomes of 3 tosses: 2 heads, 1 tails>"
-    assert repr(releases_of(1)) == "<Releases: 1>"
 
 
 def test_sequences_are_shortened_and_have_their_bar():
@@ -72,11 +56,10 @@ def test_a_notebook_shows_the_path_with_its_touches_and_the_ending(tossed):
     assert "heads" in (page.findtext("strong") or "")
 
 
-def test_a_notebook_shows_the_shares(outcomes):
-    page = ET.fromstring(outcomes._repr_html_().replace("<br>", ""))
+def test_a_picture_of_shares_has_a_bar_of_each_and_no_markup_of_its_names():
+    page = ET.fromstring(shares_picture({"heads": 2 / 3, "tails": 1 / 3}))
     widths = [float(bar.attrib["width"]) for bar in page.iter("rect")]
     assert widths[0] / widths[1] == pytest.approx(2, rel=1e-3)
-    assert [row.findtext("td") for row in page.iter("tr")] == ["2 (66.67%)", "1 (33.33%)"]
     assert "<script>" not in shares_picture({"<script>": 1.0})
 
 
@@ -107,18 +90,7 @@ def test_impacts_become_a_table(tossed):
     assert path.attrs["units"]["time"] == "s"
 
 
-def test_outcomes_become_labelled_arrays_and_a_table(outcomes):
-    found = outcomes.to_xarray()
-    assert found.outcome.attrs["flag_meanings"] == "undecided heads tails edge perpetual transient"
-    assert (found.end_time.attrs["units"], found.sizes["toss"]) == ("s", 3)
-    table = outcomes.to_dataframe()
-    assert table["outcome"].tolist() == ["heads", "tails", "heads"]
-    assert table["last_face"].tolist() == ["heads", "tails", "none"]
-    assert table["impacts"].tolist() == [3, 1, 0]
-    assert table.attrs["units"] == {"end_time": "s"}
-
-
-def test_plots_are_labelled(tossed, outcomes):
+def test_plots_are_labelled(tossed):
     given = Figure().add_subplot()
     axes = tossed.plot(given, color="red")
     assert axes is given
@@ -127,15 +99,10 @@ def test_plots_are_labelled(tossed, outcomes):
     assert axes.get_xlabel() == "time [s]"
     drawn = sum(len(line.get_xdata()) for line in axes.get_lines()[1:])
     assert drawn == len(tossed.impacts)
-    axes = outcomes.plot(given := Figure().add_subplot())
-    assert axes is given
-    assert [label.get_text() for label in axes.get_xticklabels()] == ["heads", "tails"]
-    assert [bar.get_height() for bar in axes.patches] == [2, 1]
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("outcome", "tosses")
 
 
-def test_a_plot_without_axes_is_a_figure_of_its_own(tossed, outcomes):
-    figures = [toss.plot().figure for toss in (tossed, outcomes)]
+def test_a_plot_without_axes_is_a_figure_of_its_own(tossed):
+    figures = [tossed.plot().figure for _ in range(2)]
     assert figures[0] is not figures[1]
     assert {figure.number for figure in figures} <= set(pyplot.get_fignums())
     for figure in figures:

@@ -12,7 +12,8 @@ from cointoss.analytic.horizon.horizon import IMPULSE_ERROR, TIME_ERROR
 from cointoss.compare.engines import Engine
 from cointoss.compare.explorer import static
 from cointoss.compare.reproduction.setups.general_coins import CLASSES
-from cointoss.compare.sweep.reading import tossed_map_at
+from cointoss.compare.sweep.reading import read_map
+from cointoss.models.batch import rows_from_states
 from cointoss.models.certificate import energies
 from cointoss.models.errors import ScenarioError
 from cointoss.models.fields import FIELDS, put
@@ -23,7 +24,7 @@ from cointoss.models.scenario import Scenario
 from tests.helpers.draws import AIR, LONG_TRANSIENT, ZLOTY, scenario
 from tests.helpers.engine_page import ENGINE, changes, written
 from tests.helpers.explored import SCENARIO, small_map
-from tests.helpers.many import draw_releases
+from tests.helpers.many import draw_states
 
 LAWS = [str(law) for law in ContactLaw]
 LARGEST = 550_000
@@ -36,9 +37,9 @@ def scenario_of(law):
     return scenario(air=AIR, floor={"contact": law, "friction": friction, "restitution": 0.5})
 
 
-def tossed(page, case, releases, wanted):
+def tossed(page, case, states, wanted):
     """Return the outcomes of many tosses in the page, as arrays by name."""
-    given = f"{written(case)}, {changes(releases)}, '{wanted}'"
+    given = f"{written(case)}, {changes(states)}, '{wanted}'"
     plain = "Object.fromEntries(Object.entries(all).map(([name, each]) => [name, each && [...each]]))"
     found = page.value(f"workers.tossEach({given}).then((all) => {plain})")
     return {name: each and np.array(each) for name, each in found.items()}
@@ -53,20 +54,20 @@ def test_the_engine_is_small_and_says_what_made_it(loaded):
 @pytest.mark.parametrize("kind", CLASSES, ids=lambda kind: kind.name)
 def test_outcomes_that_the_package_calls_certain_are_the_same(loaded, kind):
     count = 60
-    native = analytic.toss_many(kind.scenario, kind.releases(count), certain=True)
-    found = tossed(loaded, kind.scenario, kind.releases(count), "outcome")
-    assert native.outcome_certain is not None
-    assert native.outcome_certain.sum() > count / 3
+    native = analytic.toss_rows(kind.rows(count), trust="certain")
+    found = tossed(loaded, kind.scenario, kind.starts(count), "outcome")
+    certain = native.outcome_certain == 1
+    assert certain.sum() > count / 3
     for name in ("outcome", "ending", "impacts"):
         ours, theirs = getattr(native, name), found[name]
-        assert np.array_equal(ours[native.outcome_certain], theirs[native.outcome_certain])
+        assert np.array_equal(ours[certain], theirs[certain])
     assert found["trustedImpacts"] is found["outcomeCertain"] is None
 
 
 def test_outcomes_that_the_page_calls_certain_are_those_of_the_package(loaded):
     kind = next(kind for kind in CLASSES if kind.name == "thick, imperfect, air, smooth")
-    native = analytic.toss_many(kind.scenario, kind.releases(60), certain=True)
-    found = tossed(loaded, kind.scenario, kind.releases(60), "certain")
+    native = analytic.toss_rows(kind.rows(60), trust="certain")
+    found = tossed(loaded, kind.scenario, kind.starts(60), "certain")
     certain = found["outcomeCertain"] == 1
     assert np.array_equal(found["outcome"][certain], native.outcome[certain])
     # Neighbours start at the same places but for rounding, which changes what one in twenty of them says.
@@ -78,8 +79,9 @@ def test_outcomes_that_the_page_calls_certain_are_those_of_the_package(loaded):
 def test_every_law_is_there(loaded, law):
     """After five impacts face and time are the package's, wherever its own errors cannot change them."""
     case = scenario_of(law).replace("ending.max_impacts", 5)
-    releases = draw_releases(np.random.default_rng(7), 40)[1]
-    native, found = analytic.toss_many(case, releases, horizon=True), tossed(loaded, case, releases, "trust")
+    states = draw_states(np.random.default_rng(7), 40)[1]
+    native = analytic.toss_rows(rows_from_states(case, states), trust="impacts")
+    found = tossed(loaded, case, states, "trust")
     assert native.trusted_impacts is not None
     sure = native.trusted_impacts == 5
     assert sure.sum() > len(sure) / 4
@@ -92,21 +94,18 @@ def test_every_law_is_there(loaded, law):
 @pytest.mark.slow
 def test_of_twenty_thousand_tosses_those_that_are_certain_end_as_in_the_package(loaded):
     """Prints how many do, and at the same bit, with `pytest -s -m slow`."""
-    cases = [(kind.scenario, kind.releases(1000)) for kind in CLASSES]
+    cases = [(kind.scenario, kind.starts(1000)) for kind in CLASSES]
     for seed, law in enumerate(LAWS):
-        cases.append((scenario_of(law), draw_releases(np.random.default_rng(seed), 600)[1]))
+        cases.append((scenario_of(law), draw_states(np.random.default_rng(seed), 600)[1]))
     count = same = bits = certain = other = 0
-    for case, releases in cases:
-        native, found = (
-            analytic.toss_many(case, releases, certain=True),
-            tossed(loaded, case, releases, "outcome"),
-        )
-        assert native.outcome_certain is not None
+    for case, states in cases:
+        native = analytic.toss_rows(rows_from_states(case, states), trust="certain")
+        found, is_certain = tossed(loaded, case, states, "outcome"), native.outcome_certain == 1
         is_same = native.outcome == found["outcome"]
         count, same = count + len(is_same), same + int(is_same.sum())
         bits += int((native.end_time == found["endTime"]).sum())
-        certain += int(native.outcome_certain.sum())
-        other += int((native.outcome_certain & ~is_same).sum())
+        certain += int(is_certain.sum())
+        other += int((is_certain & ~is_same).sum())
     print(f"{count} tosses: {same} outcomes are the same, {bits} ends to the bit")
     print(f"{certain} are certain: {other} of them end otherwise")
     assert count >= 20_000

@@ -9,7 +9,8 @@ import pytest
 import cointoss
 from cointoss import analytic
 from cointoss.compare.metrics.estimates import share
-from cointoss.models.releases import Releases
+from cointoss.compare.reproduction.setups.planar_maps import faces_after
+from cointoss.models.batch import rows_of
 from tests.helpers.lab import COUNTED, HEIGHT, SPIN, go
 
 
@@ -24,10 +25,8 @@ def row_of(scenario, values, after, **fixed):
     """Return the faces along a row of a map, over values of the spin."""
     pairs = [part for name, value in fixed.items() for part in (name.replace("__", "."), value)]
     held = scenario.replace(*pairs) if pairs else scenario
-    releases = Releases.of(held, len(values), angular_velocity_eta=values)
-    if after is None:
-        return analytic.toss_many(held, releases).outcome
-    return analytic.toss_many(held.replace("ending.max_impacts", after + 1), releases).after(after)
+    rows = rows_of(held, len(values), {SPIN: values})
+    return analytic.toss_rows(rows).outcome if after is None else faces_after(rows, after)
 
 
 def changes(faces_):
@@ -50,11 +49,9 @@ def test_the_share_of_a_hand_is_that_of_the_package(kept):
         # Within four standard errors.
         assert values.mean() == pytest.approx(mean, rel=4 * 0.02 / 2000**0.5)
         assert values.std() == pytest.approx(0.02 * mean, rel=4 / (2 * 2000) ** 0.5)
-    drawn = {"height": fields[HEIGHT], "angular_velocity_eta": fields[SPIN]}
-    releases = Releases.of(scenario_of(stop), 2000, **drawn)
+    rows = rows_of(scenario_of(stop), 2000, fields)
     for after, least, most in ((0, 0.99, 1), (2, 0.4, 0.6)):
-        scenario = scenario_of(stop).replace("ending.max_impacts", after + 1)
-        expected = share(analytic.toss_many(scenario, releases).after(after) == 1)
+        expected = share(faces_after(rows, after) == 1)
         assert least <= expected.value <= most
         if after == 0:
             shown = tuple(f"{100 * part:.1f}" for part in (expected.value, expected.low, expected.high))

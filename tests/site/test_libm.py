@@ -43,7 +43,7 @@ def test_every_number_of_a_toss_is_the_same(loaded, here):
 
 def test_many_tosses_are_the_same(loaded):
     for kind in CLASSES:
-        given = f"{written(kind.scenario)}, {changes(kind.releases(MANY))}, 'certain'"
+        given = f"{written(kind.scenario)}, {changes(kind.starts(MANY))}, 'certain'"
         names = {"outcome": "outcome", "impacts": "impacts", "end_time": "endTime"}
         names |= {"trusted_impacts": "trustedImpacts", "outcome_certain": "outcomeCertain"}
         taken = ", ".join(f"{ours}: [...all.{theirs}]" for ours, theirs in names.items())

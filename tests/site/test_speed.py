@@ -11,9 +11,10 @@ import pytest
 import cointoss
 from cointoss import analytic
 from cointoss.compare.reproduction.setups.general_coins import CLASSES
-from cointoss.models.releases import Releases
+from cointoss.models.batch import rows_from_states, rows_of
 from tests.helpers.draws import AIR, THIN, scenario
 from tests.helpers.engine_page import changes, written
+from tests.helpers.many import same_states
 
 FEW = 8
 PLANAR = scenario(coin=THIN, air=AIR, floor={"restitution": 0.6}, release={"position": [0, 0, 0.4]})
@@ -21,14 +22,15 @@ GENERAL = {kind.name: kind for kind in CLASSES}
 
 
 def planar(n):
-    ends = {"height": np.linspace(0.2, 0.6, n), "angular_velocity_eta": np.linspace(20, 60, n)[::-1]}
-    return Releases.of(PLANAR, n, **ends)
+    position, spin = np.zeros((2, n, 3))
+    position[:, 2], spin[:, 1] = np.linspace(0.2, 0.6, n), np.linspace(60, 20, n)
+    return same_states(n, position=position, angular_velocity=spin)
 
 
 KINDS = {
     "planar, in air": (PLANAR, planar, 8192),
     **{
-        name: (GENERAL[name].scenario, GENERAL[name].releases, 256)
+        name: (GENERAL[name].scenario, GENERAL[name].starts, 256)
         for name in ("thick, imperfect, air, smooth", "thick, ideal, air, coulomb")
     },
 }
@@ -37,26 +39,26 @@ KINDS = {
 @pytest.mark.parametrize("name", KINDS)
 def test_tosses(loaded, benchmark, capsys, monkeypatch, name):
     monkeypatch.setenv("COINTOSS_THREADS", "1")
-    case, releases_of, many = KINDS[name]
-    releases = releases_of(FEW if benchmark.disabled else many)
+    case, states_of, many = KINDS[name]
+    states = states_of(FEW if benchmark.disabled else many)
     script = f"""(() => {{
-      const given = {changes(releases)}, begun = performance.now();
+      const given = {changes(states)}, begun = performance.now();
       const {{ outcome }} = engine.tossEach({written(case)}, given);
       return [performance.now() - begun, [...outcome]];
     }})()"""
-    native = analytic.toss_many(case, releases, certain=True)
-    sure = native.outcome_certain
-    assert sure is not None
+    rows = rows_from_states(case, states)
+    native = analytic.toss_rows(rows, trust="certain")
+    sure = native.outcome_certain == 1
     assert sure.sum() >= FEW / 2
     elapsed, outcome = loaded.value(script)
     assert np.array_equal(np.array(outcome)[sure], native.outcome[sure])
-    benchmark(lambda: analytic.toss_many(case, releases))
+    benchmark(lambda: analytic.toss_rows(rows))
     if not benchmark.stats:
         return
     in_page = min(elapsed, *(loaded.value(script)[0] for _ in range(4))) / 1000
     here = benchmark.stats.stats.min
     with capsys.disabled():
-        rates = f"{len(releases) / in_page:.0f} tosses/s in the page, {len(releases) / here:.0f} natively"
+        rates = f"{len(rows) / in_page:.0f} tosses/s in the page, {len(rows) / here:.0f} natively"
         print(f"\n{name}, one core: {rates}: {here / in_page:.2f}", end="")
 
 
@@ -82,15 +84,14 @@ def test_a_map(loaded, benchmark, capsys):
     assert 0 < first <= whole
     if not benchmark.stats:
         return
-    releases = Releases.of(
-        case,
-        nx * ny,
-        angular_velocity_eta=np.tile(np.linspace(20, 60, nx), ny),
-        height=np.repeat(np.linspace(0.2, 0.6, ny), nx),
-    )
-    short = case.replace("ending.max_impacts", 3)
+    axes = {
+        "release.angular_velocity.eta": np.tile(np.linspace(20, 60, nx), ny),
+        "release.position.z": np.repeat(np.linspace(0.2, 0.6, ny), nx),
+        "ending.max_impacts": 3,
+    }
+    rows = rows_of(case, nx * ny, axes)
     begun = time.perf_counter()
-    analytic.toss_many(short, releases)
+    analytic.toss_rows(rows)
     here = time.perf_counter() - begun
     with capsys.disabled():
         seen = f"seen after {first / 1000:.2f} s, whole after {whole / 1000:.2f} s"

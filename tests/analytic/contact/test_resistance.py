@@ -13,9 +13,10 @@ from cointoss.analytic.contact.rest import rests
 from cointoss.analytic.contact.rim_contact import both_rims, rim_contact
 from cointoss.analytic.contact.sampling import floor_force
 from cointoss.analytic.numerics.tolerances import CONTACT_STEP_ERROR, SLOW
-from cointoss.compare.reproduction.setups.hands import releases_of_hands
+from cointoss.compare.reproduction.setups.hands import states_of_hands
 from cointoss.compare.reproduction.studies.endings import draw_toss
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
+from cointoss.models.batch import rows_from_states
 from cointoss.models.certificate import CONTACT_ENERGY
 from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.records import Ending, Outcome
@@ -336,10 +337,10 @@ def test_nickels_released_by_hand_come_to_rest():
         air=AIR,
         floor={"contact": "coulomb", "friction": 0.3, "restitution": 0.5},
     )
-    releases = releases_of_hands(np.random.default_rng(1993), 150, aside=10.0)
-    free = analytic.toss_many(case, releases)
+    starts = states_of_hands(np.random.default_rng(1993), 150, aside=10.0)
+    free = analytic.toss_rows(rows_from_states(case, starts))
     assert Ending.STANDING in free.ending
     resisted = case.replace("floor.rolling_friction", 1e-4, "floor.pivoting_friction", 1e-4)
-    ended = analytic.toss_many(resisted, releases)
+    ended = analytic.toss_rows(rows_from_states(resisted, starts))
     assert set(ended.ending) <= {Ending.PAPER, Ending.LYING, Ending.AT_REST}
     assert set(ended.outcome) <= {Outcome.HEADS, Outcome.TAILS, Outcome.EDGE}

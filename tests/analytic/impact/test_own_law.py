@@ -4,7 +4,6 @@
 
 import math
 import pickle
-from dataclasses import fields
 
 import numba
 import numpy as np
@@ -18,6 +17,7 @@ from cointoss.analytic.flight.state_vector import STATE_SIZE
 from cointoss.analytic.horizon.touch_derivatives import touch_derivatives
 from cointoss.analytic.impact import own_law
 from cointoss.analytic.impact.own_law import rules_by
+from cointoss.models.batch import rows_of, scenario_of_row
 from cointoss.models.certificate import IMPACT_ENERGY, LAW
 from cointoss.models.making import MOST_LOSSLESS
 from cointoss.models.records import IMPACT_ROW, Ending, Outcome, UnsupportedError
@@ -100,14 +100,12 @@ def test_only_a_law_that_may_not_add_energy_settles_a_face():
 
 def test_many_tosses_are_those_of_one(same):
     case = cointoss.load("fig24a").replace("floor.friction", 0.2, "floor.contact", "sliding_friction")
-    releases = cointoss.Releases.of(case, 8, spin=(20, 40))
-    outcomes = analytic.toss_many(case, releases, law=same, certain=True)
+    rows = rows_of(case, 8, {"release.angular_velocity.eta": np.linspace(20, 40, 8)})
+    outcomes = analytic.toss_rows(rows, law=same, trust="certain")
     assert outcomes.trusted_impacts is not None
     assert outcomes.outcome_certain is not None
     for i in range(8):
-        x, v, e, w = (getattr(releases, item.name)[i].tolist() for item in fields(releases))
-        release = cointoss.Release(position=x, velocity=v, quaternion=e, angular_velocity=w)
-        toss = analytic.toss(case.replace("release", release), law=same)
+        toss = analytic.toss(scenario_of_row(rows[i]), law=same)
         assert (outcomes.outcome[i], outcomes.ending[i]) == (toss.outcome, toss.ending)
         assert outcomes.impacts[i] == len(toss.impacts)
         assert outcomes.trusted_impacts[i] == toss.trusted_impacts
@@ -446,7 +444,7 @@ def test_only_the_analytic_engine_takes_one_and_only_where_the_floor_does_not_re
     with pytest.raises(TypeError, match=r"^law: of type str, accepted: a cointoss.OwnLaw; a named law is "):
         analytic.toss("fig24a", law="smooth")  # pyright: ignore[reportArgumentType]
     with pytest.raises(TypeError, match=r"^law: of type function, accepted: a cointoss.OwnLaw; "):
-        analytic.toss_many("fig24a", cointoss.Releases.of("fig24a", 1), law=smooth)  # pyright: ignore
+        analytic.toss_rows(rows_of(rolling, 1), law=smooth)  # pyright: ignore[reportArgumentType]
 
 
 def test_a_law_is_pickled_by_its_function_and_made_anew():

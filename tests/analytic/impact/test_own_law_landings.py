@@ -5,9 +5,9 @@
 import numpy as np
 import pytest
 
-import cointoss
 from cointoss import analytic
 from cointoss.analytic import OwnLaw
+from cointoss.models.batch import rows_of
 from cointoss.models.certificate import IMPACT_ENERGY, LAW, MOMENTUM
 from cointoss.models.laws import EndingTest
 from cointoss.models.records import Ending, UnsupportedError
@@ -183,9 +183,7 @@ def test_a_law_says_up_to_which_restitution_it_is_meant():
     with pytest.raises(UnsupportedError, match=says):
         analytic.toss(case.replace("floor.restitution", 0.81), law=law)
     with pytest.raises(UnsupportedError, match=says):
-        analytic.toss_many(
-            case.replace("floor.restitution", 0.81), cointoss.Releases.of(case, 2, spin=(1, 2)), law=law
-        )
+        analytic.toss_rows(rows_of(case, 2, {"floor.restitution": [0.8, 0.81]}), law=law)
 
 
 def test_a_law_says_to_which_accuracy_it_is_meant_and_then_proves_no_face():

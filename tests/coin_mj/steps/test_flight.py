@@ -17,10 +17,10 @@ from cointoss.coin_mj.steps.flight import TOUCH_STEP, FlightExit, fly
 from cointoss.coin_mj.steps.free_step import free_step_from, rates_of_step
 from cointoss.coin_mj.steps.knots import nothing_recorded
 from cointoss.coin_mj.steps.touch_search import arc_of
+from cointoss.models.batch import rows_of
 from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.reading import load
 from cointoss.models.records import Ending, Outcome
-from cointoss.models.releases import Releases
 from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, draw_release, scenario
 
 motion_of, set_motion, state_of = (
@@ -221,7 +221,7 @@ def test_a_toss_flies_no_more_steps_than_its_budget():
     settings = replace(MANY, flight_steps=7)
     one = coin_mj.toss(case, settings=settings)
     assert (one.outcome, one.ending) == (Outcome.UNDECIDED, Ending.FLIGHT_STEPS)
-    many = coin_mj.toss_many(case, Releases.of(case, 1), settings=settings)
+    many = coin_mj.toss_rows(rows_of(case, 1), settings=settings)
     assert (many.ending[0], many.end_time[0]) == (Ending.FLIGHT_STEPS, one.end_time)
     whole = coin_mj.toss(case, settings=MANY)
     assert whole.ending == Ending.MAX_IMPACTS

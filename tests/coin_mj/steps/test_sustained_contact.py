@@ -14,12 +14,13 @@ from cointoss.coin_mj.toss import run
 from cointoss.compare.metrics.estimates import chance_alike
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.barriers import energy
+from cointoss.models.batch import rows_from_states
 from cointoss.models.certificate import GAP
 from cointoss.models.free_joint import to_mass_center
 from cointoss.models.geometry import contact_velocity, gap, lowest_point
 from cointoss.models.records import Ending, Outcome
 from tests.helpers.draws import AIR, LONG_TRANSIENT, PAPER_OFFSET, THIN, ZLOTY, scenario
-from tests.helpers.many import draw_releases
+from tests.helpers.many import draw_states
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
@@ -187,7 +188,8 @@ def test_random_tosses_are_decided(realisation, law, air, thickness):
             floor={"contact": law, "friction": 0.3, "restitution": chi},
             air=air,
         )
-        outcomes = coin_mj.toss_many(case, draw_releases(rng, 6 if air else 2)[1], settings=settings)
+        rows = rows_from_states(case, draw_states(rng, 6 if air else 2)[1])
+        outcomes = coin_mj.toss_rows(rows, settings=settings)
         assert set(outcomes.outcome.tolist()) <= DECIDED
         if air:
             assert Outcome.PERPETUAL not in outcomes.outcome
@@ -201,7 +203,8 @@ def test_outcomes_are_as_frequent_as_those_of_the_other_engine(law):
     case = scenario(floor={"contact": law, "friction": 0.3, "restitution": 0.6}, air=AIR)
     counts = {}
     for seed, (name, engine) in enumerate({"analytic": analytic, "mujoco": coin_mj}.items()):
-        outcomes = engine.toss_many(case, draw_releases(np.random.default_rng([7, seed]), 600)[1])
+        states = draw_states(np.random.default_rng([7, seed]), 600)[1]
+        outcomes = engine.toss_rows(rows_from_states(case, states))
         counts[name] = [
             int(np.sum(outcomes.outcome == outcome))
             for outcome in (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE)

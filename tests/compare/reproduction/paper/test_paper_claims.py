@@ -21,11 +21,12 @@ from cointoss.compare.reproduction.claims import (
 from cointoss.compare.reproduction.paper import fig27, fig31
 from cointoss.compare.reproduction.setups import fig24_readings
 from cointoss.compare.reproduction.setups.general_coins import CoinClass
-from cointoss.compare.reproduction.setups.hands import HEIGHTS, SPINS, releases_of_hands
-from cointoss.compare.reproduction.setups.planar_maps import case, faces_after, releases, touched_faces
+from cointoss.compare.reproduction.setups.hands import HEIGHTS, SPINS, states_of_hands
+from cointoss.compare.reproduction.setups.planar_maps import case, faces_after, planar_rows, touched_faces
 from cointoss.compare.reproduction.setups.standing import standing
 from cointoss.compare.reproduction.setups.uncertain_shares import ACCURACIES, slope
 from cointoss.models.attitude import rotation_matrix
+from cointoss.models.batch import PLACE, states_of
 from cointoss.models.laws import ContactLaw, EndingTest
 from cointoss.models.parts import Release
 from cointoss.models.records import IMPACT_ROW, Ending, Outcome
@@ -58,14 +59,14 @@ def test_the_bias_of_hands_is_freed_of_chance(p, bias):
 
 
 def test_hands_keep_their_habit():
-    drawn = releases_of_hands(np.random.default_rng(1), 50, 40, spread=0.02, aside=10.0)
-    spin = drawn.angular_velocity[:, 1].reshape(50, 40)
+    drawn = states_of_hands(np.random.default_rng(1), 50, 40, spread=0.02, aside=10.0)
+    spin = drawn[:, 11].reshape(50, 40)
     assert np.all(spin.std(axis=1) / spin.mean(axis=1) < 0.035)
     assert spin.mean(axis=1).std() > 8
-    exact = releases_of_hands(np.random.default_rng(1), 500, aside=10.0)
-    assert HEIGHTS[0] <= exact.position[:, 2].min() < exact.position[:, 2].max() <= HEIGHTS[1]
-    assert SPINS[0] <= exact.angular_velocity[:, 1].min() < exact.angular_velocity[:, 1].max() <= SPINS[1]
-    assert np.abs(exact.angular_velocity[:, [0, 2]]).max() <= 10
+    exact = states_of_hands(np.random.default_rng(1), 500, aside=10.0)
+    assert HEIGHTS[0] <= exact[:, 2].min() < exact[:, 2].max() <= HEIGHTS[1]
+    assert SPINS[0] <= exact[:, 11].min() < exact[:, 11].max() <= SPINS[1]
+    assert np.abs(exact[:, [10, 12]]).max() <= 10
 
 
 def test_spread_over_cells_is_that_of_stripes_and_none_of_chance():
@@ -90,7 +91,7 @@ def test_touched_faces_are_those_of_single_tosses():
     scenario = case(air=True)
     faces = touched_faces(scenario, z, w, 15)
     for n in (0, 5, 14):
-        assert faces[:, n].tolist() == faces_after(scenario, releases(z, w), n).tolist()
+        assert faces[:, n].tolist() == faces_after(planar_rows(scenario, z, w), n).tolist()
     release = Release(position=(0.0, 0.0, 0.41), angular_velocity=(41.0, 0.0, 0.0))
     whole = toss(scenario.replace("release", release))
     told = [*whole.impacts.face.tolist(), *[int(whole.outcome)] * 15][:15]
@@ -101,12 +102,13 @@ def test_touched_faces_are_those_of_single_tosses():
 def test_a_ball_has_its_radius_in_twelve_dimensions():
     scenario = case(air=True)
     r, g, radius = scenario.coin.radius, scenario.gravity, 0.01
-    ball = heads_in_a_ball.ball_about(scenario, 0.4, 40.0, radius, 4000, np.random.default_rng(4))
+    rows = heads_in_a_ball.ball_about(scenario, 0.4, 40.0, radius, 4000, np.random.default_rng(4))
+    position, velocity, quaternion, spin = np.split(states_of(rows), [3, 6, 10], axis=1)
     size = np.sqrt(
-        np.sum((ball.position - [0, 0, 0.4]) ** 2, axis=1) / r**2
-        + np.sum(ball.velocity**2, axis=1) / (g * r)
-        + 4 * np.sum(ball.quaternion[:, 1:] ** 2, axis=1)
-        + np.sum((ball.angular_velocity - [40.0, 0, 0]) ** 2, axis=1) * r / g
+        np.sum((position - [0, 0, 0.4]) ** 2, axis=1) / r**2
+        + np.sum(velocity**2, axis=1) / (g * r)
+        + 4 * np.sum(quaternion[:, 1:] ** 2, axis=1)
+        + np.sum((spin - [40.0, 0, 0]) ** 2, axis=1) * r / g
     )
     # The angle of a turn differs from twice its sine's half by a part in 10⁵.
     assert size.max() < radius * (1 + 1e-4)
@@ -118,18 +120,18 @@ def test_a_boundary_is_found_to_rounding():
     scenario = case(air=True)
     z = heads_in_a_ball.boundary_above(scenario, 0.33, 37.0)
     beyond = np.array([z, np.nextafter(z, 1)])
-    faces = faces_after(scenario, releases(beyond, np.full(2, 37.0)), 50)
+    faces = faces_after(planar_rows(scenario, beyond, np.full(2, 37.0)), 50)
     assert faces[0] != faces[1]
 
 
 def test_a_stripe_on_a_soft_floor_is_as_wide_as_its_map_shows():
     line = np.linspace(0.2, 0.6, 4001)
-    faces = faces_after(case(air=True), releases(line, np.full_like(line, 55.0)), 0)
+    faces = faces_after(planar_rows(case(air=True), line, np.full_like(line, 55.0)), 0)
     changes = line[np.flatnonzero(np.diff(faces))]
     low, high = changes[:2]
     middle = (low + high) / 2
     # A ladder of ten steps in a decade finds each end at most a quarter too far.
-    width = accuracy_and_stripes.stripe_width("soft floor", middle, 55.0)
+    (width,) = accuracy_and_stripes.stripe_widths("soft floor", np.array([middle]), np.array([55.0]))
     assert high - low - 2e-4 < width < 1.3 * (high - low)
 
 
@@ -151,8 +153,8 @@ def test_stripes_are_counted_by_twins_as_far_as_they_are_wide(monkeypatch, strip
     """Their boundaries lie at random: twins as far apart as many equal stripes would look alike."""
     boundaries = np.sort(np.random.default_rng(4).uniform(*fig31.HEIGHTS, stripes))
 
-    def alternating(_scenario, released, _impacts):
-        return np.searchsorted(boundaries, released.position[:, 2]) % 2
+    def alternating(rows, _impacts):
+        return np.searchsorted(boundaries, rows[:, PLACE["release.position.z"]]) % 2
 
     monkeypatch.setattr(fig31, "faces_after", alternating)
     twins = fig31._differing(case(air=True), np.random.default_rng(5), 400_000, 2)

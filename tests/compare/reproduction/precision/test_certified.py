@@ -32,7 +32,7 @@ from cointoss.compare.reproduction.precision.planar_state import (
     turned_within,
 )
 from cointoss.compare.reproduction.precision.planar_toss import toss_many
-from cointoss.compare.reproduction.setups.planar_maps import case, releases
+from cointoss.compare.reproduction.setups.planar_maps import case, planar_rows
 from cointoss.models.records import Outcome
 from tests.helpers.contacts import follow_step as contact_step
 
@@ -106,7 +106,7 @@ def test_outcomes_are_the_engines(chi, air, law):
     coin, own = coin_of(chi, air, law)
     z, w, starts = drawn(own, 300)
     found = toss_many(coin, starts)
-    engine = analytic.toss_many(scenario_of(chi, air, law), releases(z, w)).outcome
+    engine = analytic.toss_rows(planar_rows(scenario_of(chi, air, law), z, w)).outcome
     assert np.mean(found.outcome == engine) > 0.99
     assert 0.4 < np.mean(found.outcome == Outcome.HEADS) < 0.6
     assert found.contacts.sum() > 0

@@ -7,13 +7,14 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
+from cointoss.analytic.toss import state_at_release
 from cointoss.compare.metrics.margin import QUANTITIES, margins, quantity_of
 from cointoss.compare.reproduction.precision.certified import certified_toss
 from cointoss.compare.reproduction.precision.planar_coin import planar_coin, units
 from cointoss.compare.reproduction.precision.planar_ending import planar_ending
 from cointoss.compare.reproduction.precision.proved_change import PROVED, proved_change, refusal
+from cointoss.models.batch import rows_from_states
 from cointoss.models.records import Ending, Outcome
-from cointoss.models.releases import changed_releases
 from tests.helpers.command_line import cointoss
 from tests.helpers.draws import THIN, scenario
 
@@ -81,8 +82,8 @@ def proofs(case, change=1e-3):
 def outcomes_within(case, quantity, change, settings=analytic.MANY):
     """Return the outcomes of the toss and of releases up to a change away."""
     by = change * np.array([0, 1, -1, 0.9, -0.9, 0.5, -0.3])
-    releases = quantity.change(changed_releases(case.release, len(by), {}), by)
-    return analytic.toss_many(case, releases, settings=settings).outcome
+    rows = rows_from_states(case, np.tile(state_at_release(case.release), (len(by), 1)))
+    return analytic.toss_rows(quantity.change(rows, by), settings=settings).outcome
 
 
 def assert_proofs_hold(case, *, names=PROVED):

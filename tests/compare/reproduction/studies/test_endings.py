@@ -19,8 +19,8 @@ from cointoss.compare.reproduction.studies.endings import (
     EndingCounts,
     by_both,
     compute,
+    draw_for_both,
     draw_toss,
-    toss_by_mujoco,
     within,
 )
 from cointoss.models.records import Outcome
@@ -104,4 +104,5 @@ def test_the_engines_are_compared_on_the_floors_that_both_realise():
         others = tosses(within(outcomes)) - tosses(within(outcomes, "energetic"))
         assert sum(sum(counts[engine]) for counts in both.values()) == others
     assert tosses(within(SAVED.outcomes, "energetic")) > 6000
-    assert toss_by_mujoco((3, 1, 1))[0].floor in BY_BOTH
+    rng = np.random.default_rng(3)
+    assert {draw_for_both(rng, COINS[1])[0].floor for _ in range(20)} == {*BY_BOTH}

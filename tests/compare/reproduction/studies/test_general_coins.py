@@ -121,9 +121,9 @@ def test_the_pieces_of_several_tosses_are_replayed_together():
     assert (pieces.states == before).all()
 
 
-def test_a_timed_toss_is_one_of_toss_many():
+def test_a_timed_toss_is_one_of_many():
     kind = IN_AIR[0]
-    tossed = analytic.toss_many(kind.scenario, kind.releases(4))
+    tossed = analytic.toss_rows(kind.rows(4))
     timed = [timed_toss(kind.scenario.body, kind.scenario.rules, start) for start in kind.starts(4)]
     ends = zip(tossed.outcome, tossed.ending, strict=True)
     assert [end for _, end in timed] == [f"{Outcome(o)}, {Ending(e)}" for o, e in ends]

@@ -27,6 +27,7 @@ from cointoss.compare.reproduction.setups.same_side_fit import (
     spread_of,
     without,
 )
+from cointoss.models.batch import rows_from_states
 from cointoss.models.hand import Hand, same_side_probability
 from cointoss.models.reading import load
 from tests.helpers.command_line import cointoss
@@ -152,8 +153,8 @@ def test_on_a_smooth_floor_a_wobbling_coin_ends_as_it_started(engine):
     """The angular momenta about its normal and about the vertical keep their signs."""
     scenario = load("fig29").replace("floor.restitution", 0.5)
     count = 200 if engine == Engine.ANALYTIC else 20
-    start = Hand(height=0.3, psi=np.radians(60)).releases(scenario.body, np.random.default_rng(5), count)
-    found = first_side(scenario, start, engine)
+    states = Hand(height=0.3, psi=np.radians(60)).states(scenario.body, np.random.default_rng(5), count)
+    found = first_side(rows_from_states(scenario, states), engine)
     assert found.at_rest.all()
     assert len(found.at_rest) == count
     # Not yet at the touches before.
@@ -166,8 +167,8 @@ def test_on_a_smooth_floor_a_wobbling_coin_ends_as_it_started(engine):
 def test_a_caught_coin_shows_its_first_side_as_often_as_the_theorem_says(engine, count, psi):
     """Theorem 2 of Diaconis, Holmes and Montgomery, by whole tosses to a hand in vacuum."""
     scenario = load("fig29").replace("air", {}, "ending.caught", 1.0)
-    start = Hand(psi=np.radians(psi)).releases(scenario.body, np.random.default_rng(11), count)
-    up = caught_side(scenario, start, engine)
+    states = Hand(psi=np.radians(psi)).states(scenario.body, np.random.default_rng(11), count)
+    up = caught_side(rows_from_states(scenario, states), engine)
     p = float(same_side_probability(np.radians(psi)))
     # The height of release scatters by a tenth: few tosses stay below the hand.
     assert 0.9 * count < len(up) < count

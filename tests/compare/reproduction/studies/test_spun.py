@@ -19,6 +19,7 @@ from cointoss.compare.reproduction.studies.spun import (
     tails,
 )
 from cointoss.compare.shares.along import shares
+from cointoss.models.batch import rows_from_states
 from cointoss.models.records import Outcome
 from tests.helpers.pages import saved
 from tests.helpers.studies import missed, unseen
@@ -42,18 +43,15 @@ def test_each_offset_has_draws_of_its_own():
 def test_a_coin_turned_over_with_its_mass_centre_shows_the_other_side():
     """A half turn about a diameter swaps the sides; ζ of C changes its sign, and so does the vertical's."""
     setting = plan_of(THIN, "± 10°", OFFSETS[-1], 40).setting(0)
-    start = setting.hand.releases(setting.scenario.body, np.random.default_rng(1), 40)
+    start = setting.hand.states(setting.scenario.body, np.random.default_rng(1), 40)
     other = setting.scenario.replace("coin.center_of_mass.zeta", -OFFSETS[-1])
-    e0, e1, e2, e3 = start.quaternion.T
+    e0, e1, e2, e3 = start[:, 6:10].T
     # e times a half turn about ξ of the body.
-    over = replace(
-        start,
-        quaternion=np.column_stack([-e1, e0, e3, -e2]),
-        angular_velocity=start.angular_velocity * [1, -1, -1],
-    )
+    attitude = np.column_stack([-e1, e0, e3, -e2])
+    over = np.hstack([start[:, :6], attitude, start[:, 10:] * [1, -1, -1]])
     ended, swapped = (
-        analytic.toss_many(scenario, releases).outcome
-        for scenario, releases in ((setting.scenario, start), (other, over))
+        analytic.toss_rows(rows_from_states(scenario, states)).outcome
+        for scenario, states in ((setting.scenario, start), (other, over))
     )
     sides = {Outcome.HEADS: Outcome.TAILS, Outcome.TAILS: Outcome.HEADS}
     alike = [one == sides.get(Outcome(two), Outcome(two)) for one, two in zip(ended, swapped, strict=True)]
