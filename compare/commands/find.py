@@ -5,8 +5,8 @@ from pathlib import Path
 
 import click
 
-from cointoss.compare.commands.common import SCENARIO_HELP, CountType, Place, plain_errors, print_json
-from cointoss.compare.commands.names import scenario_argument, vary_option
+from cointoss.compare.commands.common import SCENARIO_HELP, Count, Place, plain_errors, print_json
+from cointoss.compare.commands.names import scenario_argument, varied, vary_option
 
 
 @click.command(epilog=SCENARIO_HELP)
@@ -46,8 +46,8 @@ def find(
     """Find a toss that shows a sequence of faces, or ends on its edge.
 
     The fields of --vary may have any value between START and STOP, in SI or with a unit; all else is as the
-    scenario says. FIELD is a dotted path into the scenario, such as release.position.z; fields of the release
-    are fastest. H and T are the faces up at the first, second, ... touch of the floor.
+    scenario says. FIELD is a dotted path into the scenario, such as release.position.z. H and T are the faces
+    up at the first, second, ... touch of the floor.
 
     \b
         cointoss find fig24a --sequence HTTH --vary release.position.z=0.2:0.6 --out htth.toml
@@ -67,7 +67,9 @@ def find(
         described = load(scenario)
         if out is not None:
             require_file(out, ".toml", scenario)
-        found = finding.find(described, *vary, sequence=sequence, outcome=outcome, tosses=tosses, seed=seed)
+        found = finding.find(
+            described, varied(vary), sequence=sequence, outcome=outcome, tosses=tosses, seed=seed
+        )
         if out is not None and found:
             write_text(out, found.to_toml())
         if as_json:

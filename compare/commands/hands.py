@@ -11,7 +11,6 @@ from cointoss.compare.commands.common import (
     engine_option,
     plain_errors,
     print_json,
-    refuse,
 )
 from cointoss.compare.commands.hand_options import chosen_hand, hand_options
 from cointoss.compare.commands.names import scenario_argument
@@ -19,14 +18,8 @@ from cointoss.compare.commands.names import scenario_argument
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from cointoss.compare.engines import Engine
     from cointoss.compare.metrics.estimate import Estimate
-    from cointoss.compare.shares.plan import Plan as SharesPlan
-    from cointoss.models.releases import Releases
-    from cointoss.models.scenario import Scenario
+    from cointoss.compare.shares.plan import Plan
 
 BLOCK = {"analytic": 5000, "mujoco": 100}
 """Tosses that are counted together; an interruption tells those that are counted."""
@@ -50,36 +43,25 @@ def hands(scenario: str, tosses: int, seed: int, engine: str, as_json: bool, **g
     Ctrl-C prints what is counted until then.
     """
     with plain_errors(scenario):
-        import numpy as np
-
         from cointoss.compare.engines import Engine
         from cointoss.compare.film.back_end import require_mujoco
         from cointoss.compare.metrics.estimates import share_of  # where Ctrl-C comes there is no time for it
         from cointoss.compare.output.interruption import Interruption, undoing
-        from cointoss.compare.shares.plan import Plan
+        from cointoss.compare.shares.plan import Plan, check
         from cointoss.models.reading import load
-        from cointoss.models.releases import check_releases
 
         hand, described = chosen_hand(given, load(scenario))
         if engine == Engine.MUJOCO:
             require_mujoco()
-        if hand.spun:
-            plan = Plan(
-                scenario=described, name="", hand=hand, engines=(Engine(engine),), seed=seed, tosses=tosses
-            )
-            several = spins(plan)
-        else:
-            try:
-                start = hand.releases(described.body, np.random.default_rng(seed), tosses)
-                check_releases(described, start)
-            except ValueError as error:
-                refuse(f"{scenario}: {error}")
-            several = first_sides(described, start, Engine(engine))
+        plan = Plan(
+            scenario=described, name="", hand=hand, engines=(Engine(engine),), seed=seed, tosses=tosses
+        )
+        check(plan)
         counted = Counted()
         told = {"hand": asdict(hand), "caught": described.ending.caught, "seed": seed, "engine": engine}
         with undoing(lambda: _answer(counted, told, share_of, as_json=as_json)):
             try:
-                for counted.tosses, counted.counts in several:
+                for counted.tosses, counted.counts in (spins if hand.spun else first_sides)(plan):
                     pass
             except Interruption as interruption:
                 interruption.message += f": {counted.tosses:,d} tosses are counted"
@@ -95,7 +77,7 @@ class Counted:
     is_told: bool = False
 
 
-def spins(plan: "SharesPlan") -> "Iterator[tuple[int, Counts]]":
+def spins(plan: "Plan") -> "Iterator[tuple[int, Counts]]":
     """Yield how many coins were spun so far, and how many ended with each outcome."""
     from cointoss.compare.shares.counting import counting
     from cointoss.models.records import Outcome
@@ -105,37 +87,34 @@ def spins(plan: "SharesPlan") -> "Iterator[tuple[int, Counts]]":
         yield tosses, {str(one): (int(counts[one]), tosses) for one in Outcome if counts[one]}
 
 
-def first_sides(scenario: "Scenario", start: "Releases", engine: "Engine") -> "Iterator[tuple[int, Counts]]":
-    """Yield how many coins were tossed so far, and how often the side that was up at first is up later.
-
-    Args:
-        scenario: that is tossed.
-        start: the releases.
-        engine: that tosses.
-    """
+def first_sides(plan: "Plan") -> "Iterator[tuple[int, Counts]]":
+    """Yield how many coins were tossed so far, and how often the side that was up at first is up later."""
     import numpy as np
 
     from cointoss.compare.metrics.first_side import TOUCHES, caught_side, first_side
-    from cointoss.compare.metrics.release_arrays import chosen
+    from cointoss.compare.shares.plan import rows_of_releases
     from cointoss.models.stages import stage
 
-    def sides(block: "Releases") -> "dict[str, NDArray[np.bool_]]":
-        if scenario.ending.caught is not None:
-            return {"caught": caught_side(scenario, block, engine)}
-        found = first_side(scenario, block, engine)
-        touches = {f"touch {n + 1}": up for n, up in zip(TOUCHES, found.touches, strict=True)}
-        return {**touches, "at rest": found.at_rest}
+    (engine,), setting, counts = plan.engines, plan.setting(0), Counts()
+    states = setting.states(np.random.default_rng(plan.seed), plan.tosses)
 
-    counts: Counts = {}
-    with stage("tosses by hand", "tosses", total=len(start)) as progress:
-        for first in range(0, len(start), BLOCK[engine.value]):
-            block = np.arange(first, min(first + BLOCK[engine.value], len(start)))
-            for name, up in sides(chosen(start, block)).items():
+    def found() -> str:
+        return ", ".join(f"{name} {met / max(of, 1):.1%}" for name, (met, of) in counts.items())
+
+    with stage("tosses by hand", "tosses", total=plan.tosses, detail=found) as progress:
+        for first in range(0, plan.tosses, BLOCK[engine.value]):
+            block = rows_of_releases(setting, states[first : first + BLOCK[engine.value]])
+            if plan.catches:
+                sides = {"caught": caught_side(block, engine)}
+            else:
+                seen = first_side(block, engine)
+                touches = {f"touch {n + 1}": up for n, up in zip(TOUCHES, seen.touches, strict=True)}
+                sides = {**touches, "at rest": seen.at_rest}
+            for name, up in sides.items():
                 met, of = counts.get(name, (0, 0))
                 counts[name] = met + int(up.sum()), of + len(up)
-            tosses = int(block[-1]) + 1
-            yield tosses, dict(counts)
-            progress(tosses, len(start))
+            yield first + len(block), dict(counts)
+            progress(first + len(block), plan.tosses)
 
 
 def _answer(

@@ -30,7 +30,7 @@ def _axes() -> list[str]:
     return [f"{field}=" for field in UNITS]
 
 
-def _along() -> list[str]:
+def _ranging() -> list[str]:
     from cointoss.compare.shares.plan import FIELDS
 
     return [f"{field}=" for field in FIELDS]
@@ -65,12 +65,12 @@ def axis_option(name: str, about: str) -> Callable[..., Any]:
     return click.option(name, required=True, metavar="FIELD=START:STOP:N", help=about, **_completing(_axes))
 
 
-along_option = click.option(
-    "--along",
+ranges_option = click.option(
+    "--vary",
     multiple=True,
     metavar="FIELD=START:STOP:N",
     help="The field that varies, and its N values; a second one: both.",
-    **_completing(_along),
+    **_completing(_ranging),
 )
 vary_option = click.option(
     "--vary",

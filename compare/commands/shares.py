@@ -6,6 +6,7 @@ import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,23 +25,25 @@ from cointoss.compare.commands.common import (
     say,
 )
 from cointoss.compare.commands.hand_options import chosen_hand, hand_options
-from cointoss.compare.commands.names import along_option, scenario_argument
+from cointoss.compare.commands.names import ranges_option, scenario_argument, varied
 
 if TYPE_CHECKING:
-    from cointoss.compare.shares.counting import Counts, Part, Tossed, Tosser
+    import xarray as xr
+
+    from cointoss.compare.engines import Engine
+    from cointoss.compare.shares.counting import Block, Counts, Part, Tosser
     from cointoss.compare.shares.plan import Plan
-    from cointoss.compare.shares.record import Shares
 
 PICTURES = (".png", ".svg", ".pdf")
-
-
+IN_A_PART = 8
+"""Blocks of tosses that a worker of a cluster makes at a time."""
 WHOLE = 1000
 """Columns in which every table has room."""
 
 
 @click.command(epilog=SCENARIO_HELP)
 @scenario_argument
-@along_option
+@ranges_option
 @hand_options
 @click.option(
     "--tosses",
@@ -68,7 +71,7 @@ WHOLE = 1000
 def shares(
     ctx: click.Context,
     scenario: str,
-    along: tuple[str, ...],
+    vary: tuple[str, ...],
     seed: int,
     tosses: int | None,
     to: Given | None,
@@ -83,13 +86,13 @@ def shares(
 
     FIELD is a dotted path into the scenario, such as floor.restitution, coin.thickness or
     coin.center_of_mass.zeta, or a number of the hand, such as hand.height; START and STOP are in SI or carry
-    a unit, both are included. A second --along gives a table of both, and a picture with a panel for each
+    a unit, both are included. A second --vary gives a table of both, and a picture with a panel for each
     of its values. The hand releases the coin, heads up and flat by default, as in `cointoss hands`; the
     scenario's own release is not used.
 
     \b
-        cointoss shares zloty --along floor.restitution=0.2:0.8:4 --tosses 500
-        cointoss shares zloty --along "coin.thickness=1 mm:15 mm:8" --up either --to 1% --out edge.png
+        cointoss shares zloty --vary floor.restitution=0.2:0.8:4 --tosses 500
+        cointoss shares zloty --vary "coin.thickness=1 mm:15 mm:8" --up either --to 1% --out edge.png
 
     Intervals are of 99 %. With --compare both engines toss, each its own releases; the last column is the
     probability that counts of one distribution differ as much by chance (a chi-square test). Ctrl-C prints
@@ -113,13 +116,13 @@ def shares(
         engines = tuple(Engine) if both else (Engine(engine),)
         with naming_options({"to": ("--to", to)}):
             plan = plans.plan_of(
-                along,
+                varied(vary),
                 described,
                 name=Path(scenario).stem,
                 hand=hand,
                 engines=engines,
                 seed=seed,
-                tosses=plans.most_tosses(to and to.value) if tosses is None else tosses,
+                tosses=tosses,
                 to=to and to.value,
             )
         for path in out:
@@ -136,14 +139,13 @@ def shares(
 
 def _count(plan: "Plan", scenario: str, scheduler: str | None, out: Sequence[Path], as_json: bool) -> None:
     """Count, print the result and write it; where a signal or a lost cluster ends it, what there is."""
-    import numpy as np
-
+    from cointoss.compare.output.files import write_text, written_whole
     from cointoss.compare.output.interruption import Interruption, undoing
-    from cointoss.compare.shares.counting import counting
-    from cointoss.compare.shares.record import Shares
-    from cointoss.models.records import Outcome
+    from cointoss.compare.shares import counting, show
+    from cointoss.compare.shares.shares import dataset_of, no_counts
 
-    counts: Counts = np.zeros((len(plan.engines), *plan.shape, len(Outcome)), dtype=np.int64)
+    counts: Counts = no_counts(plan)
+    is_complete = False
     answering, answered = threading.Lock(), False
 
     def answer() -> None:
@@ -152,23 +154,32 @@ def _count(plan: "Plan", scenario: str, scheduler: str | None, out: Sequence[Pat
         with answering:
             if not answered and counts.any():
                 answered = True
-                found = Shares(plan=plan, counts=counts)
-                _print(found, scenario, as_json)
-                _write(found, [path for path in out if path.suffix.lower() not in PICTURES])
+                found = dataset_of(plan, counts, is_complete=is_complete)
+                _print(found, plan, scenario, as_json)
+                for path in out:
+                    if path.suffix.lower() == ".csv":
+                        write_text(path, show.csv(found))
 
     try:
         with undoing(answer), _tosser(scheduler) as tosser:
-            for so_far in counting(plan, tosser):
+            for so_far in counting.counting(plan, tosser):
                 counts = so_far
+            is_complete = True
     except Interruption as interruption:
         interruption.message += f": {int(counts.sum()):,d} tosses are counted"
         raise
-    _write(Shares(plan=plan, counts=counts), [path for path in out if path.suffix.lower() in PICTURES])
+    for path in out:
+        if (suffix := path.suffix.lower()) in PICTURES:
+            from cointoss.compare.shares.picture import picture_of
+
+            drawn = picture_of(dataset_of(plan, counts, is_complete=True), suffix)
+            with written_whole(path) as aside:
+                aside.write_bytes(drawn)
 
 
 @contextmanager
 def _tosser(scheduler: str | None) -> "Iterator[Tosser]":
-    from cointoss.compare.shares.counting import toss_here, toss_part
+    from cointoss.compare.shares.counting import toss_blocks, toss_here
 
     if scheduler is None:
         yield toss_here
@@ -177,51 +188,36 @@ def _tosser(scheduler: str | None) -> "Iterator[Tosser]":
 
     with cluster(scheduler, say, "what was counted is printed") as workers:
 
-        def toss_there(plan: "Plan", parts: "list[Part]") -> "Iterator[tuple[Part, Tossed]]":
-            for engine in plan.engines:
-                own = [part for part in parts if part.engine == engine]
-                yield from workers(partial(toss_part, plan), own, engine)
+        def toss_there(
+            plan: "Plan", engine: "Engine", blocks: "Iterator[Block]"
+        ) -> "Iterator[tuple[Part, Counts]]":
+            parts = iter(lambda: tuple(islice(blocks, IN_A_PART)), ())
+            return workers(partial(toss_blocks, plan, engine), parts, engine)
 
         yield toss_there
 
 
-def _print(found: "Shares", scenario: str, as_json: bool) -> None:
+def _print(found: "xr.Dataset", plan: "Plan", scenario: str, as_json: bool) -> None:
     """Print the shares."""
-    if as_json:
-        print_json({"scenario": scenario, **found.as_json()}, *found.plan.engines)
-        return
     import numpy as np
 
     from cointoss.compare.output.terminal import laid_out
+    from cointoss.compare.shares import show
 
-    plan = found.plan
-    click.echo(laid_out(found.table(), _width()))
+    if as_json:
+        print_json({"scenario": scenario, "to": plan.to, **show.as_json(found)}, *plan.engines)
+        return
+    click.echo(laid_out(show.markdown(found), _width()))
     click.echo(f"\nhand       {plan.hand.in_words}")
     click.echo(f"engine     {' and '.join(plan.engines)}, seed {plan.seed}; in brackets 99 % intervals")
-    if found.not_caught:
-        click.echo(f"left out   {found.not_caught:,d} coins that never came down to the hand")
-    if found.alike:
-        least, settings = np.nanmin(found.alike), len(found.alike)
-        of = f", the least of {settings}; by chance it is so small in {found.least_alike:.2g} of all runs"
-        click.echo(f"alike      with probability {least:.2g}{of if settings > 1 else ''}")
+    if missed := int(found.not_caught.sum()):
+        click.echo(f"left out   {missed:,d} coins that never came down to the hand")
+    if len(alike := show.alike(found)):
+        by_chance = f"; by chance it is so small in {show.least_alike(found):.2g} of all runs"
+        of = f", the least of {len(alike)}{by_chance}" if len(alike) > 1 else ""
+        click.echo(f"alike      with probability {np.nanmin(alike):.2g}{of}")
 
 
 def _width() -> int:
     """Return the width of the terminal; what goes into a file or a pipe keeps its lines whole."""
     return shutil.get_terminal_size().columns if sys.stdout.isatty() else WHOLE
-
-
-def _write(found: "Shares", out: Sequence[Path]) -> None:
-    """Write the table and the pictures."""
-    from cointoss.compare.output.files import write_text, written_whole
-
-    for path in out:
-        suffix = path.suffix.lower()
-        if suffix == ".csv":
-            write_text(path, found.to_csv())
-        else:
-            from cointoss.compare.shares.picture import picture_of
-
-            drawn = picture_of(found, suffix)
-            with written_whole(path) as aside:
-                aside.write_bytes(drawn)

@@ -1,6 +1,7 @@
 """Find a toss that shows a sequence of faces or an outcome."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -139,7 +140,8 @@ def _finite(number: float) -> float | None:
 
 def find(
     scenario: ScenarioSource,
-    *vary: str,
+    vary: Mapping[str, Any],
+    *,
     sequence: str = "",
     outcome: Outcome | str | None = None,
     tosses: int = USUAL_TOSSES,
@@ -147,7 +149,7 @@ def find(
 ) -> Found:
     """Search a window of a scenario for a toss that shows a sequence of faces, an outcome, or both.
 
-        found = find("fig24a", "release.position.z=0.2:0.6", "release.angular_velocity.eta=20:60",
+        found = find("fig24a", {"height": (0.2, 0.6), "release.angular_velocity.eta": (20, 60)},
                      sequence="HTTH")
         found.scenario, found.rooms
 
@@ -156,7 +158,8 @@ def find(
 
     Args:
         scenario: a `Scenario`, the path of its file, or the name of one that comes with the package.
-        vary: FIELD=START:STOP, one or more; those of the release are fastest.
+        vary: for each field that may have any value between two, these: numbers in SI, or texts, which may
+            carry a unit, as (START, STOP) or "START:STOP". A name may be a part that no other field has.
         sequence: faces up at the first touches, as in "HTTH".
         outcome: such as `Outcome.EDGE` or "edge".
         tosses: over the window, at most; where many show it, fewer are made.

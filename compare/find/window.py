@@ -1,39 +1,30 @@
 """A window of a scenario: fields that vary between two values each, and the tosses of points in it."""
 
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cointoss import analytic
-from cointoss.compare.metrics.margin import accepted
-from cointoss.compare.metrics.release_arrays import chosen
-from cointoss.compare.sweep.axes import SPAN_FORM, Span, require_ends, span_of, split_span, unit_of
+from cointoss.compare.find.faces import faces_shown
+from cointoss.compare.sweep.axes import NUMBERS, Span, require_ends, span_of
+from cointoss.compare.sweep.batch import TOSS, Batch, Varied
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.models.errors import ScenarioError
-from cointoss.models.fields import UNITS
+from cointoss.models.batch import refused
 from cointoss.models.parts import LARGEST
 from cointoss.models.records import Array, Face, Outcome
-from cointoss.models.releases import changed_releases
 from cointoss.models.scenario import Scenario
 
 FIELDS = {
     name: unit
-    for name, unit in UNITS.items()
+    for name, unit in NUMBERS.items()
     if name != "ending.max_impacts" and not name.startswith("release.quaternion.")
 }
 """What may vary, and its unit: not a number of impacts, and no component of what has norm 1."""
-
-
-class Ends(NamedTuple):
-    """How the tosses of some points ended."""
-
-    is_tossed: NDArray[np.bool_]
-    """Whether the scenario accepts the point, (n,)."""
-    outcome: NDArray[np.int8]
-    impacts: NDArray[np.int32]
-    last_face: NDArray[np.int8]
+AT_FIRST = 4
+"""Touches that are looked at of every toss; then of those that agree so far twice as many, and so on."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,40 +49,13 @@ class Window:
         pairs = [part for span, value in zip(self.spans, values, strict=True) for part in (span.field, value)]
         return self.scenario.replace(*pairs[:2], *pairs[2:])
 
-    def toss(self, points: Array, max_impacts: int | None = None) -> Ends:
-        """Toss the coin at points, (n, fields), by the analytic engine.
-
-        Those that differ in their release alone are made together.
-
-        Args:
-            points: where.
-            max_impacts: after which a toss stops; None: as the scenario says.
-        """
-        limit = () if max_impacts is None else ("ending.max_impacts", max_impacts)
-        n = len(points)
-        ends = Ends(np.zeros(n, np.bool_), np.zeros(n, np.int8), np.zeros(n, np.int32), np.zeros(n, np.int8))
-        if all(span.is_of_release for span in self.spans):
-            self._toss_together(self.scenario.replace("gravity", self.scenario.gravity, *limit), points, ends)
-            return ends
-        for i, point in enumerate(points):
-            try:
-                scenario = self.scenario_at(point).replace("gravity", self.scenario.gravity, *limit)
-            except ScenarioError:
-                continue
-            one = Ends._make(column[i : i + 1] for column in ends)
-            replace(self, scenario=scenario, spans=())._toss_together(scenario, point[None, :0], one)
-        return ends
-
-    def _toss_together(self, scenario: Scenario, points: Array, ends: Ends) -> None:
-        columns = self.values(points).T if self.spans else []
-        changed = {span.field: values for span, values in zip(self.spans, columns, strict=True)}
-        releases = changed_releases(scenario.release, len(points), changed)
-        ends.is_tossed[:] = accepted(scenario, releases) if len(points) else False
-        kept = np.flatnonzero(ends.is_tossed)
-        if len(kept):
-            tossed = analytic.toss_many(scenario, chosen(releases, kept))
-            for name in ("outcome", "impacts", "last_face"):
-                getattr(ends, name)[kept] = getattr(tossed, name)
+    def rows(self, points: Array) -> tuple[Array, NDArray[np.bool_]]:
+        """Return the tosses at points, (n, fields), as rows, (n, 46), and which are scenarios, (n,)."""
+        columns = zip(self.spans, self.values(points).T, strict=True)
+        varied = tuple(Varied(field=span.field, dims=(TOSS,), values=values) for span, values in columns)
+        batch = Batch(scenario=self.scenario, varied=varied, sizes={TOSS: len(points)})
+        rows = batch.rows(np.arange(len(points)))
+        return rows, ~refused(rows, batch.fields)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -132,40 +96,44 @@ class Target:
             steps: to be looked at; by default all.
         """
         steps = self.steps if steps is None else steps
-        shown, left = np.zeros(len(points), dtype=np.int64), np.arange(len(points))
-        for touch in range(steps):
-            if not len(left):
-                break
-            if touch < len(self.sequence):
-                ends = window.toss(points[left], touch + 1)
-                face = Face.HEADS if self.sequence[touch] == "H" else Face.TAILS
-                met = (ends.impacts == touch + 1) & (ends.last_face == face)
-            else:
-                ends = window.toss(points[left])
-                met = ends.outcome == self.outcome
-            met &= ends.is_tossed
-            shown[left[~ends.is_tossed]] = -1
-            left = left[met]
-            shown[left] += 1
+        rows, is_tossed = window.rows(points)
+        shown, left = np.where(is_tossed, 0, -1), np.flatnonzero(is_tossed)
+        touches, most = 0, min(steps, len(self.sequence))
+        while touches < most and len(left):
+            # Of a long sequence few show the beginning: the others need not go on.
+            touches = min(max(AT_FIRST, 2 * touches), most)
+            agree = faces_shown(rows[left], touches) == self._faces[:touches]
+            shown[left] = np.logical_and.accumulate(agree, axis=1).sum(axis=1)
+            left = left[shown[left] == touches]
+        if steps > len(self.sequence) and len(left):
+            shown[left] += analytic.toss_rows(rows[left]).outcome == self.outcome
         return shown
 
+    @property
+    def _faces(self) -> NDArray[np.int8]:
+        """The faces of the sequence, (n,)."""
+        return np.array([Face.HEADS if one == "H" else Face.TAILS for one in self.sequence], dtype=np.int8)
 
-def window_of(vary: tuple[str, ...], scenario: Scenario) -> Window:
-    """Return the window of FIELD=START:STOP, one or more.
+
+def window_of(vary: Mapping[str, Any], scenario: Scenario) -> Window:
+    """Return the window of fields that vary, each between two values.
 
     Raises:
         SweepError: naming what is wrong and what is accepted.
     """
-    if not vary:
-        raise SweepError(f"vary: nothing, accepted: {SPAN_FORM}, once or more")
-    spans = []
-    for text in vary:
-        if not isinstance(text, str):
-            raise SweepError(f"vary: {text!r}, accepted: {SPAN_FORM}")
-        field, (start, stop) = split_span(text, 2, SPAN_FORM)
-        if field in [span.field for span in spans]:
-            raise SweepError(f"{field}: twice; accepted: each field once")
-        span = span_of(field, start, stop, unit_of(field, scenario, FIELDS))
+    if not isinstance(vary, Mapping) or not vary:
+        given = "nothing" if isinstance(vary, Mapping) else repr(vary)
+        raise SweepError(
+            f'vary: {given}, accepted: a field or more, such as {{"height": ("20 cm", "60 cm")}}'
+        )
+    spans: list[Span] = []
+    for name, given in vary.items():
+        ends = given.split(":") if isinstance(given, str) else given
+        if not isinstance(ends, list | tuple) or len(ends) != 2:
+            raise SweepError(f"{name}={given}: accepted: (START, STOP), or a text START:STOP")
+        span = span_of(name, ends, scenario, FIELDS)
+        if span.field in [one.field for one in spans]:
+            raise SweepError(f"{span.field}: twice; accepted: each field once")
         require_ends(span, scenario)
         spans.append(span)
     return Window(scenario=scenario, spans=tuple(spans))

@@ -6,10 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.compare.engines import Engine
-from cointoss.models.records import Ending, Outcome
-from cointoss.models.releases import Releases
-from cointoss.models.scenario import Scenario
-from cointoss.models.stages import stage
+from cointoss.models.answers import Answers
+from cointoss.models.batch import PLACE, states_of
+from cointoss.models.records import Array, Ending, Outcome
 
 TOUCHES = (0, 1, 2, 3)
 """Impacts before each touch that is counted."""
@@ -25,41 +24,40 @@ class FirstSide:
     """Whether that side is up at the end of the tosses that end on a face, (m,)."""
 
 
-def first_side(scenario: Scenario, start: Releases, engine: Engine) -> FirstSide:
+def first_side(rows: Array, engine: Engine) -> FirstSide:
     """Toss coins, and see where the side is up that was at the release.
 
     Args:
-        scenario: coin, air and floor.
-        start: the releases.
+        rows: of the scenarios, whose attitude is a quaternion, (n, 46).
         engine: that tosses.
     """
-    toss_many = engine.package.toss_many
-    with stage("sides up", "counts", total=len(TOUCHES) + 1) as progress:
-        faces = []
-        for impacts in TOUCHES:
-            faces.append(toss_many(scenario.replace("ending.max_impacts", impacts + 1), start).after(impacts))
-            progress(len(faces), len(TOUCHES) + 1)
-        outcome = toss_many(scenario, start).outcome
-    first, on_a_face = first_faces(start), (outcome == Outcome.HEADS) | (outcome == Outcome.TAILS)
+    several = np.tile(rows, (len(TOUCHES) + 1, 1, 1))
+    several[:-1, :, PLACE["ending.max_impacts"]] = np.array(TOUCHES)[:, None] + 1
+    answers = engine.package.toss_rows(several.reshape(-1, rows.shape[1]))
+    table = [np.split(column, len(several)) for column in answers if column is not None]
+    *at_touches, at_end = (Answers(*part) for part in zip(*table, strict=True))
+    first, outcome = first_faces(rows), at_end.outcome
+    on_a_face = (outcome == Outcome.HEADS) | (outcome == Outcome.TAILS)
+    faces = (one.after(impacts) for one, impacts in zip(at_touches, TOUCHES, strict=True))
     return FirstSide(tuple(face == first for face in faces), (outcome == first)[on_a_face])
 
 
-def caught_side(scenario: Scenario, start: Releases, engine: Engine) -> NDArray[np.bool_]:
+def caught_side(rows: Array, engine: Engine) -> NDArray[np.bool_]:
     """Toss coins to a hand, and see where the side is up in it that was at the release.
 
     Args:
-        scenario: coin, air, floor, and the height at which a hand catches the coin.
-        start: the releases.
+        rows: of the scenarios, with the height at which a hand catches the coin, (n, 46); their attitude is
+            a quaternion.
         engine: that tosses.
 
     Returns:
         Of those that are caught, (m,).
     """
-    ended = engine.package.toss_many(scenario, start)
-    return (ended.outcome == first_faces(start))[ended.ending == Ending.CAUGHT]
+    ended = engine.package.toss_rows(rows)
+    return (ended.outcome == first_faces(rows))[ended.ending == Ending.CAUGHT]
 
 
-def first_faces(start: Releases) -> NDArray[np.int8]:
+def first_faces(rows: Array) -> NDArray[np.int8]:
     """Return the face that is up at each release, as an `Outcome`, (n,)."""
-    e0, e1, e2, e3 = start.quaternion.T
+    e0, e1, e2, e3 = states_of(rows)[:, 6:10].T
     return np.where(e0**2 + e3**2 > e1**2 + e2**2, Outcome.HEADS, Outcome.TAILS).astype(np.int8)

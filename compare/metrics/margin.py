@@ -2,16 +2,16 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from decimal import ROUND_DOWN, ROUND_UP, Context
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cointoss import analytic
-from cointoss.compare.metrics.release_arrays import chosen
+from cointoss.models.batch import PLACE, refused, rows_of
 from cointoss.models.records import Array
-from cointoss.models.releases import Releases, changed_releases, check_releases
+from cointoss.models.rows import release_of
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import counted
 
@@ -53,9 +53,11 @@ class Quantity:
     name: str
     unit: str
     factor: float
-    """The number of its units in one SI unit."""
-    change: Callable[[Releases, Array], Releases]
-    """Adds numbers, in SI units, to releases of one coin."""
+    """Of the unit in one SI unit."""
+    change: Callable[[Array, Array], Array]
+    """Returns rows, (n, 46), whose attitude is a quaternion, changed by numbers in SI units, (n,)."""
+    fields: tuple[str, ...]
+    """What it changes of a row."""
 
 
 @dataclass(frozen=True)
@@ -97,32 +99,50 @@ Proof = Callable[[Scenario, Quantity, float], float]
 along a quantity, both in SI units; 0 where none is proved."""
 
 
-def _moved(field: str, axis: int) -> Callable[[Releases, Array], Releases]:
-    def change(start: Releases, by: Array) -> Releases:
-        return replace(start, **{field: getattr(start, field) + by[:, None] * np.eye(3)[axis]})
-
-    return change
+_ATTITUDE = tuple(field for field in PLACE if field.startswith(("release.angles.", "release.quaternion.")))
+_QUATERNION = _ATTITUDE[3:]
+_A, _Q = ([PLACE[field] for field in fields] for fields in (_ATTITUDE[:3], _QUATERNION))
 
 
-def _turned(axis: int) -> Callable[[Releases, Array], Releases]:
-    def change(start: Releases, by: Array) -> Releases:
-        e0, e = start.quaternion[:, 0], start.quaternion[:, 1:]
+def _moved(name: str, unit: str, factor: float, field: str) -> Quantity:
+    def change(rows: Array, by: Array) -> Array:
+        changed = rows.copy()
+        changed[:, PLACE[field]] += by
+        return changed
+
+    return Quantity(name, unit, factor, change, (field,))
+
+
+def _turned(name: str, axis: int) -> Quantity:
+    def change(rows: Array, by: Array) -> Array:
+        e0, e = rows[:, _Q[0]], rows[:, _Q[1:]]
         cosine, sine = np.cos(by / 2), np.sin(by / 2)
         u = np.eye(3)[axis]
-        turned = cosine[:, None] * e + sine[:, None] * (e0[:, None] * u + np.cross(e, u))
-        first = cosine * e0 - sine * (e @ u)
-        return replace(start, quaternion=np.column_stack([first, turned]))
+        changed = rows.copy()
+        changed[:, _Q[0]] = cosine * e0 - sine * (e @ u)
+        changed[:, _Q[1:]] = cosine[:, None] * e + sine[:, None] * (e0[:, None] * u + np.cross(e, u))
+        return changed
 
-    return change
+    return Quantity(name, "rad", 1.0, change, _QUATERNION)
+
+
+def with_quaternions(rows: Array) -> Array:
+    """Return rows whose attitude is a quaternion of norm 1, (n, 46)."""
+    # NaN, which stands for what is left out, equals itself here.
+    given = np.nan_to_num(rows[:, [*_A, *_Q]], nan=np.inf)
+    _, first, which = np.unique(given, axis=0, return_index=True, return_inverse=True)
+    found = rows.copy()
+    found[:, _A], found[:, _Q] = math.nan, np.array([release_of(rows[i]).attitude for i in first])[which]
+    return found
 
 
 QUANTITIES = (
-    Quantity("height", "mm", 1e3, _moved("position", 2)),
-    *(Quantity(f"velocity {axis}", "mm/s", 1e3, _moved("velocity", i)) for i, axis in enumerate("xyz")),
-    *(Quantity(f"attitude about {axis}", "rad", 1.0, _turned(i)) for i, axis in enumerate(("ξ", "η", "ζ"))),
+    _moved("height", "mm", 1e3, "release.position.z"),
+    *(_moved(f"velocity {axis}", "mm/s", 1e3, f"release.velocity.{axis}") for axis in "xyz"),
+    *(_turned(f"attitude about {axis}", i) for i, axis in enumerate("ξηζ")),
     *(
-        Quantity(f"spin about {axis}", "rad/s", 1.0, _moved("angular_velocity", i))
-        for i, axis in enumerate(("ξ", "η", "ζ"))
+        _moved(f"spin about {axis}", "rad/s", 1.0, f"release.angular_velocity.{name}")
+        for axis, name in zip("ξηζ", ("xi", "eta", "zeta"), strict=True)
     ),
 )
 """Horizontal position is left out: it changes nothing."""
@@ -167,13 +187,13 @@ def margins(
         proved_change: gives a lower bound too; none is given without.
         settings: of the engine.
     """
-    start = changed_releases(scenario.release, 1, {})
+    start = rows_of(scenario, 1)
 
-    def outcomes(releases: Releases) -> Codes:
-        return analytic.toss_many(scenario, releases, settings=settings).outcome
+    def outcomes(rows: Array) -> Codes:
+        return analytic.toss_rows(rows, settings=settings).outcome
 
     def margin_along(quantity: Quantity) -> Margin:
-        found = smallest_changes(scenario, start, quantity, outcomes=outcomes, search=FINE)
+        found = smallest_changes(start, quantity, outcomes=outcomes, search=FINE)
         change = float(found[0])
         proved = proved_change(scenario, quantity, change) if proved_change else 0.0
         proved = _rounded(proved * quantity.factor, 2, ROUND_DOWN)
@@ -183,26 +203,29 @@ def margins(
 
 
 def smallest_changes(
-    scenario: Scenario,
-    start: Releases,
-    quantity: Quantity,
-    *,
-    outcomes: Callable[[Releases], Codes],
-    search: SearchResolution,
+    rows: Array, quantity: Quantity, *, outcomes: Callable[[Array], Codes], search: Search
 ) -> Array:
     """Return the margin of each of many tosses along a quantity, with its sign, in SI units, (n,).
 
-    It is infinite where no change up to 1 does, or none before one that the scenario would refuse.
+    It is infinite where no change up to 1 does, or none before one that makes no scenario.
+
+    Args:
+        rows: of the tosses, each a scenario's, (n, 46).
+        quantity: what changes.
+        outcomes: returns the outcomes of rows, or what else of them is not to change.
+        search: how closely.
     """
+    start = with_quaternions(rows)
     own = outcomes(start)
 
-    def differ(rows: NDArray[np.intp], by: Array) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        changed = quantity.change(chosen(start, np.repeat(rows, by.shape[1])), by.ravel())
-        kept = accepted(scenario, changed)
-        codes = np.repeat(own[rows], by.shape[1])
+    def differ(which: NDArray[np.intp], by: Array) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        changed = quantity.change(np.repeat(start[which], by.shape[1], axis=0), by.ravel())
+        kept = ~refused(changed, quantity.fields)
+        before = np.repeat(own[which], by.shape[1])
+        codes = before.copy()
         if kept.any():
-            codes[kept] = outcomes(chosen(changed, np.flatnonzero(kept)))
-        return (codes != np.repeat(own[rows], by.shape[1])).reshape(by.shape), kept.reshape(by.shape)
+            codes[kept] = outcomes(changed[kept])
+        return (codes != before).reshape(by.shape), kept.reshape(by.shape)
 
     up, down = changes_both_ways(len(start), differ, search, nearest=True)
     return np.where(down < up, -down, up)
@@ -251,15 +274,3 @@ def changes_both_ways(n: int, differ: Differ, search: SearchResolution, *, neare
             ends = cuts[each, first], cuts[each, first + 1]
         high[side, rows] = ends[1]
     return high
-
-
-def accepted(scenario: Scenario, releases: Releases) -> NDArray[np.bool_]:
-    """Return which releases a scenario with this coin, air and gravity would accept, (n,)."""
-    try:
-        check_releases(scenario, releases)
-    except ValueError:
-        if len(releases) == 1:
-            return np.zeros(1, dtype=bool)
-        halves = np.array_split(np.arange(len(releases)), 2)
-        return np.concatenate([accepted(scenario, chosen(releases, half)) for half in halves])
-    return np.ones(len(releases), dtype=bool)

@@ -2,54 +2,45 @@
 
 import math
 import time
-from collections.abc import Callable, Iterable, Iterator
-from functools import partial
-from itertools import product
+from collections.abc import Callable, Iterator
+from heapq import heapify, heappop, heappush
+from itertools import chain, islice, zip_longest
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.compare.engines import Engine
-from cointoss.compare.metrics.estimates import share_of
-from cointoss.compare.metrics.release_arrays import joined
-from cointoss.compare.shares.plan import Plan
-from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.run import next_pixels
+from cointoss.compare.metrics.estimates import wilson
+from cointoss.compare.shares.plan import Plan, rows_of_releases
 from cointoss.models.answers import tally
 from cointoss.models.records import Outcome
 from cointoss.models.stages import stage
 
 BLOCK = {Engine.ANALYTIC: 250, Engine.MUJOCO: 25}
 """Tosses that are drawn from one seed; counting stops after a whole block only, whoever tossed how many."""
+GROWTH, SECOND, MOST = 8, 1.0, 512
+"""Of the blocks that are tossed together: how many times as many as before, the time that they should take
+[s], and how many at most."""
 Counts = NDArray[np.int64]
 """Numbers of tosses by code of `Outcome`."""
 
 
-class Part(NamedTuple):
-    """Blocks of a setting, one after the other."""
+class Block(NamedTuple):
+    """Tosses of a setting that are drawn from one seed."""
 
-    engine: Engine
     setting: int
-    first: int
-    blocks: int
+    number: int
 
 
-class Tossed(NamedTuple):
-    """How the tosses of a part ended."""
-
-    counts: Counts
-    """Of each block, (blocks, 6)."""
-    seconds: float
-    """That it took [s]."""
+Part = tuple[Block, ...]
+"""Blocks that are tossed together, of any settings."""
+Tosser = Callable[[Plan, Engine, Iterator[Block]], Iterator[tuple[Part, Counts]]]
+"""Tosses blocks, and yields parts of them in any order with their counts, (blocks, 6)."""
 
 
-Tosser = Callable[[Plan, list[Part]], Iterable[tuple[Part, Tossed]]]
-"""Tosses parts, and yields them in any order."""
-
-
-def toss_part(plan: Plan, part: Part) -> Tossed:
-    """Toss the blocks of a part.
+def toss_blocks(plan: Plan, engine: Engine, blocks: Part) -> Counts:
+    """Toss blocks together, and count how each ends, (blocks, 6).
 
     The seed of a block is that of the plan, with the engine, the setting and the block for its key: no two
     share draws, and none depends on which were tossed before.
@@ -57,28 +48,29 @@ def toss_part(plan: Plan, part: Part) -> Tossed:
     Raises:
         SweepError: for a release that a scenario refuses.
     """
-    start, setting, size = time.perf_counter(), plan.setting(part.setting), BLOCK[part.engine]
-    sizes = [min(size, plan.tosses - n * size) for n in range(part.first, part.first + part.blocks)]
-    try:
-        drawn = [
-            setting.hand.releases(setting.scenario.body, _draws(plan, part, part.first + n), count)
-            for n, count in enumerate(sizes)
-        ]
-        outcome = part.engine.package.toss_many(setting.scenario, joined(drawn)).outcome
-    except ValueError as error:
-        raise SweepError(str(error)) from None
-    counts = [tally(block) for block in np.split(outcome, np.cumsum(sizes)[:-1])]
-    return Tossed(np.array(counts), time.perf_counter() - start)
+    size, rows = BLOCK[engine], []
+    for one in blocks:
+        setting, count = plan.setting(one.setting), min(size, plan.tosses - one.number * size)
+        rows.append(rows_of_releases(setting, setting.states(draws(plan, engine, one), count)))
+    outcome = engine.package.toss_rows(np.concatenate(rows)).outcome
+    return np.array([tally(part) for part in np.split(outcome, np.cumsum([*map(len, rows)])[:-1])])
 
 
-def _draws(plan: Plan, part: Part, block: int) -> np.random.Generator:
-    key = (list(Engine).index(part.engine), part.setting, block)
+def draws(plan: Plan, engine: Engine, block: Block) -> np.random.Generator:
+    """Return what draws the releases of a block."""
+    key = (list(Engine).index(engine), *block)
     return np.random.default_rng(np.random.SeedSequence(plan.seed, spawn_key=key))
 
 
-def toss_here(plan: Plan, parts: list[Part]) -> Iterator[tuple[Part, Tossed]]:
-    """Toss parts one after the other, each on all cores of this machine."""
-    return zip(parts, map(partial(toss_part, plan), parts), strict=True)
+def toss_here(plan: Plan, engine: Engine, blocks: Iterator[Block]) -> Iterator[tuple[Part, Counts]]:
+    """Toss blocks on all cores of this machine, in parts of about a second."""
+    size = 1
+    while part := tuple(islice(blocks, size)):
+        start = time.perf_counter()
+        counts = toss_blocks(plan, engine, part)
+        seconds = max(time.perf_counter() - start, 1e-9)
+        size = min(max(1, int(len(part) * min(GROWTH, SECOND / seconds))), MOST)
+        yield part, counts
 
 
 class Count:
@@ -88,7 +80,7 @@ class Count:
         """Begin with none."""
         self.plan, self.size = plan, BLOCK[engine]
         self.counts: Counts = np.zeros(len(Outcome), dtype=np.int64)
-        self.blocks, self._next = 0, 1
+        self.blocks, self._waiting = 0, dict[int, Counts]()
 
     @property
     def tosses(self) -> int:
@@ -116,47 +108,60 @@ class Count:
         if self.plan.to is None or (made and math.isinf(self.width)):
             return self.plan.tosses
         tosses, width = (made, self.width) if made else (self.size, _width(self.size // 2, self.size))
-        return min(self.plan.tosses, math.ceil(tosses * (width / self.plan.to) ** 2))
+        return max(made, min(self.plan.tosses, math.ceil(tosses * (width / self.plan.to) ** 2)))
 
-    def part(self, engine: Engine, setting: int) -> Part:
-        """Return the blocks to toss next: of about a second, and about as many as are needed."""
-        left = math.ceil(max(self.needed - self.tosses, 1) / self.size)
-        return Part(engine, setting, self.blocks, min(self._next, left))
-
-    def add(self, tossed: Tossed) -> None:
-        """Add blocks in their order, until it is enough; blocks beyond are left out."""
-        self._next = next_pixels(len(tossed.counts), tossed.seconds)
-        for block in tossed.counts:
-            if self.is_enough:
-                return
+    def add(self, number: int, counts: Counts) -> None:
+        """Add a block after all before it, until it is enough; blocks beyond are left out."""
+        self._waiting[number] = counts
+        while not self.is_enough and (block := self._waiting.pop(self.blocks, None)) is not None:
             self.counts = self.counts + block
             self.blocks += 1
 
 
 def _width(met: int, tosses: int) -> float:
-    found = share_of(met, tosses)
-    return (found.high - found.low) / 2
+    _, low, high = wilson(met, tosses)
+    return float(high - low) / 2
+
+
+def wanted(counts: list[Count]) -> Iterator[Block]:
+    """Yield the blocks to toss next, of the setting that has fewest first, until none is needed about."""
+    queue = [(one.blocks, setting) for setting, one in enumerate(counts) if not one.is_enough]
+    heapify(queue)
+    while queue:
+        number, setting = heappop(queue)
+        one = counts[setting]
+        if not one.is_enough and number * one.size < max(one.needed, one.tosses + 1):
+            yield Block(setting, number)
+            heappush(queue, (number + 1, setting))
 
 
 def counting(plan: Plan, tosser: Tosser = toss_here) -> Iterator[Counts]:
     """Yield the counts so far after each part, (engines, values of each field, 6).
 
-    Every setting has its turn in each round. The counts at the end depend on the plan alone, not on how many
-    cores tossed, nor in which order.
+    All settings go on together, and both engines by turns. The counts at the end depend on the plan alone,
+    not on how many cores tossed, nor in which order.
 
     Raises:
         SweepError, UnsupportedError: for a setting that can't be tossed.
     """
-    settings = range(math.prod(plan.shape))
-    counts = {key: Count(plan, key[0]) for key in product(plan.engines, settings)}
-    with stage("shares", "tosses") as progress:
-        while wanted := [one.part(*key) for key, one in counts.items() if not one.is_enough]:
-            for part, tossed in tosser(plan, wanted):
-                counts[part.engine, part.setting].add(tossed)
-                progress(*(sum(numbers) for numbers in zip(*map(_made_of, counts.values()), strict=True)))
-                table = np.array([one.counts for one in counts.values()])
-                yield table.reshape(len(plan.engines), *plan.shape, len(Outcome))
+    counts = {engine: [Count(plan, engine) for _ in range(math.prod(plan.shape))] for engine in plan.engines}
+    table = np.zeros((len(plan.engines), math.prod(plan.shape), len(Outcome)), dtype=np.int64)
+    needed = np.array([[one.needed for one in several] for several in counts.values()])
 
+    def found() -> str:
+        shares = plan.counted(table).sum(axis=(0, 1)) / max(1, int(plan.counted(table).sum()))
+        return ", ".join(f"{share:.1%} {one}" for one, share in zip(Outcome, shares, strict=True) if share)
 
-def _made_of(count: Count) -> tuple[int, int]:
-    return count.tosses, max(count.needed, count.tosses)
+    def tossed(row: int, engine: Engine) -> Iterator[None]:
+        for part, several in tosser(plan, engine, wanted(counts[engine])):
+            for block, of_block in zip(part, several, strict=True):
+                one = counts[engine][block.setting]
+                one.add(block.number, of_block)
+                table[row, block.setting], needed[row, block.setting] = one.counts, one.needed
+            yield
+
+    with stage("shares", "tosses", detail=found) as progress:
+        while not all(one.is_enough for several in counts.values() for one in several):
+            for _ in chain.from_iterable(zip_longest(*(tossed(*one) for one in enumerate(plan.engines)))):
+                progress(int(table.sum()), int(needed.sum()))
+                yield table.reshape(len(plan.engines), *plan.shape, len(Outcome)).copy()

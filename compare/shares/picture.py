@@ -2,7 +2,7 @@
 
 import io
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib import rc_context
@@ -12,10 +12,16 @@ from matplotlib.figure import Figure
 from cointoss.compare.engines import Engine
 from cointoss.compare.output.plots import axes_or_new
 from cointoss.compare.output.style import GREY, OUTCOMES, STYLE
-from cointoss.compare.shares.record import Row, Shares
+from cointoss.compare.shares.show import fields_of, labelled, outcomes_of, over_engines
+from cointoss.compare.sweep.axes import word_of
 from cointoss.compare.sweep.errors import SweepError
+from cointoss.models.fields import printed_unit
+from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
 from cointoss.models.title import title_of_toss
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 MOST_PANELS, IN_A_ROW = 30, 3
 DPI = 150
@@ -27,36 +33,44 @@ _LINES: dict[Engine, Any] = {
 }
 
 
-def plot_shares(found: Shares, ax: Axes | None = None) -> Any:
-    """Draw shares into axes, those of a new figure of pyplot by default; see `Shares.plot`."""
-    several = len(found.plan.along) > 1
-    if several and ax is not None:
+def plot_shares(shares: "xr.Dataset", ax: Axes | None = None) -> Any:
+    """Draw shares with their intervals over the first field, a panel for each value of the second.
+
+    Args:
+        shares: of `cointoss.shares`.
+        ax: where; by default in a new figure of pyplot. With two fields there are several.
+
+    Returns:
+        The axes, or an array of them.
+
+    Raises:
+        ValueError: for one Axes where several are due.
+    """
+    if len(fields_of(shares)) < 2:
+        return _whole(axes_or_new(ax), shares)
+    if ax is not None:
         raise ValueError("ax: one Axes, accepted: None where two fields vary, which have a panel each")
-    if not several:
-        axes = axes_or_new(ax)
-        _draw(axes, found, found.rows)
-        axes.legend()
-        return axes
     from matplotlib import pyplot
 
-    return _panels(pyplot.figure(layout="constrained"), found)
+    return _panels(pyplot.figure(layout="constrained"), shares)
 
 
-def picture_of(found: Shares, suffix: str) -> bytes:
+def picture_of(shares: "xr.Dataset", suffix: str) -> bytes:
     """Draw shares as the content of a file of that suffix, as in ".png".
 
     Raises:
-        ValueError: for more panels than can be seen.
+        SweepError: for more panels than can be seen.
     """
+    fields = fields_of(shares)
+    require_drawable(tuple(shares.sizes[field] for field in fields))
     with rc_context(STYLE):
-        figure = Figure(figsize=_size(found))
-        if len(found.plan.along) > 1:
-            _panels(figure, found)
+        figure = Figure(figsize=_size(shares))
+        if len(fields) > 1:
+            _panels(figure, shares)
         else:
-            _draw(axes := figure.subplots(), found, found.rows)
-            axes.legend()
-        varied = [*(axis.field for axis in found.plan.along), OF_THE_HAND]
-        title = title_of_toss(found.plan.scenario, found.plan.name, varied=varied)
+            _whole(figure.subplots(), shares)
+        scenario = parse(shares.attrs["scenario"], "attribute scenario")
+        title = title_of_toss(scenario, shares.attrs["name"], varied=[*fields, OF_THE_HAND])
         figure.suptitle(title, parse_math=False)
         drawn = io.BytesIO()
         metadata = {"Date": None} if suffix == ".svg" else None
@@ -74,57 +88,64 @@ def require_drawable(shape: tuple[int, ...]) -> None:
         raise SweepError(f"{shape[1]} values of the second field; accepted: at most {MOST_PANELS}")
 
 
-def _size(found: Shares) -> tuple[float, float]:
-    if len(found.plan.along) < 2:
+def _size(shares: "xr.Dataset") -> tuple[float, float]:
+    fields = fields_of(shares)
+    if len(fields) < 2:
         return 6.0, 3.8
-    panels = found.plan.shape[1]
+    panels = shares.sizes[fields[1]]
     return 3.2 * min(panels, IN_A_ROW), 2.7 * math.ceil(panels / IN_A_ROW) + 0.8
 
 
-def _panels(figure: Figure, found: Shares) -> Any:
+def _whole(axes: Axes, shares: "xr.Dataset") -> Axes:
+    """Draw shares over one field, or of none."""
+    _draw(axes, shares, outcomes_of(shares))
+    axes.legend()
+    return axes
+
+
+def _panels(figure: Figure, shares: "xr.Dataset") -> Any:
     """Draw a panel for each value of the second field."""
-    second, panels = found.plan.along[1], found.plan.shape[1]
-    columns = min(panels, IN_A_ROW)
-    grid = figure.subplots(math.ceil(panels / columns), columns, sharex=True, sharey=True, squeeze=False)
+    second = fields_of(shares)[1]
+    values, unit = shares[second].values, printed_unit(shares[second].attrs["units"])
+    columns = min(len(values), IN_A_ROW)
+    rows = math.ceil(len(values) / columns)
+    grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
     each = grid.ravel()
-    for axes in each[panels:]:
+    for axes in each[len(values) :]:
         axes.remove()
-    for i, (axes, value) in enumerate(zip(each, second.values, strict=False)):
-        _draw(axes, found, [row for row in found.rows if row.values[1] == value])
-        axes.set_title(f"{second.word} {value:.4g} {second.printed_unit}".rstrip())
-        is_lowest = i + columns >= panels
+    for i, (axes, value) in enumerate(zip(each, values, strict=False)):
+        _draw(axes, shares.isel({second: i}), outcomes_of(shares))
+        axes.set_title(f"{word_of(second)} {value:.4g} {unit}".rstrip())
+        is_lowest = i + columns >= len(values)
         axes.tick_params(labelbottom=is_lowest)
         axes.set(
             xlabel=axes.get_xlabel() if is_lowest else "", ylabel="" if i % columns else axes.get_ylabel()
         )
     figure.legend(*each[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
-    return each[:panels]
+    return each[: len(values)]
 
 
-def _draw(axes: Axes, found: Shares, rows: list[Row]) -> None:
-    """Draw the shares of some settings over the first field."""
-    along = found.plan.along
-    engines = found.plan.engines
-    for engine in engines:
-        of_engine = [row for row in rows if row.engine == engine and row.tosses]
-        shares = [row.shares for row in of_engine]
-        x = np.array([row.values[0] if row.values else 0.0 for row in of_engine])
-        for outcome in found.outcomes:
-            ends = np.array([one[outcome].ends for one in shares]).reshape(-1, 3)
-            color = GREY if outcome == Outcome.UNDECIDED else OUTCOMES[outcome]
-            label = str(outcome) if len(engines) == 1 else f"{outcome}, {engine}"
+def _draw(axes: Axes, shares: "xr.Dataset", outcomes: list[str]) -> None:
+    """Draw the shares of some outcomes over the field that is left, if any."""
+    fields, whole = fields_of(shares), over_engines(shares)
+    x = shares[fields[0]].values if fields else np.zeros(1)
+    for engine in map(Engine, whole.engine.values.tolist()):
+        for outcome in outcomes:
+            of_engine = whole.sel(engine=engine.value, outcome=outcome)
+            share, low, high = (np.atleast_1d(of_engine[name].values) for name in ("share", "low", "high"))
+            code = Outcome(outcome)
             axes.errorbar(
                 x,
-                ends[:, 0],
-                yerr=np.maximum([ends[:, 0] - ends[:, 1], ends[:, 2] - ends[:, 0]], 0.0),
-                color=color,
+                share,
+                yerr=np.maximum([share - low, high - share], 0.0),
+                color=GREY if code == Outcome.UNDECIDED else OUTCOMES[code],
                 capsize=2,
                 elinewidth=0.9,
-                label=label,
+                label=outcome if whole.sizes["engine"] == 1 else f"{outcome}, {engine}",
                 **_LINES[engine],
             )
     axes.set(ylabel="share of the tosses", ylim=(-0.02, None))
-    if along:
-        axes.set_xlabel(f"{along[0].word} [{along[0].printed_unit}]" if along[0].unit else along[0].word)
+    if fields:
+        axes.set_xlabel(labelled(shares, fields[0]))
     else:
         axes.set_xticks([])

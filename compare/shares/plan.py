@@ -1,23 +1,23 @@
 """What is counted: a scenario tossed by a hand, along some fields, by one engine or both."""
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, fields, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from itertools import product
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.compare.engines import Engine
-from cointoss.compare.sweep.axes import HAND, Axis, parse_axis
+from cointoss.compare.sweep.axes import HAND, Axis, axis_of
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
+from cointoss.models.batch import STATE, refused, rows_from_states, scenario_of_row
 from cointoss.models.errors import FieldError, ScenarioError
 from cointoss.models.fields import UNITS
 from cointoss.models.hand import OF_A_TOSS, Hand
 from cointoss.models.parts import LARGEST, Release
-from cointoss.models.records import Outcome
-from cointoss.models.releases import RefusedRowError, check_releases
+from cointoss.models.records import Array, Outcome
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import counted
 from cointoss.models.unused import warn_of_unused_fields
@@ -38,11 +38,6 @@ _GIVES = {"position": "height", "velocity": "speed", "angular_velocity": "spin"}
 """What of the hand each part of a release is made of."""
 
 
-def most_tosses(to: float | None) -> int:
-    """Return the tosses of a setting, at most, where their number is not asked for."""
-    return USUAL_TOSSES if to is None else MOST_TOSSES
-
-
 class Setting(NamedTuple):
     """A point of the grid."""
 
@@ -53,6 +48,10 @@ class Setting(NamedTuple):
     place: str
     """The values in words, after what is wrong there; empty for the one point of no fields."""
 
+    def states(self, rng: np.random.Generator, count: int) -> Array:
+        """Draw states at release, (n, 13)."""
+        return self.hand.states(self.scenario.body, rng, count)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:
@@ -62,7 +61,7 @@ class Plan:
     name: str
     """What the scenario is called; empty for one without a name."""
     hand: Hand
-    along: tuple[Axis, ...] = ()
+    vary: tuple[Axis, ...] = ()
     engines: tuple[Engine, ...] = (Engine.ANALYTIC,)
     seed: int = 0
     tosses: int = USUAL_TOSSES
@@ -80,9 +79,9 @@ class Plan:
         require_whole("tosses", self.tosses, 1, MOST_TOSSES)
         if self.to is not None and not (isinstance(self.to, float) and 1e-4 <= self.to <= 0.5):
             raise FieldError("to", self.to, "a part from 0.01 % to 50 %")
-        names = [axis.field for axis in self.along]
+        names = [axis.field for axis in self.vary]
         if len(names) > MOST_AXES:
-            raise SweepError(f"along: {len(names)} fields, accepted: at most {MOST_AXES}")
+            raise SweepError(f"vary: {len(names)} fields, accepted: at most {MOST_AXES}")
         if len(set(names)) < len(names):
             raise SweepError(f"{names[0]}: on both axes; accepted: two fields")
         for name in names:
@@ -90,17 +89,17 @@ class Plan:
                 raise SweepError(f"{name}: of no use where the coin is spun on its edge; accepted: others")
         if math.prod(self.shape) > MOST_SETTINGS:
             grid = " by ".join(map(str, self.shape))
-            raise SweepError(f"along: {grid} settings, accepted: at most {MOST_SETTINGS}")
+            raise SweepError(f"vary: {grid} settings, accepted: at most {MOST_SETTINGS}")
 
     @property
     def shape(self) -> tuple[int, ...]:
         """Values of each field."""
-        return tuple(axis.count for axis in self.along)
+        return tuple(axis.count for axis in self.vary)
 
     @property
     def catches(self) -> bool:
         """Whether a hand catches the coin."""
-        varied = any(axis.field == "ending.caught" for axis in self.along)
+        varied = any(axis.field == "ending.caught" for axis in self.vary)
         return varied or self.hand.caught is not None or self.scenario.ending.caught is not None
 
     def counted(self, counts: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -118,18 +117,18 @@ class Plan:
         Raises:
             SweepError: for values that make no valid scenario or hand.
         """
-        for values in product(*(axis.values.tolist() for axis in self.along)):
+        for values in product(*(axis.values.tolist() for axis in self.vary)):
             yield self._setting(values)
 
     def setting(self, number: int) -> Setting:
         """Return a point of the grid by its number."""
-        at = np.unravel_index(number, self.shape) if self.along else ()
-        return self._setting(tuple(float(axis.values[i]) for axis, i in zip(self.along, at, strict=True)))
+        at = np.unravel_index(number, self.shape) if self.vary else ()
+        return self._setting(tuple(float(axis.values[i]) for axis, i in zip(self.vary, at, strict=True)))
 
     def _setting(self, values: tuple[float, ...]) -> Setting:
-        at = ", ".join(f"{axis.field} = {one:g}" for axis, one in zip(self.along, values, strict=True))
+        at = ", ".join(f"{axis.field} = {one:g}" for axis, one in zip(self.vary, values, strict=True))
         place = f" (at {at})" if at else ""
-        pairs = dict(zip((axis.field for axis in self.along), values, strict=True))
+        pairs = dict(zip((axis.field for axis in self.vary), values, strict=True))
         of_hand = {name.removeprefix("hand."): pairs.pop(name) for name in list(pairs) if name in HAND}
         numbers = {name: int(one) if name == "ending.max_impacts" else one for name, one in pairs.items()}
         try:
@@ -145,27 +144,53 @@ class Plan:
         return Setting(values, scenario, hand, place)
 
 
-def plan_of(along: tuple[str, ...], scenario: Scenario, **others: object) -> Plan:
+def plan_of(
+    vary: Mapping[str, Any], scenario: Scenario, *, tosses: int | None, to: float | None, **others: Any
+) -> Plan:
     """Return the plan whose fields vary so.
 
     Args:
-        along: FIELD=START:STOP:N each.
+        vary: by field a range START:STOP:N, as text or as (START, STOP, N).
         scenario: whose coin is tossed.
+        tosses: of each setting, at most; None: as many as are usual.
+        to: as in a plan.
         others: fields of the plan.
 
     Raises:
         SweepError, FieldError: naming what is wrong and what is accepted.
     """
-    for text in along:
-        if not isinstance(text, str):
-            raise SweepError(f"along: {text!r}, accepted: FIELD=START:STOP:N")
-        if text.strip().startswith("release."):
-            field = text.partition("=")[0]
-            raise SweepError(f"{field}: the hand releases the coin; accepted: {', '.join(HAND)}, and others")
-    axes = tuple(parse_axis(text, scenario, FIELDS) for text in along)
-    known = {item.name for item in fields(Plan)}
-    assert known.issuperset(others)
-    return Plan(scenario=scenario, along=axes, **others)  # pyright: ignore[reportArgumentType]
+    if not isinstance(vary, Mapping):
+        raise SweepError(f'vary: {vary!r}, accepted: a dict such as {{"hand.height": "0.2:2:10"}}')
+    axes = []
+    for name, given in vary.items():
+        if str(name).startswith("release."):
+            raise SweepError(f"{name}: the hand releases the coin; accepted: {', '.join(HAND)}, and others")
+        ends = given.split(":") if isinstance(given, str) else given
+        if not isinstance(ends, list | tuple) or len(ends) != 3:
+            raise SweepError(f"{name}={given}: accepted: START:STOP:N, such as 0.2:0.8:7")
+        axes.append(axis_of(name, ends, scenario, FIELDS))
+    if tosses is None:
+        tosses = USUAL_TOSSES if to is None else MOST_TOSSES
+    return Plan(scenario=scenario, vary=tuple(axes), tosses=tosses, to=to, **others)
+
+
+def rows_of_releases(setting: Setting, states: Array) -> Array:
+    """Return a setting's scenario released in each of many states, (n, 13), as rows, (n, 46).
+
+    Raises:
+        SweepError: for a state that the scenario refuses, naming what of the hand made it.
+    """
+    rows = rows_from_states(setting.scenario, states)
+    wrong = refused(rows, STATE)
+    if wrong.any():
+        try:
+            scenario_of_row(rows[np.argmax(wrong)])
+        except ScenarioError as error:
+            field, _, why = str(error).partition(" = ")
+            name = _GIVES[field.split(".")[1].partition("[")[0]]
+            accepted = f"accepted: {why.partition('accepted: ')[2]}{setting.place}"
+            raise SweepError(f"hand.{name} = {getattr(setting.hand, name):g}: {accepted}") from None
+    return rows
 
 
 def check(plan: Plan) -> None:
@@ -182,12 +207,5 @@ def check(plan: Plan) -> None:
     for setting in counted("checking the grid", "settings", list(plan.settings())):
         for engine in plan.engines:
             engine.package.require_supported(setting.scenario, settings=engine.package.MANY)
-        try:
-            few = setting.hand.releases(setting.scenario.body, np.random.default_rng(plan.seed), 1)
-            check_releases(setting.scenario, few)
-        except RefusedRowError as error:
-            name = _GIVES[error.name]
-            number = getattr(setting.hand, name)
-            accepted = f"accepted: {error.accepted}{setting.place}"
-            raise SweepError(f"hand.{name} = {number:g}: {accepted}") from None
+        rows_of_releases(setting, setting.states(np.random.default_rng(plan.seed), 1))
     warn_of_unused_fields(setting.scenario.floor, setting.scenario.air)

@@ -14,14 +14,14 @@ from cointoss.models.hand import Hand
 from tests.helpers.command_line import cointoss, refused
 from tests.helpers.processes import answered, ask, started, wait_until
 
-ALONG = ("--along", "floor.restitution=0.3:0.6:2", "--tosses", 300, "--seed", 5)
+VARY = ("--vary", "floor.restitution=0.3:0.6:2", "--tosses", 300, "--seed", 5)
 
 
 def test_the_table_the_json_and_the_files_hold_the_same_counts(coin, tmp_path):
     table, picture = tmp_path / "shares.csv", tmp_path / "shares.svg"
-    printed = cointoss("shares", coin, *ALONG, "--out", table, "--out", picture)
+    printed = cointoss("shares", coin, *VARY, "--out", table, "--out", picture)
     assert printed.exit_code == 0, printed.stderr
-    told = json.loads(cointoss("shares", coin, *ALONG, "--json").stdout)
+    told = json.loads(cointoss("shares", coin, *VARY, "--json").stdout)
     assert set(told["versions"]) == {"cointoss", "numpy"}
     rows = list(csv.DictReader(io.StringIO(table.read_text())))
     for row, setting in zip(rows, told["settings"], strict=True):
@@ -116,28 +116,28 @@ def test_the_hands_file_is_not_written_over(coin, tmp_path):
 
 def test_ctrl_c_prints_and_writes_what_is_counted(coin, tmp_path):
     script = """
-import itertools, sys, time
+import time
 from pathlib import Path
 from cointoss.compare.shares import counting
 whole = counting.counting
 def slow(*given):
-    yield from itertools.islice(whole(*given), 2)
+    yield next(whole(*given))
     Path("begun").touch()
     time.sleep(1000)
 counting.counting = slow
 from cointoss.compare.cli import main
 main()
 """
-    words = ("shares", coin, "--along", "floor.restitution=0.3:0.6:3", "--out", "a.csv", "--out", "a.png")
+    words = ("shares", coin, "--vary", "floor.restitution=0.3:0.6:3", "--out", "a.csv", "--out", "a.png")
     with started("-c", script, *words, cwd=tmp_path) as process:
         wait_until(process, (tmp_path / "begun").exists)
         ask(process, signal.SIGINT)
         printed, said = answered(process)
     assert process.returncode == 130, said
-    assert said.endswith("cointoss: interrupted by SIGINT: 500 tosses are counted\n")
+    assert said.endswith("cointoss: interrupted by SIGINT: 250 tosses are counted\n")
     rows = list(csv.DictReader(io.StringIO((tmp_path / "a.csv").read_text())))
-    assert [row["tosses"] for row in rows] == ["250", "250", "0"]
-    assert printed.count("250") >= 2
+    assert [row["tosses"] for row in rows] == ["250", "0", "0"]
+    assert "250" in printed
     assert not (tmp_path / "a.png").exists()
 
 

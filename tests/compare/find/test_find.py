@@ -6,36 +6,38 @@ import math
 import numpy as np
 import pytest
 
-import cointoss
 from cointoss import analytic
 from cointoss.compare.find import search
+from cointoss.compare.find.faces import faces_shown
 from cointoss.compare.find.find import find
 from cointoss.compare.find.window import Target, window_of
 from cointoss.compare.metrics.estimates import share_of
+from cointoss.compare.sweep.toss_many import toss_many
+from cointoss.models.batch import PLACE, rows_of
 from cointoss.models.errors import ScenarioError
+from cointoss.models.laws import ContactLaw
 from cointoss.models.reading import load, parse
 from cointoss.models.records import Outcome
 from tests.helpers.basin_runs import SCENARIO
 
 COIN = parse(SCENARIO, "coin")
-WINDOW = "release.position.z=0.3:0.31", "release.angular_velocity.eta=20:21"
+WINDOW = {"release.position.z": "0.3:0.31", "release.angular_velocity.eta": (20, 21)}
 ELASTIC = COIN.replace("floor.restitution", 1.0)
 
 
-def shown_by_map(case, touches, count):
-    """Return the sequences of faces at the first touches that the pixels of maps over the window show."""
-    y, x = (f"{axis}:{count}" for axis in WINDOW)
-    maps = [cointoss.basin(case, x=x, y=y, after=n) for n in range(touches)]
-    assert all((one.impacts == n + 1).all() for n, one in enumerate(maps))
-    codes = np.stack([one.outcome.ravel() for one in maps], axis=1)
-    return {"".join(" HT"[code] for code in row) for row in codes.tolist()}
+def shown_on_a_grid(case, touches, count):
+    """Return the sequences of faces at the first touches that a grid of tosses over the window shows."""
+    axes = {"release.position.z": (0.3, 0.31, count), "release.angular_velocity.eta": (20, 21, count)}
+    limits = {"ending.max_impacts": np.arange(touches) + 1}
+    faces = toss_many(case, axes | limits).last_face.transpose(..., "toss").values
+    return {"".join(word[0].upper() for word in row) for row in faces.reshape(-1, touches).tolist()}
 
 
-def test_what_a_map_shows_is_found_and_nothing_else():
-    """All sequences of three touches, by brute force over a map; what is found shows it when tossed."""
-    by_map, found = shown_by_map(COIN, 3, 60), {}
+def test_what_a_grid_shows_is_found_and_nothing_else():
+    """All sequences of three touches, by brute force over a grid; what is found shows it when tossed."""
+    by_grid, found = shown_on_a_grid(COIN, 3, 60), {}
     for word in map("".join, itertools.product("HT", repeat=3)):
-        one = find(COIN, *WINDOW, sequence=word, tosses=1024)
+        one = find(COIN, WINDOW, sequence=word, tosses=1024)
         if one:
             assert one.scenario is not None
             assert analytic.toss(one.scenario).sequence.startswith(word)
@@ -44,15 +46,13 @@ def test_what_a_map_shows_is_found_and_nothing_else():
             assert one.lines[0].startswith(
                 "none in 1,024 tosses, covering release.position.z from 0.3 to 0.31 m"
             )
-    assert set(found) >= by_map
-    assert 2 <= len(by_map) <= len(found) < 8, "some there are, some there are not"
+    assert set(found) >= by_grid
+    assert 2 <= len(by_grid) <= len(found) < 8, "some there are, some there are not"
 
 
 def found_of_three():
     """Return a toss that shows HTH or HHT: one of them is in the window."""
-    return find(COIN, *WINDOW, sequence="HTH", tosses=1024) or find(
-        COIN, *WINDOW, sequence="HHT", tosses=1024
-    )
+    return find(COIN, WINDOW, sequence="HTH", tosses=1024) or find(COIN, WINDOW, sequence="HHT", tosses=1024)
 
 
 def test_the_toss_shows_it_up_to_its_margins():
@@ -82,9 +82,9 @@ def test_its_margin_is_larger_than_that_of_others_that_show_it():
 
 
 def test_what_is_found_is_a_scenario_file():
-    found = find("fig24a", *WINDOW, sequence="T", tosses=1024)
+    found = find("fig24a", WINDOW, sequence="T", tosses=1024)
     if not found:
-        found = find("fig24a", *WINDOW, sequence="H", tosses=1024)
+        found = find("fig24a", WINDOW, sequence="H", tosses=1024)
     again = parse(found.to_toml(), "found")
     assert again == found.scenario
     assert found.to_toml().startswith(f"# {found.target.in_words}: found in ")
@@ -98,7 +98,7 @@ def test_an_outcome_is_found_and_all_fields_may_vary(outcome):
     thick = COIN.replace("coin.thickness", 0.01, "floor.restitution", 0.3, "air.normal", 0.8)
     found = find(
         thick,
-        *("release.angles.theta=60 deg:90 deg", "coin.thickness=9 mm:11 mm"),
+        {"release.angles.theta": "60 deg:90 deg", "coin.thickness": ("9 mm", "11 mm")},
         outcome=outcome,
         tosses=32,
     )
@@ -107,7 +107,7 @@ def test_an_outcome_is_found_and_all_fields_may_vary(outcome):
     assert found.scenario is not None
     assert 9e-3 <= found.scenario.coin.thickness <= 11e-3
     assert found.lines[-1].startswith("outcome: edge, ")
-    none = find(thick, "release.angles.theta=0 deg:10 deg", outcome="edge", tosses=64)
+    none = find(thick, {"release.angles.theta": "0 deg:10 deg"}, outcome="edge", tosses=64)
     assert (bool(none), none.scenario) == (False, None)
     with pytest.raises(ValueError, match="no toss shows it"):
         none.to_toml()
@@ -117,8 +117,8 @@ def test_an_outcome_is_found_and_all_fields_may_vary(outcome):
 def test_a_sequence_too_rare_for_the_window_is_found_in_ever_smaller_boxes():
     """Elastic, the coin goes on, and each face halves what agrees: 64 tosses show no ten, which are found."""
     word = "HTTHTHHTHT"
-    window = "release.position.z=0.3:0.5", "release.angular_velocity.xi=20:40"
-    found = find(ELASTIC, *window, sequence=word, tosses=1 << 6)
+    window = {"release.position.z": "0.3:0.5", "release.angular_velocity.xi": "20:40"}
+    found = find(ELASTIC, window, sequence=word, tosses=1 << 6)
     assert found.toss is not None
     assert found.toss.sequence.startswith(word)
     points = np.random.default_rng(5).random((1 << 6, 2))
@@ -127,13 +127,13 @@ def test_a_sequence_too_rare_for_the_window_is_found_in_ever_smaller_boxes():
 
 
 def test_the_same_seed_finds_the_same_toss():
-    first, second, other = (find(COIN, *WINDOW, sequence="HT", tosses=512, seed=seed) for seed in (1, 1, 2))
+    first, second, other = (find(COIN, WINDOW, sequence="HT", tosses=512, seed=seed) for seed in (1, 1, 2))
     assert first.scenario == second.scenario
     assert first.scenario != other.scenario
 
 
 def test_points_that_no_scenario_accepts_are_passed_over():
-    window = window_of(("release.position.z=-1:1",), COIN)
+    window = window_of({"release.position.z": "-1:1"}, COIN)
     shown = Target(sequence="H").shown(window, np.array([[0.1], [0.9]]))
     assert (shown[0], shown[1] >= 0) == (-1, True)
     with pytest.raises(ScenarioError):
@@ -142,7 +142,7 @@ def test_points_that_no_scenario_accepts_are_passed_over():
 
 def test_points_that_make_no_scenario_are_no_tosses():
     """The floor is in the middle of the window; of 256 points half have the coin's rim above it."""
-    found = find(COIN, "release.position.z=-1:1", sequence="HTHTHTHTHT", tosses=256)
+    found = find(COIN, {"release.position.z": "-1:1"}, sequence="HTHTHTHTHT", tosses=256)
     assert not found
     assert found.tosses + found.refused == 256
     assert abs(found.tosses - 128) < 8
@@ -156,26 +156,56 @@ def test_points_that_make_no_scenario_are_no_tosses():
 
 def test_a_window_without_a_scenario_is_refused():
     with pytest.raises(ScenarioError, match=r"release\.position\.z"):
-        find(COIN, "release.position.z=-2:-1", sequence="H", tosses=16)
+        find(COIN, {"release.position.z": "-2:-1"}, sequence="H", tosses=16)
     with pytest.raises(ScenarioError, match="no point of the window makes a scenario"):
-        find(COIN, "release.position.z=-1:1.1", sequence="H", tosses=1)
+        find(COIN, {"release.position.z": "-1:1.1"}, sequence="H", tosses=1)
 
 
 @pytest.mark.parametrize(
     ("vary", "given", "told"),
     [
-        ((), {"sequence": "H"}, "vary: nothing, accepted: FIELD=START:STOP"),
-        ((3,), {"sequence": "H"}, "vary: 3, accepted: FIELD=START:STOP"),
+        ({}, {"sequence": "H"}, "vary: nothing, accepted: a field or more"),
+        (3, {"sequence": "H"}, "vary: 3, accepted: a field or more"),
+        ({"height": "1:2:3"}, {"sequence": "H"}, "height=1:2:3: accepted: .START, STOP."),
         (WINDOW, {}, "sequence, outcome: none; accepted: one of them, or both"),
         (WINDOW, {"sequence": "HX"}, "sequence: 'HX', accepted: letters H and T"),
         (WINDOW, {"sequence": "H" * 1001}, "sequence: 1001 faces, accepted: at most"),
         (WINDOW, {"outcome": "side"}, "outcome: 'side', accepted: undecided, heads, tails, edge"),
         (WINDOW, {"sequence": "H", "tosses": 0}, "tosses: 0, accepted: a whole number from 1"),
         (WINDOW, {"sequence": "H", "seed": 1.5}, "seed: 1.5, accepted: a whole number from 0"),
-        ((WINDOW[0], WINDOW[0]), {"sequence": "H"}, r"release\.position\.z: twice; accepted"),
-        (("ending.max_impacts=1:9",), {"sequence": "H"}, r"ending\.max_impacts: no field that may vary here"),
+        (WINDOW | {"height": (0, 1)}, {"sequence": "H"}, r"release\.position\.z: twice; accepted"),
+        ({"ending.max_impacts": (1, 9)}, {"sequence": "H"}, r"max_impacts: no field that may vary here"),
     ],
 )
 def test_what_cannot_be_searched_is_refused(vary, given, told):
     with pytest.raises(ValueError, match=told):
-        find(COIN, *vary, **given)
+        find(COIN, vary, **given)
+
+
+def test_the_faces_are_those_of_tosses_that_end_there_whatever_differs_between_them():
+    """The coin, the floor, its law, and the attitude; some coins make fewer touches."""
+    n, rng = 60, np.random.default_rng(2)
+    given = {
+        "release.position.z": rng.uniform(0.2, 0.6, n),
+        "release.angles.theta": rng.uniform(0.1, 1.0, n),
+        "coin.thickness": np.repeat(rng.uniform(1e-3, 1e-2, n // 4), 4),
+        "floor.restitution": rng.uniform(0.0, 0.9, n),
+        "floor.contact": np.where(rng.random(n) < 0.5, ContactLaw.SMOOTH.value, ContactLaw.COULOMB.value),
+    }
+    rows = rows_of(COIN, n, given)
+    faces = faces_shown(rows, 5)
+    assert (faces == 0).any()
+    for touch in range(5):
+        rows[:, PLACE["ending.max_impacts"]] = touch + 1
+        ended = analytic.toss_rows(rows)
+        assert np.array_equal(faces[:, touch], np.where(ended.impacts == touch + 1, ended.last_face, 0))
+
+
+def test_a_spin_may_vary_about_the_axis_that_the_coin_has():
+    turning = COIN.replace("release.angular_velocity", [20.0, 15.0, 0.0])
+    found = find(turning, {"spin": (20, 21)}, sequence="H", tosses=64)
+    found = found or find(turning, {"spin": (20, 21)}, sequence="T", tosses=64)
+    assert found.scenario is not None
+    w = np.array(found.scenario.release.angular_velocity)
+    assert 20 <= np.linalg.norm(w) <= 21
+    assert w[0] / w[1] == pytest.approx(4 / 3)

@@ -1,7 +1,6 @@
 """The margin of a toss: its change changes the outcome, and a smaller one does not."""
 
 import json
-from dataclasses import fields
 
 import numpy as np
 import pytest
@@ -13,16 +12,15 @@ from cointoss.compare.engines import Engine
 from cointoss.compare.metrics.margin import (
     MANY,
     QUANTITIES,
-    accepted,
     margins,
     quantity_of,
     smallest_changes,
+    with_quaternions,
 )
 from cointoss.compare.reproduction.precision.proved_change import PROVED, proved_change
-from cointoss.compare.reproduction.setups.planar_maps import releases
 from cointoss.compare.sweep import grid
+from cointoss.models.batch import PLACE, STATE_PLACES, refused, rows_of
 from cointoss.models.reading import load
-from cointoss.models.releases import Releases
 from tests.helpers.command_line import cointoss, python
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
@@ -135,8 +133,10 @@ def test_a_map_of_margins_is_that_of_its_pixels_and_goes_on_where_it_was(tmp_pat
     found = np.isfinite(margin.ravel())
     assert found.mean() > 0.8
     for part, differs in ((0.0, False), (0.97, False), (1.0, True)):
-        changed = releases(z[found], w[found] + part * margin.ravel()[found])
-        there = np.mean(analytic.toss_many(scenario, changed).outcome != outcome.ravel()[found])
+        spin = w[found] + part * margin.ravel()[found]
+        changed = {"release.position.z": z[found], "release.angular_velocity.xi": spin}
+        tossed = analytic.toss_rows(rows_of(scenario, len(spin), changed))
+        there = np.mean(tossed.outcome != outcome.ravel()[found])
         assert (there == 1) if differs else (there < 0.1)
     tile = next((out / "margin" / "c").glob("0/*"))
     tile.unlink()
@@ -177,20 +177,17 @@ def test_margins_are_drawn_in_colours_of_their_size(tmp_path):
 
 def test_a_change_that_a_scenario_would_refuse_ends_the_search():
     """A coin 1 mm above the floor, flat, cannot be let go lower, nor 1000 mm deeper."""
-    scenario = load("fig29").replace("release.position.z", 1e-3)
-    start = releases(np.array([1e-3, 0.4]), np.array([0.0, 0.0]))
-    assert accepted(scenario, quantity_of("height").change(start, np.array([-2e-3, -2e-3]))).tolist() == [
-        False,
-        True,
-    ]
+    z, height = PLACE["release.position.z"], quantity_of("height")
+    both = rows_of(load("fig29"), 2, {"release.position.z": [1e-3, 0.4], "release.angular_velocity.xi": 0.0})
+    lower = height.change(both, np.array([-2e-3, -2e-3]))
+    assert refused(lower, height.fields).tolist() == [True, False]
     tried = []
 
-    def outcomes(changed):
-        tried.append(changed.position[:, 2])
-        return analytic.toss_many(scenario, changed).outcome
+    def outcomes(rows):
+        tried.append(rows[:, z])
+        return analytic.toss_rows(rows).outcome
 
-    found = smallest_changes(scenario, start, quantity_of("height"), outcomes=outcomes, search=MANY)
-    assert np.isinf(found).all()
+    assert np.isinf(smallest_changes(both, height, outcomes=outcomes, search=MANY)).all()
     assert min(heights.min() for heights in tried) >= 0
 
 
@@ -198,20 +195,14 @@ def test_no_change_is_found_beyond_one_that_is_refused():
     """A coin tilted by 60° cannot turn about ξ past the upright, for which it is too low."""
     scenario, tilt = load("fig29"), np.pi / 3
     height = scenario.coin.radius * np.sin(np.radians(75))
-    start = Releases(
-        position=np.array([[0, 0, height]]),
-        velocity=np.zeros((1, 3)),
-        quaternion=np.array([[np.cos(tilt / 2), np.sin(tilt / 2), 0, 0]]),
-        angular_velocity=np.zeros((1, 3)),
-    )
-    turning = quantity_of("attitude about xi")
-    by = np.array([0.1, 0.5, 1.0])
-    many = Releases(**{field.name: getattr(start, field.name)[[0, 0, 0]] for field in fields(Releases)})
-    assert accepted(scenario, turning.change(many, by)).tolist() == [True, False, True]
+    tilted = {"release.position.z": height, "release.angles.theta": tilt, "release.angular_velocity.xi": 0.0}
+    start, turning = rows_of(scenario, 1, tilted), quantity_of("attitude about xi")
+    changed = turning.change(with_quaternions(start[[0, 0, 0]]), np.array([0.1, 0.5, 1.0]))
+    assert refused(changed, turning.fields).tolist() == [False, True, False]
 
-    def outcomes(changed):
+    def outcomes(rows):
         """Tails beyond the upright."""
-        turned = 2 * np.arctan2(changed.quaternion[:, 1], changed.quaternion[:, 0])
-        return np.where(turned > np.pi / 2, 2, 1).astype(np.int8)
+        e0, e1 = rows[:, STATE_PLACES[6:8]].T
+        return np.where(2 * np.arctan2(e1, e0) > np.pi / 2, 2, 1).astype(np.int8)
 
-    assert np.isinf(smallest_changes(scenario, start, turning, outcomes=outcomes, search=MANY)).all()
+    assert np.isinf(smallest_changes(start, turning, outcomes=outcomes, search=MANY)).all()

@@ -9,15 +9,17 @@ from scipy.stats import chi2, chi2_contingency
 
 from cointoss import analytic
 from cointoss.compare.engines import Engine
-from cointoss.compare.shares import along, counting
-from cointoss.compare.shares.along import shares
-from cointoss.compare.shares.counting import BLOCK, Tossed, toss_here, toss_part
+from cointoss.compare.shares import counting
+from cointoss.compare.shares import shares as public
+from cointoss.compare.shares.counting import BLOCK, Block, Count, draws, toss_blocks, toss_here
 from cointoss.compare.shares.plan import plan_of
+from cointoss.compare.shares.shares import shares
+from cointoss.compare.shares.show import csv, markdown
 from cointoss.compare.sweep.errors import SweepError
+from cointoss.models.batch import STATE, rows_of
 from cointoss.models.hand import Hand, same_side_probability
 from cointoss.models.reading import load
 from cointoss.models.records import Outcome
-from cointoss.models.releases import Releases
 from tests.helpers.draws import AIR, scenario
 
 DISC = scenario(
@@ -35,9 +37,9 @@ def last(plan, tosser=toss_here):
 def test_a_caught_coin_shows_heads_as_often_as_the_theorem_says():
     """Diaconis, Holmes and Montgomery 2007, theorem 2, over ψ; the seed is one of many."""
     vacuum = load("fig29").replace("air", {})
-    found = shares(vacuum, "hand.psi=40 deg:90 deg:6", hand=Hand(caught=1.0), tosses=4000, seed=2)
-    caught = found.counts[0][:, [Outcome.HEADS, Outcome.TAILS]]
-    expected = same_side_probability(found.plan.along[0].values)
+    found = shares(vacuum, {"hand.psi": "40 deg:90 deg:6"}, hand=Hand(caught=1.0), tosses=4000, seed=2)
+    caught = found["count"].sel(outcome=["heads", "tails"]).values
+    expected = same_side_probability(found["hand.psi"].values)
     deviation = np.abs(caught[:, 0] / caught.sum(axis=1) - expected)
     spread = np.sqrt(expected * (1 - expected) / caught.sum(axis=1))
     assert caught.sum() > 20_000
@@ -49,124 +51,115 @@ def tossed_otherwise(case, rng, count):
     """Return outcomes of releases that are drawn and written down without a `Hand`."""
     z, v, w = (rng.normal(mean, 0.1 * mean, count) for mean in (1.0, 2.0, 120.0))
     angle, nothing = rng.uniform(0, 2 * np.pi, count), np.zeros(count)
-    start = Releases(
-        position=np.column_stack([nothing, nothing, z]),
-        velocity=np.column_stack([nothing, nothing, v]),
-        quaternion=np.tile([1.0, 0.0, 0.0, 0.0], (count, 1)),
-        angular_velocity=np.column_stack([w * np.sin(angle), w * np.cos(angle), nothing]),
-    )
-    return analytic.toss_many(case, start).outcome
+    flat = np.tile([1.0, 0.0, 0.0, 0.0], (count, 1)).T
+    spin = [w * np.sin(angle), w * np.cos(angle), nothing]
+    columns = [nothing, nothing, z, nothing, nothing, v, *flat, *spin]
+    return analytic.toss_rows(rows_of(case, count, dict(zip(STATE, columns, strict=True)))).outcome
 
 
 @pytest.mark.slow
 def test_twenty_settings_agree_with_a_count_of_other_draws():
-    axes = "floor.restitution=0.1:0.7:4", "coin.thickness=2 mm:14 mm:5"
-    found, rng, count = shares(DISC, *axes, tosses=500, seed=8), np.random.default_rng(77), 200
+    vary = {"floor.restitution": "0.1:0.7:4", "coin.thickness": "2 mm:14 mm:5"}
+    found, rng, count = shares(DISC, vary, tosses=500, seed=8), np.random.default_rng(77), 200
     statistic, freedom = 0.0, 0
-    for (i, chi), (j, h) in itertools.product(*(enumerate(axis.values) for axis in found.plan.along)):
+    for chi, h in itertools.product(*(found[field].values for field in vary)):
         case = DISC.replace("floor.restitution", float(chi), "coin.thickness", float(h))
         other = np.bincount(tossed_otherwise(case, rng, count), minlength=len(Outcome))
-        both = np.array([found.counts[0, i, j], other])
+        at = {"floor.restitution": chi, "coin.thickness": h}
+        both = np.array([found["count"].sel(at).values, other])
         test: Any = chi2_contingency(both[:, both.any(axis=0)], correction=False)
         statistic, freedom = statistic + test.statistic, freedom + test.dof
     assert freedom >= 20
-    assert found.counts[..., Outcome.EDGE].sum() > 200
+    assert found["count"].sel(outcome="edge").sum() > 200
     assert chi2.sf(statistic, freedom) > 1e-3
 
 
 def plan(**others):
-    given = {"name": "", "hand": Hand(), "tosses": 3 * BLOCK[Engine.ANALYTIC] + 10, "seed": 4, **others}
-    return plan_of(("floor.restitution=0.3:0.7:3",), DISC, **given)
+    given = {"name": "", "hand": Hand(), "tosses": 3 * BLOCK[Engine.ANALYTIC] + 10, "seed": 4, "to": None}
+    return plan_of({"floor.restitution": "0.3:0.7:3"}, DISC, **(given | others))
 
 
 def test_the_counts_depend_on_no_order_and_on_no_size_of_parts(monkeypatch):
-    def scattered(plan, parts):
-        return ((part, toss_part(plan, part)) for part in sorted(parts, reverse=True))
+    def scattered(plan, engine, blocks):
+        parts = sorted(((one,) for one in blocks), reverse=True)
+        return ((part, toss_blocks(plan, engine, part)) for part in parts)
 
     for given in (plan(), plan(to=0.04, tosses=5000)):
         expected = last(given)
-        for blocks in (1, 3):
-            monkeypatch.setattr(counting, "next_pixels", lambda *_, n=blocks: n)
-            assert np.array_equal(last(given, scattered), expected)
-        monkeypatch.undo()
+        assert np.array_equal(last(given, scattered), expected)
+        with monkeypatch.context() as patched:
+            patched.setattr(counting, "MOST", 1)
+            assert np.array_equal(last(given), expected)
     assert last(plan()).sum(axis=-1).tolist() == [[760, 760, 760]]
 
 
 def test_settings_blocks_and_engines_have_draws_of_their_own():
     given = plan(engines=tuple(Engine))
-    parts = [
-        counting.Part(engine, setting, block, 1)
-        for engine in Engine
-        for setting in range(3)
-        for block in range(2)
-    ]
-    first = [float(counting._draws(given, part, part.first).random()) for part in parts]
-    assert len(set(first)) == len(parts)
-    other = counting._draws(plan(seed=5), parts[0], 0).random()
-    assert other not in first
+    blocks = [Block(setting, number) for setting in range(3) for number in range(2)]
+    first = [float(draws(given, engine, block).random()) for engine in Engine for block in blocks]
+    assert len(set(first)) == 12
+    assert draws(plan(seed=5), Engine.ANALYTIC, blocks[0]).random() not in first
 
 
 def test_counting_stops_at_the_first_block_that_makes_the_interval_narrow_enough():
     for to in (0.06, 0.04):
-        found = shares(DISC, "floor.restitution=0.3:0.7:2", to=to, seed=1)
-        for row in found.rows:
-            widest = max((one.high - one.low) / 2 for one in row.shares.values())
-            assert 0.6 * to < widest <= to
-            assert row.tosses % BLOCK[Engine.ANALYTIC] == 0
+        found = shares(DISC, {"floor.restitution": (0.3, 0.7, 2)}, to=to, seed=1)
+        widest = ((found.high - found.low) / 2).max("outcome")
+        assert ((0.6 * to < widest) & (widest <= to)).all()
+        assert (found["count"].sum("outcome") % BLOCK[Engine.ANALYTIC] == 0).all()
+        assert found.attrs["complete"] == 1
 
 
 def test_a_share_that_is_known_at_once_takes_a_block():
     """All coins that are caught at their release's height and turn little are as they were."""
     found = shares("fig29", hand=Hand(psi=0.1, caught=1.0, scatter=0.01), to=0.02)
-    assert found.counts.tolist() == [[0, BLOCK[Engine.ANALYTIC], 0, 0, 0, 0]]
+    assert found["count"].values.tolist() == [0, BLOCK[Engine.ANALYTIC], 0, 0, 0, 0]
 
 
 def test_an_interrupt_returns_what_is_counted(monkeypatch):
     def interrupted(given):
-        for number, counts in enumerate(whole(given)):
-            if number == 2:
-                raise KeyboardInterrupt
-            yield counts
+        yield next(counting.counting(given))
+        raise KeyboardInterrupt
 
-    whole = along.counting
-    monkeypatch.setattr(along, "counting", interrupted)
-    found = shares(DISC, "floor.restitution=0.3:0.7:3", tosses=500)
-    assert found.counts.sum(axis=-1).tolist() == [[250, 250, 0]]
-    assert not found.is_complete
-    assert [row.tosses for row in found.rows] == [250, 250, 0]
-    assert "| - |" in found.table()
-    assert np.isnan(found.to_xarray().share.values[0, 2]).all()
-    monkeypatch.setattr(along, "counting", lambda _: (_ for _ in ()).throw(KeyboardInterrupt()))
+    monkeypatch.setattr(public, "counting", interrupted)
+    found = shares(DISC, {"floor.restitution": "0.3:0.7:3"}, tosses=500)
+    assert found["count"].sum("outcome").values.tolist() == [250, 0, 0]
+    assert found.attrs["complete"] == 0
+    assert markdown(found).count("| 0 | - | - | - |") == 2
+    assert csv(found).count("nan") >= 2
+    assert np.isnan(found.share.values[2]).all()
+    monkeypatch.setattr(public, "counting", lambda _: (_ for _ in ()).throw(KeyboardInterrupt()))
     with pytest.raises(KeyboardInterrupt):
         shares(DISC)
 
 
-def test_blocks_beyond_what_is_needed_are_left_out():
-    one = counting.Count(plan(tosses=500), Engine.ANALYTIC)
-    block = np.array([0, 100, 150, 0, 0, 0])
-    one.add(Tossed(np.array([block] * 5), 1.0))
+def test_blocks_come_in_their_order_and_those_beyond_what_is_needed_are_left_out():
+    one, block = Count(plan(tosses=500), Engine.ANALYTIC), np.array([0, 100, 150, 0, 0, 0])
+    for number, tosses in ((1, 0), (0, 500), (2, 500)):
+        one.add(number, block)
+        assert one.tosses == tosses
     assert one.counts.tolist() == [0, 200, 300, 0, 0, 0]
 
 
 def test_an_interval_has_the_width_asked_for_after_the_tosses_that_are_needed():
-    one = counting.Count(plan(to=0.02, tosses=100_000), Engine.ANALYTIC)
+    one = Count(plan(to=0.02, tosses=100_000), Engine.ANALYTIC)
     one.counts[[Outcome.HEADS, Outcome.TAILS]] = 125
     one.counts[[Outcome.HEADS, Outcome.TAILS]] = one.needed // 2
     assert one.width == pytest.approx(0.02, rel=0.02)
 
 
 @pytest.mark.parametrize(
-    ("coin", "axes", "hand", "is_left_out"),
+    ("coin", "vary", "hand", "is_left_out"),
     [
-        (DISC, (), Hand(), False),
-        (DISC, (), Hand(caught=1.0), True),
-        (DISC, ("ending.caught=0.5:1:2",), Hand(), True),
-        (DISC.replace("ending.caught", 0.5), (), Hand(), True),
+        (DISC, {}, Hand(), False),
+        (DISC, {}, Hand(caught=1.0), True),
+        (DISC, {"ending.caught": "0.5:1:2"}, Hand(), True),
+        (DISC.replace("ending.caught", 0.5), {}, Hand(), True),
     ],
 )
-def test_what_is_undecided_is_left_out_where_any_hand_catches(coin, axes, hand, is_left_out):
+def test_what_is_undecided_is_left_out_where_any_hand_catches(coin, vary, hand, is_left_out):
     counts = np.array([3, 4, 5, 0, 0, 0])
-    left = plan_of(axes, coin, name="", hand=hand).counted(counts)
+    left = plan_of(vary, coin, tosses=1, to=None, name="", hand=hand).counted(counts)
     assert left.tolist() == [0 if is_left_out else 3, 4, 5, 0, 0, 0]
 
 
@@ -177,8 +170,7 @@ def test_what_is_undecided_is_left_out_where_any_hand_catches(coin, axes, hand, 
         ({"tosses": True}, "^tosses: True, accepted: "),
         ({"seed": -1}, "^seed: -1, accepted: "),
         ({"to": 0.0}, r"^to = 0.0: accepted: a part from 0.01 % to 50 %$"),
-        ({"engine": "bullet"}, "^engine: 'bullet', accepted: analytic, mujoco$"),
-        ({"compare": 1}, "^compare: 1, accepted: True or False$"),
+        ({"engine": "bullet"}, "^engine: 'bullet', accepted: analytic, mujoco, both$"),
         ({"hand": 3}, "^hand: 3, accepted: a Hand, or the path of its file$"),
     ],
 )
@@ -188,23 +180,31 @@ def test_what_no_shares_can_be_made_of_is_refused(given, told):
 
 
 @pytest.mark.parametrize(
-    ("axes", "told"),
+    ("vary", "told"),
     [
-        (["release.position.z=0.2:1:3"], "the hand releases the coin; accepted: hand.height, "),
-        (["floor.contact=0:1:3"], "floor.contact: no numeric field"),
-        (["hand.psi=0:2:3"], "hand.psi = 2.0: accepted: an angle from 0 to 90 deg"),
-        (["coin.thickness=-1:1:3"], r"coin.thickness = -1.0: .* \(at coin.thickness = -1\)"),
-        (["floor.restitution=0:1:3"] * 2, "on both axes"),
-        (["floor.restitution=0:1:3", "gravity=1:2:3", "coin.mass=1:2:3"], "3 fields, accepted: at most 2"),
-        (["floor.restitution=0:1:300", "gravity=1:2:300"], "300 by 300 settings, accepted: at most 10000"),
-        ([3], "along: 3, accepted: FIELD=START:STOP:N"),
+        ({"release.position.z": "0.2:1:3"}, "the hand releases the coin; accepted: hand.height, "),
+        ({"floor.contact": "0:1:3"}, "floor.contact: no numeric field"),
+        ({"hand.psi": "0:2:3"}, "hand.psi = 2.0: accepted: an angle from 0 to 90 deg"),
+        ({"coin.thickness": "-1:1:3"}, r"coin.thickness = -1.0: .* \(at coin.thickness = -1\)"),
+        ({"hand.height": "0.1 mm:1 m:3"}, r"hand.height = 0.0001: accepted: .* \(at hand.height = 0.0001\)"),
+        ({"floor.restitution": "0:1:3", "restitution": "0:1:3"}, "on both axes"),
+        (
+            dict.fromkeys(("floor.restitution", "gravity", "coin.mass"), "0.1:1:3"),
+            "3 fields, accepted: at most 2",
+        ),
+        (
+            dict.fromkeys(("floor.restitution", "gravity"), "0.1:1:300"),
+            "300 by 300 settings, accepted: at most",
+        ),
+        ({"floor.restitution": 3}, "floor.restitution=3: accepted: START:STOP:N"),
+        (3, "vary: 3, accepted: a dict"),
     ],
 )
-def test_axes_that_do_not_go_are_refused(axes, told):
+def test_fields_that_cannot_vary_are_refused(vary, told):
     with pytest.raises(SweepError, match=told):
-        shares(DISC, *axes)
+        shares(DISC, vary)
 
 
 def test_a_spun_coin_has_no_height():
     with pytest.raises(SweepError, match=r"^hand\.height: of no use where the coin is spun"):
-        shares(DISC, "hand.height=0.2:1:3", hand=Hand(spun=True))
+        shares(DISC, {"hand.height": "0.2:1:3"}, hand=Hand(spun=True))

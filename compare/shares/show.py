@@ -1,0 +1,142 @@
+"""The dataset of `shares` as a table, as files, and compared between both engines."""
+
+import json
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import chance_alike, percent
+from cointoss.compare.output.tables import sheet, table
+from cointoss.compare.sweep.axes import word_of
+from cointoss.models.fields import printed_unit
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_FACES, _LAST = ["heads", "tails"], "undecided"
+
+
+def over_engines(shares: "xr.Dataset") -> "xr.Dataset":
+    """Return shares over engine, the fields that vary, and outcome, in this order."""
+    whole = shares if "engine" in shares.dims else shares.expand_dims("engine")
+    return whole.transpose("engine", ..., "outcome")
+
+
+def fields_of(shares: "xr.Dataset") -> list[str]:
+    """Return the fields that vary, in their order."""
+    return [str(dim) for dim in shares["count"].dims if dim not in ("engine", "outcome")]
+
+
+def outcomes_of(shares: "xr.Dataset") -> list[str]:
+    """Return heads, tails, and the other outcomes that there were."""
+    met = shares["count"].sum([dim for dim in shares["count"].dims if dim != "outcome"])
+    others = [str(one) for one in shares.outcome.values if one not in _FACES and met.sel(outcome=one)]
+    return [*_FACES, *sorted(others, key=lambda one: one == _LAST)]
+
+
+def alike(shares: "xr.Dataset") -> NDArray[np.float64]:
+    """Return the probability by chance of counts that differ so much between both engines, for each setting.
+
+    It is that of a χ² test; NaN where an engine tossed nothing. With one engine there is none, (0,).
+    """
+    counts = over_engines(shares)["count"].values
+    if len(counts) < 2:
+        return np.empty(0)
+    flat = counts.reshape(len(counts), -1, counts.shape[-1])
+    both = (flat[:, i] for i in range(flat.shape[1]))
+    return np.array([chance_alike(one) if one.any(axis=1).all() else np.nan for one in both])
+
+
+def least_alike(shares: "xr.Dataset") -> float:
+    """Return the probability that the smallest of `alike` is by chance as small as it is."""
+    known = alike(shares)
+    known = known[~np.isnan(known)]
+    return float(1 - (1 - known.min()) ** len(known)) if len(known) else np.nan
+
+
+def _rows(shares: "xr.Dataset") -> Iterator[tuple[tuple[int, ...], str, int, dict[str, Estimate]]]:
+    """Yield each setting by each engine, the engine varying fastest.
+
+    Its place in the grid, the engine, how many tosses were counted, and the share of each outcome.
+    """
+    whole, names = over_engines(shares), [str(one) for one in shares.outcome.values]
+    ends = np.stack([whole[name].values for name in ("share", "low", "high")], axis=-1)
+    counts = whole["count"].values
+    for *at, engine in np.ndindex(*counts.shape[1:-1], len(counts)):
+        place = (engine, *at)
+        tosses = int(counts[place].sum())
+        found = (Estimate(value, low, high, tosses) for value, low, high in ends[place].tolist())
+        yield tuple(at), str(whole.engine.values[engine]), tosses, dict(zip(names, found, strict=True))
+
+
+def markdown(shares: "xr.Dataset") -> str:
+    """Return the shares with their 99 % intervals, as a table in Markdown."""
+    fields, outcomes, chances = fields_of(shares), outcomes_of(shares), alike(shares)
+    both = len(chances) > 0
+    heads = [labelled(shares, field) for field in fields]
+    texts = [texts_of(shares[field].values) for field in fields]
+    rows = []
+    for i, (at, engine, tosses, found) in enumerate(_rows(shares)):
+        setting, is_second = divmod(i, 2) if both else (i, 0)
+        values = ["" if is_second else text[k] for text, k in zip(texts, at, strict=True)]
+        cells = [percent(found[one]) if tosses else "-" for one in outcomes]
+        chance = [f"{chances[setting]:.2g}" if is_second else ""] * both
+        rows.append([*values, *[engine] * both, f"{tosses:,d}", *cells, *chance])
+    return table([*heads, *["engine"] * both, "tosses", *outcomes, *["by chance"] * both], rows)
+
+
+def texts_of(values: NDArray[np.float64]) -> list[str]:
+    """Return values in few digits, but so many that no two are alike."""
+    written = ([f"{value:.{digits}g}" for value in values.tolist()] for digits in range(6, 18))
+    return next(texts for texts in written if len(set(texts)) == len(values))
+
+
+def labelled(shares: "xr.Dataset", field: str) -> str:
+    """Return what a person calls a field that varies, with its unit."""
+    unit = printed_unit(shares[field].attrs["units"])
+    return f"{word_of(field)} [{unit}]" if unit else word_of(field)
+
+
+def csv(shares: "xr.Dataset") -> str:
+    """Return a row for each setting and engine as comma-separated values, in SI and full precision."""
+    fields, outcomes = fields_of(shares), outcomes_of(shares)
+    units = [printed_unit(shares[field].attrs["units"]) for field in fields]
+    heads = [f"{field} [{unit}]" if unit else field for field, unit in zip(fields, units, strict=True)]
+    names = [f"{one}{part}" for one in outcomes for part in ("", " low", " high", " count")]
+    counts, rows = over_engines(shares)["count"], []
+    for at, engine, tosses, found in _rows(shares):
+        values = [repr(float(shares[field].values[k])) for field, k in zip(fields, at, strict=True)]
+        own = counts.sel(engine=engine)[at]
+        cells = [[*map(repr, found[one].ends), str(int(own.sel(outcome=one)))] for one in outcomes]
+        rows.append([*values, engine, str(tosses), *(cell for each in cells for cell in each)])
+    return sheet([*heads, "engine", "tosses", *names], rows)
+
+
+def as_json(shares: "xr.Dataset") -> dict[str, Any]:
+    """Return what `cointoss shares --json` prints, but for the names of what was asked for."""
+    fields, missed, chances = fields_of(shares), over_engines(shares).not_caught, alike(shares)
+    settings = []
+    for at, engine, tosses, found in _rows(shares):
+        ends = {one: {"value": x.value, "low": x.low, "high": x.high} for one, x in found.items()}
+        settings.append(
+            {
+                **{field: float(shares[field].values[k]) for field, k in zip(fields, at, strict=True)},
+                "engine": engine,
+                "tosses": tosses,
+                "not_caught": int(missed.sel(engine=engine)[at]),
+                "shares": ends if tosses else dict.fromkeys(ends),
+            }
+        )
+    told: dict[str, Any] = {
+        "hand": json.loads(shares.attrs["hand"]),
+        "seed": shares.attrs["seed"],
+        "vary": [
+            {"field": field, "unit": shares[field].attrs["units"], "values": shares[field].values}
+            for field in fields
+        ],
+        "settings": settings,
+    }
+    return told | ({"by_chance": chances} if len(chances) else {})
