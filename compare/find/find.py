@@ -1,14 +1,15 @@
 """Find a toss that shows a sequence of faces or an outcome."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from cointoss import analytic
-from cointoss.compare.find.search import search
+from cointoss.compare.find.search import Hit, search
 from cointoss.compare.find.window import Target, Window, window_of
 from cointoss.compare.metrics.estimates import share_of
 from cointoss.compare.sweep.axes import Span
@@ -49,10 +50,10 @@ class Found:
     """Points of the window besides that make no scenario, and so no toss."""
     scenario: Scenario | None
     """Of the toss that shows what is wanted; None where none does."""
-    toss: Toss | None
-    """That toss, by the analytic engine."""
     rooms: tuple[Room, ...]
     """Of each field that varies."""
+    trusted: int
+    """How many of the wanted touches can be trusted, of the toss that was found."""
     longest: int
     """Steps of what is wanted, its faces and then its outcome, that some toss showed."""
 
@@ -60,29 +61,20 @@ class Found:
         """Return whether there is such a toss."""
         return self.scenario is not None
 
-    @property
-    def trusted(self) -> int:
-        """How many of the wanted touches can be trusted, of the toss that was found."""
-        return min(self.toss.trusted_impacts, len(self.target.sequence)) if self.toss else 0
-
-    @property
-    def covering(self) -> str:
-        """The window in words."""
-        return ", ".join(
-            f"{one.field} from {one.start:.6g} to {one.stop:.6g} {one.printed_unit}".rstrip()
-            for one in self.window.spans
-        )
+    @cached_property
+    def toss(self) -> Toss | None:
+        """The whole toss that was found, by the analytic engine."""
+        return None if self.scenario is None else analytic.toss(self.scenario)
 
     @property
     def lines(self) -> list[str]:
         """What was found, for a person."""
-        wanted, made = (
-            self.target.in_words,
-            f"{self.tosses:,d} {'toss' if self.tosses == 1 else 'tosses'}, covering {self.covering}",
-        )
+        wanted, spans = self.target.in_words, self.window.spans
+        covering = [f"{x.field} from {x.start:.6g} to {x.stop:.6g} {x.printed_unit}".rstrip() for x in spans]
+        made = f"{self.tosses:,d} {'toss' if self.tosses == 1 else 'tosses'}, covering {', '.join(covering)}"
         if self.refused:
             made += f", where {self.refused:,d} more points make no scenario"
-        if self.toss is None:
+        if self.scenario is None:
             most = share_of(0, self.tosses).high
             shown = f"; the longest part shown is {self.target.sequence[: self.longest] or 'nothing'}"
             return [
@@ -99,16 +91,13 @@ class Found:
             lines.append(f"margin of {room.span.field}: {', '.join(ends)}")
         if self.target.sequence:
             lines.append(f"trusted: {self.trusted} of {len(self.target.sequence)} touches")
-        if self.target.outcome is not None:
+        if self.target.outcome is not None and self.toss is not None:
             lines.append(f"outcome: {self.toss.outcome_told}")
         return lines
 
     def as_json(self) -> dict[str, Any]:
         """Return what `cointoss find --json` prints, but for the scenario's name and the seed."""
-        rooms = {
-            one.span.field: {"value": one.value, "down": _finite(one.down), "up": _finite(one.up)}
-            for one in self.rooms
-        }
+        rooms = {one.span.field: {"value": one.value, "down": one.down, "up": one.up} for one in self.rooms}
         target, toss = self.target, self.toss
         return {
             "sequence": target.sequence,
@@ -132,10 +121,6 @@ class Found:
         if self.scenario is None:
             raise ValueError("Found: no toss shows it; accepted: one that was found")
         return "".join(f"# {line}\n" for line in self.lines) + "\n" + toml(self.scenario.as_tables())
-
-
-def _finite(number: float) -> float | None:
-    return number if math.isfinite(number) else None
 
 
 def find(
@@ -184,23 +169,30 @@ def find(
         raise ScenarioError(
             "no point of the window makes a scenario; accepted: spans in which the coin is free"
         )
-    found: dict[str, Any] = {
-        "target": target,
-        "window": window,
-        "tosses": searched.tosses,
-        "refused": searched.refused,
-    }
     for hit in searched.hits:
         own = window.scenario_at(hit.point)
-        toss = analytic.toss(own)
+        touches = () if outcome is not None else ("ending.max_impacts", len(sequence))
+        toss = analytic.toss(own.replace("gravity", own.gravity, *touches))
         if toss.sequence.startswith(sequence) and target.outcome in (None, toss.outcome):
-            widths = [span.stop - span.start for span in window.spans]
-            rooms = []
-            for span, value, width, ends in zip(
-                window.spans, window.values(hit.point), widths, hit.margins, strict=True
-            ):
-                down, up = ends if width > 0 else ends[::-1]
-                room = {"down": abs(width) * float(down), "up": abs(width) * float(up)}
-                rooms.append(Room(span=span, value=float(value), **room))
-            return Found(scenario=own, toss=toss, rooms=tuple(rooms), longest=target.steps, **found)
-    return Found(scenario=None, toss=None, rooms=(), longest=searched.longest, **found)
+            trusted = min(toss.trusted_impacts, len(sequence))
+            break
+    else:
+        own, trusted, hit = None, 0, None
+    return Found(
+        target=target,
+        window=window,
+        tosses=searched.tosses,
+        refused=searched.refused,
+        scenario=own,
+        rooms=() if hit is None else tuple(_rooms(window, hit)),
+        trusted=trusted,
+        longest=searched.longest if hit is None else target.steps,
+    )
+
+
+def _rooms(window: Window, hit: Hit) -> Iterator[Room]:
+    for span, value, (down, up) in zip(window.spans, window.values(hit.point), hit.margins, strict=True):
+        width = span.stop - span.start
+        ends = (down, up) if width > 0 else (up, down)
+        down, up = (abs(width) * float(end) for end in ends)
+        yield Room(span=span, value=float(value), down=down, up=up)

@@ -81,8 +81,12 @@ def search(window: Window, target: Target, tosses: int, seed: int) -> Searched:
     sampler = qmc.Sobol(len(window.spans), rng=np.random.default_rng(seed))
     points, shown = np.empty((0, len(window.spans))), np.empty(0, dtype=np.int64)
     tried = refused = hits = 0
+
+    def found() -> str:
+        return f"{hits or 'none'} shows it"
+
     try:
-        with stage("searching the window", "tosses", total=tosses) as progress:
+        with stage("searching the window", "tosses", total=tosses, detail=found) as progress:
             while tried < tosses and hits < ENOUGH:
                 block = sampler.random(BLOCK)[: tosses - tried]
                 of_block = target.shown(window, block)
@@ -103,10 +107,16 @@ def search(window: Window, target: Target, tosses: int, seed: int) -> Searched:
         points = points[shown == longest]
     if longest < target.steps:
         return Searched((), made, refused, longest)
-    with stage("measuring margins"):
+    centred: list[Hit] = []
+
+    def so_far() -> str:
+        return f"{max(one.margin for one in centred):.2g} of the window" if centred else ""
+
+    with stage("measuring margins", detail=so_far):
         wide = [Hit(*one) for one in zip(points, _margins(window, target, points, target.steps), strict=True)]
         chosen = sorted(wide, key=lambda hit: -hit.margin)[:BEST]
-        centred = [_centred(window, target, hit) for hit in chosen[: BEST if chosen[0].margin > LEAST else 1]]
+        for hit in chosen[: BEST if chosen[0].margin > LEAST else 1]:
+            centred.append(_centred(window, target, hit))
     return Searched(tuple(sorted(centred, key=lambda hit: -hit.margin)), made, refused, longest)
 
 

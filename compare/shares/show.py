@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,34 +57,44 @@ def least_alike(shares: "xr.Dataset") -> float:
     return float(1 - (1 - known.min()) ** len(known)) if len(known) else np.nan
 
 
-def _rows(shares: "xr.Dataset") -> Iterator[tuple[tuple[int, ...], str, int, dict[str, Estimate]]]:
-    """Yield each setting by each engine, the engine varying fastest.
+class _Row(NamedTuple):
+    """A setting by one engine."""
 
-    Its place in the grid, the engine, how many tosses were counted, and the share of each outcome.
-    """
+    at: tuple[int, ...]
+    """Its place in the grid."""
+    engine: str
+    tosses: int
+    """How many were counted."""
+    not_caught: int
+    counts: dict[str, int]
+    shares: dict[str, Estimate]
+
+
+def _rows(shares: "xr.Dataset") -> Iterator[_Row]:
+    """Yield each setting by each engine, the engine varying fastest."""
     whole, names = over_engines(shares), [str(one) for one in shares.outcome.values]
     ends = np.stack([whole[name].values for name in ("share", "low", "high")], axis=-1)
-    counts = whole["count"].values
+    counts, missed = whole["count"].values, whole.not_caught.values
     for *at, engine in np.ndindex(*counts.shape[1:-1], len(counts)):
         place = (engine, *at)
-        tosses = int(counts[place].sum())
-        found = (Estimate(value, low, high, tosses) for value, low, high in ends[place].tolist())
-        yield tuple(at), str(whole.engine.values[engine]), tosses, dict(zip(names, found, strict=True))
+        own, tosses = dict(zip(names, counts[place].tolist(), strict=True)), int(counts[place].sum())
+        found = [Estimate(value, low, high, tosses) for value, low, high in ends[place].tolist()]
+        told = dict(zip(names, found, strict=True))
+        yield _Row(tuple(at), str(whole.engine.values[engine]), tosses, int(missed[place]), own, told)
 
 
 def markdown(shares: "xr.Dataset") -> str:
     """Return the shares with their 99 % intervals, as a table in Markdown."""
     fields, outcomes, chances = fields_of(shares), outcomes_of(shares), alike(shares)
     both = len(chances) > 0
-    heads = [labelled(shares, field) for field in fields]
-    texts = [texts_of(shares[field].values) for field in fields]
-    rows = []
-    for i, (at, engine, tosses, found) in enumerate(_rows(shares)):
+    texts, rows = [texts_of(shares[field].values) for field in fields], []
+    for i, row in enumerate(_rows(shares)):
         setting, is_second = divmod(i, 2) if both else (i, 0)
-        values = ["" if is_second else text[k] for text, k in zip(texts, at, strict=True)]
-        cells = [percent(found[one]) if tosses else "-" for one in outcomes]
+        values = ["" if is_second else text[k] for text, k in zip(texts, row.at, strict=True)]
+        cells = [percent(row.shares[one]) if row.tosses else "-" for one in outcomes]
         chance = [f"{chances[setting]:.2g}" if is_second else ""] * both
-        rows.append([*values, *[engine] * both, f"{tosses:,d}", *cells, *chance])
+        rows.append([*values, *[row.engine] * both, f"{row.tosses:,d}", *cells, *chance])
+    heads = [labelled(shares, field) for field in fields]
     return table([*heads, *["engine"] * both, "tosses", *outcomes, *["by chance"] * both], rows)
 
 
@@ -106,37 +116,31 @@ def csv(shares: "xr.Dataset") -> str:
     units = [printed_unit(shares[field].attrs["units"]) for field in fields]
     heads = [f"{field} [{unit}]" if unit else field for field, unit in zip(fields, units, strict=True)]
     names = [f"{one}{part}" for one in outcomes for part in ("", " low", " high", " count")]
-    counts, rows = over_engines(shares)["count"], []
-    for at, engine, tosses, found in _rows(shares):
-        values = [repr(float(shares[field].values[k])) for field, k in zip(fields, at, strict=True)]
-        own = counts.sel(engine=engine)[at]
-        cells = [[*map(repr, found[one].ends), str(int(own.sel(outcome=one)))] for one in outcomes]
-        rows.append([*values, engine, str(tosses), *(cell for each in cells for cell in each)])
+    rows = []
+    for row in _rows(shares):
+        values = [repr(float(shares[field].values[k])) for field, k in zip(fields, row.at, strict=True)]
+        cells = [[*map(repr, row.shares[one].ends), str(row.counts[one])] for one in outcomes]
+        rows.append([*values, row.engine, str(row.tosses), *(cell for each in cells for cell in each)])
     return sheet([*heads, "engine", "tosses", *names], rows)
 
 
 def as_json(shares: "xr.Dataset") -> dict[str, Any]:
     """Return what `cointoss shares --json` prints, but for the names of what was asked for."""
-    fields, missed, chances = fields_of(shares), over_engines(shares).not_caught, alike(shares)
-    settings = []
-    for at, engine, tosses, found in _rows(shares):
-        ends = {one: {"value": x.value, "low": x.low, "high": x.high} for one, x in found.items()}
+    fields, chances, settings = fields_of(shares), alike(shares), []
+    for row in _rows(shares):
+        ends = {one: {"value": x.value, "low": x.low, "high": x.high} for one, x in row.shares.items()}
         settings.append(
             {
-                **{field: float(shares[field].values[k]) for field, k in zip(fields, at, strict=True)},
-                "engine": engine,
-                "tosses": tosses,
-                "not_caught": int(missed.sel(engine=engine)[at]),
-                "shares": ends if tosses else dict.fromkeys(ends),
+                **{field: float(shares[field].values[k]) for field, k in zip(fields, row.at, strict=True)},
+                "engine": row.engine,
+                "tosses": row.tosses,
+                "not_caught": row.not_caught,
+                "shares": ends if row.tosses else dict.fromkeys(ends),
             }
         )
-    told: dict[str, Any] = {
-        "hand": json.loads(shares.attrs["hand"]),
-        "seed": shares.attrs["seed"],
-        "vary": [
-            {"field": field, "unit": shares[field].attrs["units"], "values": shares[field].values}
-            for field in fields
-        ],
-        "settings": settings,
-    }
-    return told | ({"by_chance": chances} if len(chances) else {})
+    vary = [
+        {"field": field, "unit": shares[field].attrs["units"], "values": shares[field].values}
+        for field in fields
+    ]
+    told = {"hand": json.loads(shares.attrs["hand"]), "seed": shares.attrs["seed"], "vary": vary}
+    return told | {"settings": settings} | ({"by_chance": chances} if len(chances) else {})
