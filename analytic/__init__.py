@@ -9,8 +9,8 @@ from cointoss.models.kernel.vectors import solve
 __all__ = [
     "FINE",
     "MANY",
-    "OwnLaw",
     "AnalyticSettings",
+    "OwnLaw",
     "require_rows",
     "require_supported",
     "solve",

@@ -87,7 +87,8 @@ def toss_each(rows: Table, wanted: int, answers: Table) -> None:
     Args:
         rows: of their fields, (n, m).
         wanted: `NO_TRUST`, `TRUST` or `CERTAIN`.
-        answers: where they go, (n, 7), see `cointoss.models.answers.ANSWER`; `REFUSED` in place of the outcome of what is no scenario.
+        answers: where they go, (n, 7), see `cointoss.models.answers.ANSWER`; of what is no scenario `REFUSED`
+            in place of the outcome.
     """
     faults = np.empty(1, np.int8)
     for i in range(len(rows)):

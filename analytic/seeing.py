@@ -60,7 +60,9 @@ def see_each(rows: Table, limits: ContactLimits, times: Table, found: Sightings)
         if has_linear_air(rows[first]):
             _see_run(body_of(rows[first], None), rows, limits, times, found, first, end)
         else:
-            _see_run(body_of(rows[first], rows[first, AT.air_exponent]), rows, limits, times, found, first, end)
+            _see_run(
+                body_of(rows[first], rows[first, AT.air_exponent]), rows, limits, times, found, first, end
+            )
         first = end
 
 

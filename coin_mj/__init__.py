@@ -4,7 +4,7 @@ from cointoss.coin_mj.bounces.inverse import Rebounds, solref_of
 from cointoss.coin_mj.bounces.pair import PairBounce, bounce
 from cointoss.coin_mj.bounces.recipe import Bounce, solref
 from cointoss.coin_mj.many import require_rows, toss_rows
-from cointoss.coin_mj.model.settings import FINE, MANY, Friction, Realisation, MujocoSettings
+from cointoss.coin_mj.model.settings import FINE, MANY, Friction, MujocoSettings, Realisation
 from cointoss.coin_mj.release_fields import release_fields
 from cointoss.coin_mj.toss import impacts_of, require_supported, toss
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from cointoss.compare.fitting.observed import Observed as Observed
     from cointoss.compare.report.comparison import Comparison as Comparison
     from cointoss.compare.report.comparison import compare as compare
-    from cointoss.compare.shares.along import shares as shares
+    from cointoss.compare.shares.shares import shares as shares
     from cointoss.compare.sweep.basin import basin as basin
     from cointoss.compare.sweep.errors import MapError as MapError
     from cointoss.compare.sweep.errors import SweepError as SweepError
@@ -71,7 +71,7 @@ _NAMES = {
     "cointoss.compare.fitting.fit": ("Fit", "Fitted", "fit"),
     "cointoss.compare.fitting.observed": ("Observed",),
     "cointoss.compare.report.comparison": ("Comparison",),
-    "cointoss.compare.shares.along": ("shares",),
+    "cointoss.compare.shares.shares": ("shares",),
     "cointoss.compare.sweep.basin": ("basin",),
     "cointoss.compare.sweep.errors": ("MapError", "SweepError"),
     "cointoss.compare.sweep.reading": ("read_map",),

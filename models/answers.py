@@ -13,7 +13,7 @@ from cointoss.models.rows import NOT_TOSSED as NOT_TOSSED
 from cointoss.models.rows import REFUSED as REFUSED
 
 Trust = Literal["impacts", "certain"]
-"""What is found of how far a toss can be trusted: how many impacts; or these, and whether its outcome is certain."""
+"""How many impacts of a toss can be trusted; or that, and whether its outcome is certain."""
 ANSWER = ("outcome", "ending", "impacts", "last_face", "end_time", "trusted_impacts", "outcome_certain")
 """Columns of what compiled code answers of a toss; -1 where that was not asked for."""
 _MISSING = {NOT_TOSSED: "not_tossed", REFUSED: "refused"}

@@ -7,9 +7,9 @@ from typing import Any
 class Word(IntEnum):
     """One word of a list.
 
-    It prints as its word and equals it: `toss.outcome == "heads"`. Else it is its integer, as in compiled code
-    and in arrays of codes; `array == Outcome.HEADS` holds of the word and of the code. `Outcome("heads")` and
-    `Outcome(1)` make it of either.
+    It prints as its word and equals it: `toss.outcome == "heads"`. Else it is its integer, as in compiled
+    code and in arrays of codes; `array == Outcome.HEADS` holds of the word and of the code.
+    `Outcome("heads")` and `Outcome(1)` make it of either.
     As a key and in a set it stands for its integer, not for its word, which `str(toss.outcome)` is.
     """
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import click
 
-from cointoss.compare.commands.common import SCENARIO_HELP, Count, Place, plain_errors, print_json
+from cointoss.compare.commands.common import SCENARIO_HELP, CountType, Place, plain_errors, print_json
 from cointoss.compare.commands.names import scenario_argument, varied, vary_option
 
 

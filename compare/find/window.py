@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from cointoss import analytic
 from cointoss.compare.find.faces import faces_shown
-from cointoss.compare.sweep.axes import NUMBERS, Span, require_ends, span_of
+from cointoss.compare.sweep.axes import NUMBERS, Span, spans_of
 from cointoss.compare.sweep.batch import TOSS, Batch, Varied
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.batch import refused
@@ -121,19 +121,4 @@ def window_of(vary: Mapping[str, Any], scenario: Scenario) -> Window:
     Raises:
         SweepError: naming what is wrong and what is accepted.
     """
-    if not isinstance(vary, Mapping) or not vary:
-        given = "nothing" if isinstance(vary, Mapping) else repr(vary)
-        raise SweepError(
-            f'vary: {given}, accepted: a field or more, such as {{"height": ("20 cm", "60 cm")}}'
-        )
-    spans: list[Span] = []
-    for name, given in vary.items():
-        ends = given.split(":") if isinstance(given, str) else given
-        if not isinstance(ends, list | tuple) or len(ends) != 2:
-            raise SweepError(f"{name}={given}: accepted: (START, STOP), or a text START:STOP")
-        span = span_of(name, ends, scenario, FIELDS)
-        if span.field in [one.field for one in spans]:
-            raise SweepError(f"{span.field}: twice; accepted: each field once")
-        require_ends(span, scenario)
-        spans.append(span)
-    return Window(scenario=scenario, spans=tuple(spans))
+    return Window(scenario=scenario, spans=spans_of(vary, scenario, FIELDS, '{"height": ("20 cm", "60 cm")}'))

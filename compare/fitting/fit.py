@@ -14,9 +14,9 @@ from cointoss.analytic import toss
 from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.fitting.misfit import CLOCK, Misfit
 from cointoss.compare.fitting.observed import Observed
-from cointoss.compare.fitting.search import LEVEL, Minimum, LeastSquaresSearch
+from cointoss.compare.fitting.search import LEVEL, LeastSquaresSearch, Minimum
 from cointoss.compare.fitting.table import read_observed
-from cointoss.compare.sweep.axes import NUMBERS, Span, require_ends, span_of
+from cointoss.compare.sweep.axes import NUMBERS, Span, spans_of
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
 from cointoss.models.errors import ScenarioError
 from cointoss.models.names import SPIN
@@ -35,7 +35,7 @@ FIELDS = {CLOCK: "s"} | {
     if field != SPIN and not field.startswith(("ending.", "release.quaternion."))
 }
 """What may be free, and its SI unit."""
-_SPANS = 'a dict such as {"floor.restitution": (0.4, 0.9)} or {"floor.restitution": "0.4:0.9"}'
+_EXAMPLE = '{"floor.restitution": (0.4, 0.9)}'
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -229,13 +229,14 @@ def fit(
     require_whole("starts", starts, 1, MOST_STARTS)
     require_whole("seed", seed, 0, MOST_SEED)
     described = scenario_of(scenario)
-    if not isinstance(vary, Mapping):
-        raise SweepError(f"vary: {vary!r}, accepted: {_SPANS}")
-    spans = tuple(_span(name, ends, described) for name, ends in vary.items())
-    fields = [span.field for span in spans]
-    if not 1 <= len(set(fields)) == len(fields) <= MOST_FIELDS:
-        told = ", ".join(fields) or "nothing"
-        raise SweepError(f"vary: {told}; accepted: from 1 to {MOST_FIELDS} fields, each once")
+    spans = spans_of(vary, described, FIELDS, _EXAMPLE, free=[CLOCK])
+    if len(spans) > MOST_FIELDS:
+        raise SweepError(f"vary: {len(spans)} fields; accepted: from 1 to {MOST_FIELDS}")
+    for span in spans:
+        if span.field.startswith("release.angles.") and described.release.angles is None:
+            raise SweepError(
+                f"{span.field}: this scenario has a quaternion; accepted: release.angles in its place"
+            )
     if isinstance(observed, str | PathLike):
         observed = read_observed(observed, sd)
     elif not isinstance(observed, Observed):
@@ -278,21 +279,6 @@ def _fit_of(misfit: Misfit, minimum: Minimum, ends: Array) -> Fit:
         clock=float(misfit.clock_of(minimum.values[None])[0]),
         others=(),
     )
-
-
-def _span(name: str, ends: object, scenario: Scenario) -> Span:
-    """Return the span of a field of `vary`."""
-    given = ends.split(":") if isinstance(ends, str) else ends
-    if not (isinstance(given, tuple | list) and len(given) == 2):
-        raise SweepError(f"vary: {name} = {ends!r}, accepted: {_SPANS}")
-    span = span_of(name, given, scenario, FIELDS)
-    if span.field != CLOCK:
-        require_ends(span, scenario)
-    if span.field.startswith("release.angles.") and scenario.release.angles is None:
-        raise SweepError(
-            f"{span.field}: this scenario has a quaternion; accepted: release.angles in its place"
-        )
-    return span
 
 
 def _is_at_end(value: float, span: Span) -> bool:

@@ -46,9 +46,10 @@ def share_of(met: int, count: int, counted: str = "tosses") -> Estimate:
 
 
 def wilson(met: ArrayLike, count: ArrayLike) -> tuple[Array, Array, Array]:
-    """Return shares of samples, and the ends of their intervals (E. B. Wilson, J. Am. Stat. Assoc. 22 (1927) 209).
+    """Return shares of samples, and the ends of their intervals.
 
-    Of no sample a share is NaN, and may be anything from 0 to 1.
+    They are those of E. B. Wilson, J. Am. Stat. Assoc. 22 (1927) 209. Of no sample a share is NaN, and may be
+    anything from 0 to 1.
 
     Args:
         met: how many of each sample meet something, of any shape.

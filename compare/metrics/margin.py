@@ -203,7 +203,7 @@ def margins(
 
 
 def smallest_changes(
-    rows: Array, quantity: Quantity, *, outcomes: Callable[[Array], Codes], search: Search
+    rows: Array, quantity: Quantity, *, outcomes: Callable[[Array], Codes], search: SearchResolution
 ) -> Array:
     """Return the margin of each of many tosses along a quantity, with its sign, in SI units, (n,).
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.compare.engines import Engine
-from cointoss.compare.sweep.axes import HAND, Axis, axis_of
+from cointoss.compare.sweep.axes import HAND, Axis, axis_of, ends_of
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
 from cointoss.models.batch import STATE, refused, rows_from_states, scenario_of_row
 from cointoss.models.errors import FieldError, ScenarioError
@@ -165,9 +165,7 @@ def plan_of(
     for name, given in vary.items():
         if str(name).startswith("release."):
             raise SweepError(f"{name}: the hand releases the coin; accepted: {', '.join(HAND)}, and others")
-        ends = given.split(":") if isinstance(given, str) else given
-        if not isinstance(ends, list | tuple) or len(ends) != 3:
-            raise SweepError(f"{name}={given}: accepted: START:STOP:N, such as 0.2:0.8:7")
+        ends = ends_of(name, given, 3, "START:STOP:N, such as 0.2:0.8:7")
         axes.append(axis_of(name, ends, scenario, FIELDS))
     if tosses is None:
         tosses = USUAL_TOSSES if to is None else MOST_TOSSES

@@ -11,7 +11,7 @@ from cointoss.compare.metrics.estimate import Estimate
 from cointoss.compare.metrics.estimates import chance_alike, percent
 from cointoss.compare.output.tables import sheet, table
 from cointoss.compare.sweep.axes import word_of
-from cointoss.models.fields import printed_unit
+from cointoss.models.units import printed_unit
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -138,9 +138,9 @@ def as_json(shares: "xr.Dataset") -> dict[str, Any]:
                 "shares": ends if row.tosses else dict.fromkeys(ends),
             }
         )
-    vary = [
+    along = [
         {"field": field, "unit": shares[field].attrs["units"], "values": shares[field].values}
         for field in fields
     ]
-    told = {"hand": json.loads(shares.attrs["hand"]), "seed": shares.attrs["seed"], "vary": vary}
+    told = {"hand": json.loads(shares.attrs["hand"]), "seed": shares.attrs["seed"], "along": along}
     return told | {"settings": settings} | ({"by_chance": chances} if len(chances) else {})

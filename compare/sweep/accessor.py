@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from cointoss.compare.metrics.estimates import wilson
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import numbers_in
-from cointoss.models.answers import COLUMNS, NOT_TOSSED, REFUSED
+from cointoss.models.answers import COLUMNS
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
 from cointoss.models.scenario import Scenario
@@ -132,8 +132,18 @@ class Tosses:
         words = list(Outcome.by_value().values())
         return shares_of(counts.values, (*along, "outcome"), {**kept, "outcome": words}, self._dataset.attrs)
 
-    def table(self) -> "pd.DataFrame":
-        """Return a table of pandas, a row for each toss, in words, with units in `attrs["units"]`."""
+    @property
+    def _is_of_shares(self) -> bool:
+        """Whether the dataset is of shares, not of tosses."""
+        return "share" in self._dataset
+
+    def table(self) -> "pd.DataFrame | str":
+        """Return a table of pandas, a row for each toss, in words, with units in `attrs["units"]`.
+
+        Of shares it is a text: a row for each setting, with 99 % intervals, in Markdown.
+        """
+        if self._is_of_shares:
+            return _front("shares.show").markdown(self._dataset)
         frame = in_words(self._dataset).to_dataframe().reset_index()
         frame.attrs["units"] = {
             str(name): one.attrs["units"]
@@ -180,6 +190,8 @@ class Tosses:
         from cointoss.compare.sweep import show
         from cointoss.compare.sweep.tossed_map import map_of
 
+        if self._is_of_shares:
+            return _front("shares.picture").plot_shares(self._dataset, ax)
         if len(self._dataset["outcome"].dims) == 2:
             return show.plot_map(map_of(self._dataset), ax, layer, palette, boundaries=boundaries)
         return show.plot_counts(self.counts, ax)
@@ -196,11 +208,9 @@ class Tosses:
         Raises:
             SweepError: for tosses that are not over two fields.
         """
-        # The explorer stands above the maps.
-        explore = import_module("cointoss.compare.explorer.static").explore
         from cointoss.compare.sweep.tossed_map import map_of
 
-        return explore(map_of(self._dataset))
+        return _front("explorer.static").explore(map_of(self._dataset))
 
     def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> Path:
         """Write a map as `cointoss basin` does: `read_map`, `cointoss explore` and `--resume` take it.
@@ -232,6 +242,8 @@ class Tosses:
 
     def __repr__(self) -> str:
         """Return how many tosses there are, and how many of each outcome."""
+        if self._is_of_shares:
+            return f"<shares of {int(self._dataset['count'].sum()):,d} tosses>"
         told = ", ".join(f"{count:,d} {name}" for name, count in self.counts.items())
         return f"<{self._dataset['outcome'].size:,d} tosses: {told}>"
 
@@ -258,5 +270,6 @@ def shares_of(
     return xr.Dataset(variables, coordinates, attributes)
 
 
-MISSING = (NOT_TOSSED, REFUSED)
-"""Codes of tosses that have no outcome."""
+def _front(name: str) -> Any:
+    """Return a module of what stands above the maps and shows their datasets."""
+    return import_module(f"cointoss.compare.{name}")

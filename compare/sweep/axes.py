@@ -113,6 +113,48 @@ def axis_of(name: str, ends: Sequence[Any], scenario: Scenario, units: Mapping[s
     return axis
 
 
+def ends_of(name: object, given: Any, parts: int, accepted: str) -> Sequence[Any]:
+    """Return the parts of a range, as text START:STOP or START:STOP:N, or as a tuple or a list.
+
+    Raises:
+        SweepError: for anything else, naming what is accepted.
+    """
+    ends = given.split(":") if isinstance(given, str) else given
+    if not isinstance(ends, list | tuple) or len(ends) != parts:
+        raise SweepError(f"{name} = {shown(given)}: accepted: {accepted}")
+    return ends
+
+
+def spans_of(
+    vary: Any, scenario: Scenario, units: Mapping[str, str], example: str, *, free: Collection[str] = ()
+) -> tuple[Span, ...]:
+    """Return the spans of fields that vary, each once; a scenario accepts their ends.
+
+    Args:
+        vary: by field its first and its last value, numbers in SI or texts with a unit, or both as a text.
+        scenario: whose fields these are.
+        units: of the fields that are accepted, SI in pint's spelling.
+        example: of what is accepted.
+        free: fields that are none of the scenario.
+
+    Raises:
+        SweepError: naming what is wrong and what is accepted.
+    """
+    if not isinstance(vary, Mapping) or not vary:
+        given = "nothing" if isinstance(vary, Mapping) else shown(vary)
+        raise SweepError(f"vary: {given}, accepted: a dict such as {example}")
+    found: dict[str, Span] = {}
+    for name, given in vary.items():
+        ends = ends_of(name, given, 2, "its first and last value, as (START, STOP) or START:STOP")
+        span = span_of(name, ends, scenario, units)
+        if span.field in found:
+            raise SweepError(f"{span.field}: twice; accepted: each field once")
+        if span.field not in free:
+            require_ends(span, scenario)
+        found[span.field] = span
+    return tuple(found.values())
+
+
 def split_span(text: str, parts: int, form: str) -> tuple[str, list[str]]:
     """Return the field of FIELD=START:STOP and what follows it, in `parts` parts.
 

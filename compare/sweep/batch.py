@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.compare.sweep.axes import NUMBERS, axis_of, named, number, unit_of, word_of
+from cointoss.compare.sweep.axes import NUMBERS, axis_of, ends_of, named, number, unit_of, word_of
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.batch import refused, rows_of, scenario_of_row
 from cointoss.models.errors import ScenarioError, shown
@@ -200,8 +200,7 @@ def _batch(described: Scenario, given: Mapping[str, Any]) -> Batch:
     arrays: dict[str, NDArray[Any]] = {}
     for field, value in given.items():
         if _is_range(value):
-            ends = value.split(":") if isinstance(value, str) else value
-            values = axis_of(field, ends, described).values
+            values = axis_of(field, ends_of(field, value, 3, "START:STOP:N"), described).values
             varied.append(Varied(field=field, dims=(field,), values=values))
         elif hasattr(value, "dims"):
             dims = tuple(map(str, value.dims))

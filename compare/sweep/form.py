@@ -38,8 +38,8 @@ _ATTRIBUTES = {
     "after": int | None,
     "versions": dict,
 }
-_DEEPEST = 12
-"""Folders within a store: an array, its chunks, those along each dimension but the last."""
+_NAMES = {*LAYERS, *NUMBERS, *FIELDS}
+"""What an array may be called."""
 
 
 class FormError(ValueError):
@@ -69,20 +69,25 @@ def is_map(folder: Path) -> bool:
         return False
 
 
-def read_attributes(folder: Path) -> dict[str, Any]:
+def read_attributes(folder: Path, dims: int) -> dict[str, Any]:
     """Return the attributes of a map or a store of tosses, of the kinds that it must have.
+
+    Args:
+        folder: of one that says that it is such.
+        dims: how many dimensions it should have.
 
     Raises:
         FormError: for a folder that is none.
         OSError: if a file can't be read.
     """
-    _require_plain(folder)
-    attributes = _description(folder).get("attributes")
-    if not isinstance(attributes, dict) or not is_map(folder):
-        raise FormError("attribute cointoss_map missing")
-    for name, kind in _ATTRIBUTES.items():
-        if not isinstance(attributes.get(name), kind):
-            raise FormError(f"attribute {name} = {shown(attributes.get(name))}")
+    _require_plain(folder, dims)
+    try:
+        attributes = _group_attributes(_description(folder))
+        if "cointoss_map" in attributes:
+            return _form(folder).attributes
+        _listed(folder, _description(folder))
+    except RecursionError:
+        raise FormError(f"{DESCRIPTION}: nested too deeply") from None
     return attributes
 
 
@@ -120,7 +125,7 @@ def require_arrays(
 
 def foreign_entry(folder: Path) -> str | None:
     """Return the name of something in a map's folder that is no part of a map, if there is any."""
-    known = {DESCRIPTION, *LAYERS, *NUMBERS, *FIELDS}
+    known = {DESCRIPTION, *_NAMES}
     return min((entry.name for entry in folder.iterdir() if entry.name not in known), default=None)
 
 
@@ -131,7 +136,7 @@ def read_form(folder: Path) -> Form:
         FormError: for a folder that is not as cointoss writes a map.
         OSError: if a file can't be read.
     """
-    _require_plain(folder)
+    _require_plain(folder, 2)
     try:
         return _form(folder)
     except RecursionError:
@@ -156,14 +161,20 @@ def require_chunk(folder: Path, name: Path, size: int) -> None:
         raise FormError(f"{name}: does not decode to {size} bytes")
 
 
-def _require_plain(folder: Path) -> None:
-    """Refuse links, which lead elsewhere, and pipes and devices, which may have no end."""
-    folders = [(folder, 0)]
+def _require_plain(folder: Path, dims: int) -> None:
+    """Refuse links, which lead elsewhere, and pipes and devices, which may have no end.
+
+    Args:
+        folder: of a store.
+        dims: its dimensions. Within it are folders of arrays, in each one of chunks, and in this one for each
+            dimension but the last.
+    """
+    folders, deepest = [(folder, 0)], 1 + dims
     while folders:
         outer, depth = folders.pop()
         with os.scandir(outer) as entries:
             for entry in entries:
-                if entry.is_dir(follow_symlinks=False) and depth < _DEEPEST:
+                if entry.is_dir(follow_symlinks=False) and depth < deepest:
                     folders.append((Path(entry), depth + 1))
                 elif not entry.is_file(follow_symlinks=False):
                     name = Path(entry).relative_to(folder)
@@ -187,27 +198,22 @@ def _description(folder: Path) -> dict[str, Any]:
 
 def _form(folder: Path) -> Form:
     described = _description(folder)
-    attributes = described.get("attributes")
-    if not isinstance(attributes, dict) or "cointoss_map" not in attributes:
+    attributes = _group_attributes(described)
+    if "cointoss_map" not in attributes:
         raise FormError("attribute cointoss_map missing")
-    if (number := attributes["cointoss_map"]) != FORMAT:
-        raise FormError(f"attribute cointoss_map = {shown(number)}, not {FORMAT}")
-    for name, kind in _ATTRIBUTES.items():
-        if name not in attributes:
-            raise FormError(f"attribute {name} missing")
-        if not isinstance(attributes[name], kind):
-            raise FormError(f"attribute {name} = {shown(attributes[name])}")
     if not isinstance(attributes.get(MARGIN_ALONG, ""), str):
         raise FormError(f"attribute {MARGIN_ALONG} = {shown(attributes[MARGIN_ALONG])}")
     if attributes.get(TRUST, True) is not True:
         raise FormError(f"attribute {TRUST} = {shown(attributes[TRUST])}")
-    for name, due in (("zarr_format", 3), ("node_type", "group")):
-        if described.get(name) != due:
-            raise FormError(f"{name} = {shown(described.get(name))}, not {due}")
     absent = set(LAYERS) - {"outcome", "impacts"}
     absent -= {"margin"} if MARGIN_ALONG in attributes else set()
     absent -= {trust_layer(attributes["after"])} if TRUST in attributes else set()
-    arrays = _arrays(folder, described, set(LAYERS) - absent)
+    layers, arrays = set(LAYERS) - absent, _listed(folder, described)
+    if layers - set(arrays):
+        raise FormError(f"array {min(layers - set(arrays))} missing")
+    fields = set(arrays) - layers
+    if len(fields) != 2 or not fields <= set(NUMBERS):
+        raise FormError(f"fields of its axes: {shown(sorted(fields))}, not two of a scenario")
     (x, columns), (y, rows) = (_axis(arrays, dimension) for dimension in ("x", "y"))
     shape = rows, columns
     tile = _sizes("outcome", arrays["outcome"].get("chunk_grid"), within=shape)
@@ -221,17 +227,37 @@ def _form(folder: Path) -> Form:
     return Form(attributes, x, y, (rows, columns), (tile[0], tile[1]))
 
 
-def _arrays(folder: Path, described: dict[str, Any], layers: set[str]) -> dict[str, dict[str, Any]]:
-    """Return the descriptions of the arrays by their names, of which the map has copies."""
+def _group_attributes(described: dict[str, Any]) -> dict[str, Any]:
+    """Return the attributes of a map or a store of tosses, from what describes it."""
+    attributes = described.get("attributes")
+    kind = (
+        "cointoss_tosses"
+        if isinstance(attributes, dict) and "cointoss_tosses" in attributes
+        else "cointoss_map"
+    )
+    if not isinstance(attributes, dict) or kind not in attributes:
+        raise FormError(f"attribute {kind} missing")
+    if (number := attributes[kind]) != FORMAT:
+        raise FormError(f"attribute {kind} = {shown(number)}, not {FORMAT}")
+    for name, due in _ATTRIBUTES.items():
+        if name not in attributes:
+            raise FormError(f"attribute {name} missing")
+        if not isinstance(attributes[name], due):
+            raise FormError(f"attribute {name} = {shown(attributes[name])}")
+    for name, due in (("zarr_format", 3), ("node_type", "group")):
+        if described.get(name) != due:
+            raise FormError(f"{name} = {shown(described.get(name))}, not {due}")
+    return attributes
+
+
+def _listed(folder: Path, described: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """Return the descriptions of the arrays by their names, of which the store has copies."""
     consolidated = described.get("consolidated_metadata")
     listed = consolidated.get("metadata") if isinstance(consolidated, dict) else None
     if not isinstance(listed, dict):
         raise FormError("consolidated_metadata missing")
-    if layers - set(listed):
-        raise FormError(f"array {min(layers - set(listed))} missing")
-    fields = set(listed) - layers
-    if len(fields) != 2 or not fields <= set(NUMBERS):
-        raise FormError(f"fields of its axes: {shown(sorted(fields))}, not two of a scenario")
+    if foreign := set(listed) - _NAMES:
+        raise FormError(f"fields of its axes: {shown(sorted(foreign))}, not of a scenario")
     arrays = {name: _description(folder / name) for name in listed}
     for name, found in arrays.items():
         if _text(found) != _text(listed[name]):

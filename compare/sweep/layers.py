@@ -1,4 +1,4 @@
-"""The arrays of a map and of a store of tosses: their types, attributes, and what they hold without a toss."""
+"""The arrays of a map and of a store of tosses: types, attributes, and what they hold without a toss."""
 
 from typing import Any, NamedTuple
 

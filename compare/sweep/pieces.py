@@ -14,7 +14,7 @@ from cointoss.models.answers import ANSWER, REFUSED, Answers, Trust, names_of
 from cointoss.models.batch import refused
 
 FIRST, GROWTH, SECOND = 64, 8, 1.0
-"""Tosses of the first piece; how many times as many the next may have; and the time that one should take [s]."""
+"""Tosses of the first piece; how many times as many the next may have; and the time of one [s]."""
 MOST = 1 << 17
 """Tosses of a piece, whose rows take 50 MB."""
 

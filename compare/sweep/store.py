@@ -125,6 +125,10 @@ class Store:
         self._require_chunks(name, part)
         return self._array(name)[part]
 
+    def require_decodable(self, name: str) -> None:
+        """Refuse an array of which a file does not decode to its size; nothing is decoded."""
+        self._require_chunks(name, tuple(slice(0, count) for count in self._array(name).shape))
+
     def whole(self, name: str) -> NDArray[Any]:
         """Return all values of an array, or of a coordinate by its field."""
         return self.read(tuple(slice(0, count) for count in self._array(name).shape), name)
@@ -242,7 +246,7 @@ def layout_of_tosses(batch: Batch, how: How) -> Layout:
 
 
 def _tile_of(shape: tuple[int, ...], most: int) -> tuple[int, ...]:
-    """Return the lengths of a tile of at most so many tosses, as long as it can be along the last dimensions."""
+    """Return the lengths of a tile of at most n tosses, as long as it can be along the last dimensions."""
     lengths: list[int] = []
     for size in reversed(shape):
         lengths.append(max(1, min(size, most)))
@@ -366,7 +370,7 @@ def _same(path: Path, target: Path, mode: Literal["r", "r+"], layout: Layout) ->
     One of another layout or of other versions is refused: its tosses would be of two kinds.
     """
     with _readable(path):
-        stored = read_attributes(target)
+        stored = read_attributes(target, len(layout.sizes))
     due = layout.attributes
     made_by, ours = (
         {name: one for name, one in each["versions"].items() if name not in _READERS}
@@ -390,6 +394,8 @@ def _same(path: Path, target: Path, mode: Literal["r", "r+"], layout: Layout) ->
         if not unlike_grid:
             require_arrays(target, layout.sizes, layout.layers, layout.coordinates)
             found = Store.at(target, mode)
+            for field in layout.coordinates:
+                found.require_decodable(field)
             unlike_grid = [
                 one.dims[0]
                 for field, one in layout.coordinates.items()

@@ -67,7 +67,7 @@ class TossedMap:
 
     @cached_property
     def untrusted(self) -> NDArray[np.bool_] | None:
-        """The pixels that the engine's own errors may have decided, (ny, nx); None where that is not known."""
+        """The pixels that the engine's own errors may have decided, (ny, nx); None where unknown."""
         after = self.sweep.after
         return untrusted_pixels(after, self.layers[trust_layer(after)]) if self.sweep.trust else None
 

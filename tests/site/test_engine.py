@@ -12,7 +12,7 @@ from cointoss.analytic.horizon.horizon import IMPULSE_ERROR, TIME_ERROR
 from cointoss.compare.engines import Engine
 from cointoss.compare.explorer import static
 from cointoss.compare.reproduction.setups.general_coins import CLASSES
-from cointoss.compare.sweep.reading import read_map
+from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.models.batch import rows_from_states
 from cointoss.models.certificate import energies
 from cointoss.models.errors import ScenarioError

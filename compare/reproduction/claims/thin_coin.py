@@ -85,7 +85,7 @@ def make(
             some = few if coin == REAL else tossed
             ended = analytic.toss_rows(rows_from_states(scenario, some))
             higher = analytic.toss_rows(rows_from_states(scenario, few + HIGHER))
-            made[coin, floor] = Tossed(
+            made[coin, floor] = ThinCoinTosses(
                 outcome=ended.outcome,
                 impacts=ended.impacts,
                 uncertain=higher.outcome != ended.outcome[: len(few)],

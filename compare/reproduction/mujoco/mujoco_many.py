@@ -104,7 +104,7 @@ def draw_states(rng: np.random.Generator, count: int) -> Array:
 
 
 def _speed(
-    scenario: Scenario, starts: Array, settings: Settings, smooth: list[Scenario], threads: int
+    scenario: Scenario, starts: Array, settings: MujocoSettings, smooth: list[Scenario], threads: int
 ) -> Speed:
     rows = rows_from_states(scenario, starts)
     # The first toss compiles.

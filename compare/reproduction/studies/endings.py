@@ -115,7 +115,7 @@ def _release(rng: np.random.Generator) -> dict[str, Any]:
     }
 
 
-def draw_for_both(rng: np.random.Generator, coin: str) -> tuple[Kind, Scenario]:
+def draw_for_both(rng: np.random.Generator, coin: str) -> tuple[TossKind, Scenario]:
     """Draw a toss on one of the floors `BY_BOTH`; see `draw_toss`."""
     kind, scenario = draw_toss(rng, coin)
     while kind.floor not in BY_BOTH:
@@ -126,7 +126,7 @@ def draw_for_both(rng: np.random.Generator, coin: str) -> tuple[Kind, Scenario]:
 def _tossed(
     seed: int,
     count: int,
-    draw: Callable[[np.random.Generator, str], tuple[Kind, Scenario]],
+    draw: Callable[[np.random.Generator, str], tuple[TossKind, Scenario]],
     toss_rows: Callable[[Array], Answers],
 ) -> Iterator[tuple[list[str], Answers]]:
     """Toss each of `COINS`, `BLOCK` at a time, and yield the kinds of the tosses and how they ended."""

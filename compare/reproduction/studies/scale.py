@@ -19,9 +19,10 @@ from cointoss.compare.reproduction.setups.map_times import map_times
 from cointoss.compare.reproduction.setups.study import study
 from cointoss.compare.sweep import run as sweep_run
 from cointoss.compare.sweep.axes import parse_axis
-from cointoss.compare.sweep.grid import Sweep, Tile, tiles
-from cointoss.compare.sweep.pixels import Pixels, check, toss_pixels
-from cointoss.compare.sweep.store import opened
+from cointoss.compare.sweep.grid import Sweep, numbers_in, tiles
+from cointoss.compare.sweep.pixels import Layers, check
+from cointoss.compare.sweep.run import toss_part
+from cointoss.compare.sweep.store import layout_of_map, opened
 from cointoss.models.cores import cores_used
 from cointoss.models.reading import parse
 
@@ -88,13 +89,14 @@ def compute(progress: Progress, side: int = SIDE, mujoco_side: int = MUJOCO_SIDE
     whole = len(kinds) + len(TILE_SIDES) + 1
     toss: dict[str, float] = {}
     for name, sweep in kinds.items():
-        part = Tile(slice(0, sweep.y.count, 3), slice(0, sweep.x.count, 3))
-        toss_pixels(sweep, Tile(slice(0, 1), slice(0, 1)))  # compiles
-        toss[name] = _cost(sweep, [part])
+        numbers = np.arange(sweep.y.count * sweep.x.count).reshape(sweep.shape)
+        toss_part(sweep, numbers[0, :1])  # loads the engine
+        toss[name] = _cost(sweep, [numbers[::3, ::3].ravel()])
         progress(len(toss), whole)
     tile = {}
     for tile_side in TILE_SIDES:
-        parts = tiles((TILED_SIDE, TILED_SIDE), (tile_side, tile_side))
+        cut = tiles((TILED_SIDE, TILED_SIDE), (tile_side, tile_side))
+        parts = (numbers_in(part, (TILED_SIDE, TILED_SIDE)).ravel() for part in cut)
         tile[tile_side**2] = _cost(sweep_of(TILED_SIDE), parts)
         progress(len(toss) + len(tile), whole)
     steps = _steps(kinds["planar thin coin"], cores)
@@ -118,10 +120,10 @@ def sweep_of(
     return Sweep(scenario=scenario, engine=engine, x=x, y=y, settings=engine.package.MANY)
 
 
-def _cost(sweep: Sweep, parts: Iterable[Tile]) -> float:
+def _cost(sweep: Sweep, parts: Iterable[sweep_run.Numbers]) -> float:
     """Return the time of a toss, made in such parts [s]."""
     start = process_time()
-    count = sum(toss_pixels(sweep, part).outcome.size for part in parts)
+    count = sum(toss_part(sweep, part)["outcome"].size for part in parts)
     return (process_time() - start) / count
 
 
@@ -130,23 +132,23 @@ def _steps(sweep: Sweep, cores: int) -> dict[str, float]:
     text = COIN.format(thickness=0, normal=0, tangential=0)
     tossing = 0.0
 
-    def tosser(sweep: Sweep, tiles: Iterable[Tile]) -> Iterator[tuple[Tile, Pixels]]:
+    def tosser(parts: Iterable[sweep_run.Numbers]) -> Iterator[tuple[sweep_run.Numbers, Layers]]:
         nonlocal tossing
-        for tile in tiles:
+        for numbers in parts:
             start = process_time()
-            pixels = toss_pixels(sweep, tile)
+            layers = toss_part(sweep, numbers)
             tossing += process_time() - start
-            yield tile, pixels
+            yield numbers, layers
 
     marks = [process_time()]
     check(sweep)
     marks.append(process_time())
     with (
         tempfile.TemporaryDirectory() as folder,
-        opened(Path(folder) / "map.zarr", sweep, text, overwrite=False) as map_,
+        opened(Path(folder) / "map.zarr", layout_of_map(sweep, text), overwrite=False) as map_,
     ):
         marks.append(process_time())
-        sweep_run.fill(map_, sweep, tosser)
+        sweep_run.fill(map_, tosser)
         marks.append(process_time())
         sweep_run.fractions_of(map_)
         marks.append(process_time())

@@ -164,8 +164,8 @@ def test_a_window_without_a_scenario_is_refused():
 @pytest.mark.parametrize(
     ("vary", "given", "told"),
     [
-        ({}, {"sequence": "H"}, "vary: nothing, accepted: a field or more"),
-        (3, {"sequence": "H"}, "vary: 3, accepted: a field or more"),
+        ({}, {"sequence": "H"}, "vary: nothing, accepted: a dict such as"),
+        (3, {"sequence": "H"}, "vary: 3, accepted: a dict such as"),
         ({"height": "1:2:3"}, {"sequence": "H"}, "height=1:2:3: accepted: .START, STOP."),
         (WINDOW, {}, "sequence, outcome: none; accepted: one of them, or both"),
         (WINDOW, {"sequence": "HX"}, "sequence: 'HX', accepted: letters H and T"),

@@ -61,7 +61,7 @@ def test_a_share_of_no_trials_may_be_anything():
         assert np.isnan(none.value)
         assert (none.low, none.high, none.count, none.counted) == (0, 1, 0, "spins")
         assert none.needed(0.5) is none.needed(2.0) is None
-    with pytest.raises(ValueError, match="an integer not less than 1"):
+    with pytest.raises(ValueError, match="accepted: a number from 0 to the count"):
         share_of(1, 0)
     found = quotient(share_of(0, 0), share_of(3, 9))
     assert np.isnan(found.value)

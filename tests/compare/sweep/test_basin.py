@@ -32,8 +32,9 @@ def tosses_of(found):
     """Yield each pixel of a map of fig24a, and its toss."""
     for row, height in enumerate(found[Z].values):
         for column, spin in enumerate(found[ETA].values):
-            yield found.isel(y=row, x=column), cointoss.toss(
-                cointoss.load("fig24a").replace(ETA, spin, Z, height)
+            yield (
+                found.isel(y=row, x=column),
+                cointoss.toss(cointoss.load("fig24a").replace(ETA, spin, Z, height)),
             )
 
 
@@ -326,9 +327,7 @@ def test_what_is_no_map_is_refused(found):
     with pytest.raises(ValueError, match="77 is no outcome"):
         replace(made, layers={**made.layers, "outcome": np.full((5, 7), 77, np.int8)})
     with pytest.raises(ValueError, match=r"impacts: shape \(1, 1\), expected \(5, 7\)"):
-        TossedMap(
-            name="m", sweep=made.sweep, layers={**made.layers, "impacts": np.zeros((1, 1), np.int32)}
-        )
+        TossedMap(name="m", sweep=made.sweep, layers={**made.layers, "impacts": np.zeros((1, 1), np.int32)})
     with pytest.raises(cointoss.SweepError, match="palette: 'foo', accepted: safe, paper"):
         found.cointoss.plot(palette="foo")
     with pytest.raises(cointoss.SweepError, match="layer: 'margin', accepted: outcome"):

@@ -100,9 +100,18 @@ def test_arrays_broadcast_as_in_numpy():
 
 @pytest.mark.parametrize(
     ("name", "field"),
-    [("restitution", CHI), ("height", Z), ("position.z", Z), ("thickness", "coin.thickness"), ("contact", "floor.contact"),
-     ("angular_velocity.eta", ETA), ("mass", "coin.mass"), ("caught", "ending.caught"), ("height of the catch", "ending.caught")],
-)  # fmt: skip
+    [
+        ("restitution", CHI),
+        ("height", Z),
+        ("position.z", Z),
+        ("thickness", "coin.thickness"),
+        ("contact", "floor.contact"),
+        ("angular_velocity.eta", ETA),
+        ("mass", "coin.mass"),
+        ("caught", "ending.caught"),
+        ("height of the catch", "ending.caught"),
+    ],
+)
 def test_a_field_may_be_named_by_what_no_other_is_called(name, field):
     value = ["smooth"] if field == "floor.contact" else [1.5]
     assert batch_of(CASE, {name: value}).varied[0].field == field
@@ -192,7 +201,7 @@ def test_what_is_no_batch_is_refused_in_one_line(vary, said):
 
 
 def test_what_varies_is_a_dict():
-    with pytest.raises(SweepError, match="vary: .*, accepted: a dict such as"):
+    with pytest.raises(SweepError, match=r"vary: .*, accepted: a dict such as"):
         batch_of(CASE, ["floor.restitution"])  # pyright: ignore[reportArgumentType]
 
 

@@ -42,7 +42,7 @@ def test_the_numbers_of_a_large_batch_are_never_all_in_memory():
     assert next(parts)[0] == MOST
 
 
-def test_what_is_tossed_when_it_is_interrupted_comes_before_the_interruption(monkeypatch):
+def test_what_is_tossed_when_it_is_interrupted_comes_before_the_interruption():
     def interrupted(rows, *, answers, **_):
         answers[:] = NOT_TOSSED
         analytic.toss_rows(rows[:3], answers=answers[:3])
@@ -50,11 +50,10 @@ def test_what_is_tossed_when_it_is_interrupted_comes_before_the_interruption(mon
 
     engine = SimpleNamespace(package=SimpleNamespace(toss_rows=interrupted))
     batch = batch_of("fig24a", {"height": "0.2:0.6:10", "ending.max_impacts": 2})
-    got = []
+    made = pieces(batch, How(engine=engine, settings=None))  # pyright: ignore[reportArgumentType]
+    tosses, answers = next(made)
     with pytest.raises(KeyboardInterrupt):
-        for tosses, answers in pieces(batch, How(engine=engine, settings=None)):  # pyright: ignore
-            got.append((tosses, answers))
-    ((tosses, answers),) = got
+        next(made)
     assert tosses.tolist() == list(range(10))
     assert (answers.outcome != NOT_TOSSED).tolist() == [True] * 3 + [False] * 7
     assert np.isnan(answers.end_time).tolist() == [False] * 3 + [True] * 7
