@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 
-def _completing(known: Callable[[], Iterable[str]], *, files: bool = False) -> dict[str, Any]:
+def completing(known: Callable[[], Iterable[str]], *, files: bool = False) -> dict[str, Any]:
     """Return what makes a parameter be completed with names, and where none begins so perhaps with files."""
 
     def complete(_ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[Any]:
@@ -24,7 +24,15 @@ def _scenarios() -> list[str]:
     return named_scenarios()
 
 
-def _axes() -> list[str]:
+def settable() -> list[str]:
+    """Return what a setting of a field of a scenario begins with."""
+    from cointoss.compare.sweep.batch import KNOWN
+
+    return [f"{field}=" for field in KNOWN]
+
+
+def axes() -> list[str]:
+    """Return what an axis of a map begins with."""
     from cointoss.models.fields import UNITS
 
     return [f"{field}=" for field in UNITS]
@@ -43,7 +51,7 @@ def _varying() -> list[str]:
 
 
 def _spans() -> list[str]:
-    return ["clock=", *(axis for axis in _axes() if not axis.startswith(("ending.", "release.quaternion.")))]
+    return ["clock=", *(axis for axis in axes() if not axis.startswith(("ending.", "release.quaternion.")))]
 
 
 def _reproductions() -> list[str]:
@@ -52,17 +60,15 @@ def _reproductions() -> list[str]:
     return [*names(), "all"]
 
 
-_named = _completing(_scenarios, files=True)
+_named = completing(_scenarios, files=True)
 scenario_argument = click.argument("scenario", **_named)
 spared_scenario_argument = click.argument("scenario", default="fig24a", **_named)
-reproductions_argument = click.argument(
-    "names", nargs=-1, metavar="[NAME ...]", **_completing(_reproductions)
-)
+reproductions_argument = click.argument("names", nargs=-1, metavar="[NAME ...]", **completing(_reproductions))
 
 
 def axis_option(name: str, about: str) -> Callable[..., Any]:
     """Return the option of an axis of a map."""
-    return click.option(name, required=True, metavar="FIELD=START:STOP:N", help=about, **_completing(_axes))
+    return click.option(name, required=True, metavar="FIELD=START:STOP:N", help=about, **completing(axes))
 
 
 ranges_option = click.option(
@@ -70,7 +76,7 @@ ranges_option = click.option(
     multiple=True,
     metavar="FIELD=START:STOP:N",
     help="The field that varies, and its N values; a second one: both.",
-    **_completing(_ranging),
+    **completing(_ranging),
 )
 vary_option = click.option(
     "--vary",
@@ -78,7 +84,7 @@ vary_option = click.option(
     required=True,
     metavar="FIELD=START:STOP",
     help="A field that may have any value between two; may be given again.",
-    **_completing(_varying),
+    **completing(_varying),
 )
 
 
@@ -100,5 +106,5 @@ def varied(texts: Iterable[str]) -> dict[str, str]:
 def span_option(name: str, about: str) -> Callable[..., Any]:
     """Return the option of the spans of fields that are to be found."""
     return click.option(
-        name, required=True, multiple=True, metavar="FIELD=START:STOP", help=about, **_completing(_spans)
+        name, required=True, multiple=True, metavar="FIELD=START:STOP", help=about, **completing(_spans)
     )

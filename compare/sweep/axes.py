@@ -208,7 +208,8 @@ def named(name: object, known: Collection[str]) -> str:
     try:
         return full_name(name, known)
     except LookupError as error:
-        what = "field that may vary here" if name in NUMBERS else "numeric field of a scenario"
+        kind = "field" if "floor.contact" in known else "numeric field"
+        what = "field that may vary here" if name in NUMBERS else f"{kind} of a scenario"
         raise SweepError(f"{name}: no {what}; accepted: {error.args[0]}") from None
 
 

@@ -27,7 +27,7 @@ MOST_ROWS = 10**12
 TOGETHER = 1 << 16
 """Rows that are checked together."""
 _PARTS = ("coin", "air", "floor", "release", "ending")
-_KNOWN = (*NUMBERS, *(field for field in FIELDS if field not in NUMBERS), *COMPONENTS, *_PARTS)
+KNOWN = (*NUMBERS, *(field for field in FIELDS if field not in NUMBERS), *COMPONENTS, *_PARTS)
 """All that may vary or be set: numbers, words, lists of numbers, and whole parts of a scenario."""
 _ENDS_SUFFICE = (
     "gravity",
@@ -186,7 +186,7 @@ def batch_of(scenario: ScenarioSource, vary: Mapping[str, Any] | None = None) ->
         )
     given: dict[str, Any] = {}
     for name, value in (vary or {}).items():
-        for field, part in _components(named(name, _KNOWN), value):
+        for field, part in _components(named(name, KNOWN), value):
             _require_once(field, given)
             given[field] = part
     fixed = {field: value for field, value in given.items() if _is_one(field, value)}

@@ -166,7 +166,7 @@ def test_a_window_without_a_scenario_is_refused():
     [
         ({}, {"sequence": "H"}, "vary: nothing, accepted: a dict such as"),
         (3, {"sequence": "H"}, "vary: 3, accepted: a dict such as"),
-        ({"height": "1:2:3"}, {"sequence": "H"}, "height=1:2:3: accepted: .START, STOP."),
+        ({"height": "1:2:3"}, {"sequence": "H"}, "height = .1:2:3.: accepted: its first and last value"),
         (WINDOW, {}, "sequence, outcome: none; accepted: one of them, or both"),
         (WINDOW, {"sequence": "HX"}, "sequence: 'HX', accepted: letters H and T"),
         (WINDOW, {"sequence": "H" * 1001}, "sequence: 1001 faces, accepted: at most"),

@@ -1,0 +1,92 @@
+"""The option `--set`: other values of fields of the scenario."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from cointoss.compare.commands.names import completing, settable
+
+if TYPE_CHECKING:
+    from cointoss.models.scenario import Scenario
+
+FORM = "FIELD=VALUE, such as restitution=0.5, contact=coulomb or 'height=40 cm'"
+
+
+class _Setting(click.ParamType):
+    """A field and its value."""
+
+    name = "setting"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the text, or refuse one that is no setting."""
+        field, equals, given = value.partition("=")
+        if not (equals and field.strip() and given.strip()):
+            self.fail(f"{value}; accepted: {FORM}", param, ctx)
+        return value
+
+
+set_option = click.option(
+    "--set",
+    "settings",
+    type=_Setting(),
+    multiple=True,
+    metavar="FIELD=VALUE",
+    help="Another value of a field of the scenario, as its file would have it: restitution=0.5, "
+    "contact=coulomb, 'height=40 cm'; may be given again.",
+    **completing(settable),
+)
+
+
+def described(source: str, settings: Sequence[str] = ()) -> "tuple[Scenario, str]":
+    """Return a scenario in which some fields have other values, and the text of its file.
+
+    Args:
+        source: its file, or the name of one that comes with the package.
+        settings: FIELD=VALUE each, which take their places in turn. A field may be named in part, as
+            "restitution"; a value is a number, a text with a unit, a word or a list, as in a file.
+
+    Raises:
+        ScenarioError: naming the source, field, value and what is accepted.
+        SweepError: for a field that a scenario does not have, naming what is accepted.
+    """
+    from cointoss.models.errors import ScenarioError
+    from cointoss.models.reading import parse, scenario_text
+    from cointoss.models.unused import warn_of_unused_fields
+
+    text = scenario_text(source)
+    scenario = parse(text, source)
+    if settings:
+        from cointoss.compare.sweep.axes import named
+        from cointoss.compare.sweep.batch import KNOWN
+
+        typed = [setting.partition("=") for setting in settings]
+        pairs = [word for name, _, value in typed for word in (named(name.strip(), KNOWN), _value(value))]
+        try:
+            scenario = scenario.replace(*pairs)
+        except ScenarioError as error:
+            raise ScenarioError(f"{source}: {error}") from None
+        text = scenario.to_toml()
+    warn_of_unused_fields(scenario.floor, scenario.air)
+    return scenario, text
+
+
+def settings_words(settings: Sequence[str]) -> list[str]:
+    """Return the words of the command line that make these settings."""
+    return [word for setting in settings for word in ("--set", setting)]
+
+
+def _value(text: str) -> Any:
+    """Return what a scenario file's line would say; a text that is no value of TOML is a number or a word."""
+    import tomllib
+
+    try:
+        found = tomllib.loads(f"value = {text}")
+    except (tomllib.TOMLDecodeError, RecursionError):
+        found = {}
+    if found.keys() == {"value"}:
+        return found["value"]
+    try:
+        return float(text)  # such as .5
+    except ValueError:
+        return text.strip()
