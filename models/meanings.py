@@ -1,22 +1,22 @@
-"""What the fields of a part of a scenario mean, as its class says below each."""
+"""What the fields of a record mean, as its class says below each."""
 
 import ast
 import inspect
+import sys
 from functools import cache
 from itertools import pairwise
-from textwrap import dedent
-
-from pydantic import BaseModel
 
 
 @cache
-def meanings(part: type[BaseModel]) -> dict[str, str]:
+def meanings(record: type) -> dict[str, str]:
     """Return the text below each field that has one, by the field's name.
 
     pydantic can read it too, but only when the class is made, so at the start of every command.
     """
-    (definition,) = ast.parse(dedent(inspect.getsource(part))).body
-    assert isinstance(definition, ast.ClassDef)
+    module = ast.parse(inspect.getsource(sys.modules[record.__module__]))
+    definition = next(
+        one for one in ast.walk(module) if isinstance(one, ast.ClassDef) and one.name == record.__name__
+    )
     meanings = {}
     for field, below in pairwise(definition.body):
         match field, below:

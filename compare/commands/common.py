@@ -11,6 +11,8 @@ from typing import Any, NoReturn
 
 import click
 
+from cointoss.compare.output.language import in_options
+
 SCENARIO_HELP = (
     "SCENARIO is a TOML file, or the name of a scenario that comes with the package, such as fig24a. "
     "An unknown name prints the names that exist."
@@ -188,16 +190,10 @@ def refuse(message: str, status: int = 2) -> NoReturn:
 
 
 def say(message: str) -> None:
-    """Print a line to standard error, with what would split it escaped."""
-    shown = "".join(char if char.isprintable() else repr(char)[1:-1] for char in message)
+    """Print a line to standard error: keywords as options, and what would split it escaped."""
+    shown = "".join(char if char.isprintable() else repr(char)[1:-1] for char in in_options(message))
     click.echo(f"cointoss: {shown}", err=True)
 
-
-contact_option = click.option(
-    "--contact",
-    type=click.Choice(["spring", "one_step"]),
-    help="How MuJoCo realises the restitution; by default by a spring.",
-)
 
 engine_option = click.option(
     "--engine",
@@ -206,5 +202,3 @@ engine_option = click.option(
     show_default=True,
     help="The engine.",
 )
-
-no_video_option = click.option("--no-video", is_flag=True, help="Draw no video, which takes longest.")

@@ -6,14 +6,16 @@ import click
 
 from cointoss.compare.commands.common import SCENARIO_HELP, Place, plain_errors, say
 from cointoss.compare.commands.names import spared_scenario_argument
+from cointoss.compare.commands.settings import described, set_option
 
 
 @click.command(epilog=SCENARIO_HELP)
 @spared_scenario_argument
+@set_option
 @click.option(
     "--out", type=Place(), metavar="FILE.html", help="Write the page, at most 2 MB, instead of opening it."
 )
-def lab(scenario: str, out: Path | None) -> None:
+def lab(scenario: str, settings: tuple[str, ...], out: Path | None) -> None:
     """Toss coins in the browser: a map that follows sliders, and each of its tosses.
 
     The page is one file with the analytic engine in it; it needs no server and no network. It begins with
@@ -25,11 +27,11 @@ def lab(scenario: str, out: Path | None) -> None:
 
         from cointoss.compare.lab.lab import lab_page
         from cointoss.compare.output.files import require_file, write_text
-        from cointoss.models.reading import load
 
         if out is not None:
             require_file(out, ".html", scenario)
-        page = lab_page(load(scenario))
+        coin, _ = described(scenario, settings)
+        page = lab_page(coin)
         target = out or Path(tempfile.mkdtemp(prefix="cointoss-")) / "lab.html"
         write_text(target, page)
         click.echo(target)

@@ -66,11 +66,6 @@ spared_scenario_argument = click.argument("scenario", default="fig24a", **_named
 reproductions_argument = click.argument("names", nargs=-1, metavar="[NAME ...]", **completing(_reproductions))
 
 
-def axis_option(name: str, about: str) -> Callable[..., Any]:
-    """Return the option of an axis of a map."""
-    return click.option(name, required=True, metavar="FIELD=START:STOP:N", help=about, **completing(axes))
-
-
 ranges_option = click.option(
     "--vary",
     multiple=True,

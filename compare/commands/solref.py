@@ -1,19 +1,14 @@
 """`cointoss solref`: settings of MuJoCo for a bounce, and the bounce of given settings."""
 
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from math import floor, inf, isfinite, log10
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import click
 
-from cointoss.compare.commands.common import (
-    CountType,
-    Given,
-    QuantityType,
-    naming_options,
-    plain_errors,
-    print_json,
-)
+from cointoss.compare.commands.common import Given, QuantityType, naming_options, plain_errors, print_json
+from cointoss.compare.commands.options import one_of, only_with, options_of
+from cointoss.compare.output.accepted import Form, Within
 
 if TYPE_CHECKING:
     from cointoss.coin_mj.bounces.inverse import Rebounds
@@ -24,75 +19,50 @@ FAILS = 0.2
 """A formula that is further off than this part of itself fails."""
 
 
+@dataclass(frozen=True, kw_only=True)
+class Wanted:
+    """The bounce whose settings are asked for, or the settings whose bounce is."""
+
+    restitution: Annotated[Given | None, QuantityType(""), Form("E")] = None
+    """From 0 to 1: print settings for it."""
+    of: Annotated[str | None, Form("SOLREF")] = None
+    """Print the restitution of these settings, such as "0.01 0.37"."""
+    dt: Annotated[Given, QuantityType("s"), Form("DT")]
+    """The model's timestep, such as 0.002 or 2ms."""
+    spring: bool = False
+    """By a spring that lasts several steps, instead of in one."""
+    steps: Annotated[int | None, Within(5, 500)] = None
+    """Steps in the contact of a spring; by default 40."""
+    body: Annotated[str | None, Form("BODY")] = None
+    """That is measured, as in a <geom>, such as "box 0.1 0.1 0.002" (half sizes)."""
+    backend: Literal["mujoco", "mjx", "warp"] | None = None
+    """What steps the model; by default MuJoCo itself. Prints settings that it takes."""
+    model: bool = False
+    """Print a whole model instead: the body over a plane."""
+    with_: Annotated[str | None, Form("SOLREF")] = None
+    """Of the other geom, mixed with that of --of; without it, that of --of has priority."""
+    integrator: str | None = None
+    """Beside --of: Euler, MuJoCo's own, implicitfast, implicit, RK4 or discrete."""
+    solimp: Annotated[str | None, Form("SOLIMP")] = None
+    """Beside --of: of the same geom; by default "0.9 0.95 0.001"."""
+    json: bool = False
+    """Print JSON, in full precision."""
+
+
 @click.command()
-@click.option("--restitution", type=QuantityType(""), metavar="E", help="From 0 to 1: print settings for it.")
-@click.option(
-    "--of", "given", metavar="SOLREF", help='Print the restitution of these settings, such as "0.01 0.37".'
+@options_of(
+    Wanted,
+    one_of("restitution", "of", needed=True),
+    *(only_with(name, "restitution") for name in ("spring", "steps", "body", "backend", "model")),
+    *(only_with(name, "of") for name in ("with_", "integrator", "solimp")),
+    only_with("steps", "spring"),
+    one_of("model", "json"),
 )
-@click.option(
-    "--dt",
-    type=QuantityType("s"),
-    required=True,
-    metavar="DT",
-    help="The model's timestep, such as 0.002 or 2ms.",
-)
-@click.option("--spring", is_flag=True, help="By a spring that lasts several steps, instead of in one.")
-@click.option("--steps", type=CountType(5, 500), help="Steps in the contact of a spring; by default 40.")
-@click.option(
-    "--body",
-    metavar="BODY",
-    help='That is measured, as in a <geom>, such as "box 0.1 0.1 0.002" (half sizes).',
-)
-@click.option(
-    "--backend",
-    type=click.Choice(["mujoco", "mjx", "warp"]),
-    help="What steps the model; by default MuJoCo itself. Prints settings that it takes.",
-)
-@click.option("--model", is_flag=True, help="Print a whole model instead: the body over a plane.")
-@click.option(
-    "--with",
-    "other",
-    metavar="SOLREF",
-    help="Of the other geom, mixed with that of --of; without it, that of --of has priority.",
-)
-@click.option(
-    "--integrator", help="Beside --of: Euler, MuJoCo's own, implicitfast, implicit, RK4 or discrete."
-)
-@click.option(
-    "--solimp", metavar="SOLIMP", help='Beside --of: of the same geom; by default "0.9 0.95 0.001".'
-)
-@click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
-def solref(
-    restitution: Given | None,
-    given: str | None,
-    dt: Given,
-    spring: bool,
-    steps: int | None,
-    body: str | None,
-    backend: str | None,
-    model: bool,
-    other: str | None,
-    integrator: str | None,
-    solimp: str | None,
-    as_json: bool,
-) -> None:
+def solref(asked: Wanted) -> None:
     """Print the settings with which a body bounces in MuJoCo, or how it bounces with given settings.
 
     Everything is measured now, on a body that touches a plane at 16 phases of a step.
     """
-    forward = {"--spring": spring, "--steps": steps, "--body": body, "--backend": backend, "--model": model}
-    inverse = {"--with": other, "--integrator": integrator, "--solimp": solimp}
-    if (restitution is None) == (given is None):
-        raise click.UsageError("--restitution and --of: accepted: one of them")
-    for side, option in ((forward, "--restitution"), (inverse, "--of")):
-        beside = restitution if side is forward else given
-        for name, value in side.items():
-            if value and beside is None:
-                raise click.UsageError(f"{name}: accepted: only beside {option}")
-    if steps is not None and not spring:
-        raise click.UsageError(f"--steps {steps}: accepted: only beside --spring")
-    if model and as_json:
-        raise click.UsageError("--model and --json: accepted: one of them")
     with plain_errors("solref"):
         from cointoss.compare.film.back_end import require_mujoco
 
@@ -101,39 +71,39 @@ def solref(
         from cointoss.coin_mj.bounces.recipe import SPRING_STEPS
 
         typed = {
-            "restitution": ("--restitution", restitution),
-            "timestep": ("--dt", dt),
-            "body": ("--body", body),
-            "solref": ("--of", given),
-            "other": ("--with", other),
-            "integrator": ("--integrator", integrator),
-            "solimp": ("--solimp", solimp),
+            "restitution": ("--restitution", asked.restitution),
+            "timestep": ("--dt", asked.dt),
+            "body": ("--body", asked.body),
+            "solref": ("--of", asked.of),
+            "other": ("--with", asked.with_),
+            "integrator": ("--integrator", asked.integrator),
+            "solimp": ("--solimp", asked.solimp),
         }
         with naming_options(typed):
-            if given is not None:
-                chosen = {"integrator": integrator, "solimp": solimp}
+            if asked.of is not None:
+                chosen = {"integrator": asked.integrator, "solimp": asked.solimp}
                 found = coin_mj.solref_of(
-                    _numbers(given),
-                    dt.value,
-                    other=None if other is None else _numbers(other),
+                    _numbers(asked.of),
+                    asked.dt.value,
+                    other=None if asked.with_ is None else _numbers(asked.with_),
                     **{name: value for name, value in chosen.items() if value is not None},
                 )
             else:
-                assert restitution is not None
+                assert asked.restitution is not None
                 found = coin_mj.solref(
-                    restitution.value,
-                    dt.value,
-                    spring=spring,
-                    steps=SPRING_STEPS if steps is None else steps,
-                    body=body,
-                    backend=backend or "mujoco",
+                    asked.restitution.value,
+                    asked.dt.value,
+                    spring=asked.spring,
+                    steps=SPRING_STEPS if asked.steps is None else asked.steps,
+                    body=asked.body,
+                    backend=asked.backend or "mujoco",
                 )
-        if as_json:
+        if asked.json:
             print_json(asdict(found), "mujoco")
         elif isinstance(found, coin_mj.Rebounds):
             click.echo(_rebounds(found))
         else:
-            click.echo(found.model if model else _settings(found))
+            click.echo(found.model if asked.model else _settings(found))
 
 
 def _numbers(text: str) -> tuple[float, ...]:

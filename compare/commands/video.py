@@ -1,32 +1,36 @@
 """`cointoss video`: one toss filmed."""
 
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import click
 
-from cointoss.compare.commands.common import SCENARIO_HELP, Place, plain_errors, refuse
+from cointoss.compare.commands.common import SCENARIO_HELP, plain_errors, refuse
 from cointoss.compare.commands.names import scenario_argument
+from cointoss.compare.commands.options import options_of
+from cointoss.compare.commands.settings import described, set_option
+
+
+@dataclass(frozen=True, kw_only=True)
+class Film:
+    """The film that is asked for."""
+
+    out: Path
+    """The file to write: .mp4, .webm or .gif."""
+    engine: Literal["analytic", "mujoco", "both"] = "mujoco"
+    """The engine that tosses; both: side by side."""
+    camera: Literal["overview", "close-up", "top"] = "close-up"
+    """Where the camera is; close-up follows the coin."""
+    poster: Path | None = None
+    """Also a .png file of one frame, to stand for it."""
 
 
 @click.command(epilog=SCENARIO_HELP)
 @scenario_argument
-@click.option("--out", type=Place(), required=True, help="The file to write: .mp4, .webm or .gif.")
-@click.option(
-    "--engine",
-    type=click.Choice(["analytic", "mujoco", "both"]),
-    default="mujoco",
-    show_default=True,
-    help="The engine that tosses; both: side by side.",
-)
-@click.option(
-    "--camera",
-    type=click.Choice(["overview", "close-up", "top"]),
-    default="close-up",
-    show_default=True,
-    help="Where the camera is; close-up follows the coin.",
-)
-@click.option("--poster", type=Place(), help="Also a .png file of one frame, to stand for it.")
-def video(scenario: str, out: Path, engine: str, camera: str, poster: Path | None) -> None:
+@set_option
+@options_of(Film)
+def video(scenario: str, settings: tuple[str, ...], asked: Film) -> None:
     """Film one toss, drawn by MuJoCo, until the coin lies still.
 
     The film slows down around the impacts.
@@ -34,13 +38,12 @@ def video(scenario: str, out: Path, engine: str, camera: str, poster: Path | Non
     with plain_errors(scenario):
         from cointoss.compare.film.encodings import ENCODINGS
         from cointoss.compare.output.files import require_file, written_whole
-        from cointoss.models.reading import load
         from cointoss.models.stages import stage
 
-        described = load(scenario)
-        require_file(out, tuple(ENCODINGS), scenario)
-        if poster is not None:
-            require_file(poster, ".png", scenario)
+        coin, _ = described(scenario, settings)
+        require_file(asked.out, tuple(ENCODINGS), scenario)
+        if asked.poster is not None:
+            require_file(asked.poster, ".png", scenario)
 
         from cointoss.compare.film.back_end import drawing_problem
 
@@ -56,12 +59,12 @@ def video(scenario: str, out: Path, engine: str, camera: str, poster: Path | Non
             from cointoss.compare.film.filmed import followed
             from cointoss.compare.film.video import write_video
 
-        engines = list(Engine) if engine == "both" else [Engine(engine)]
-        shown = [followed(each.package.toss(described)) for each in engines]
-        form = ENCODINGS[out.suffix.lower()].form
-        with written_whole(out) as aside, stage("drawing the film", "frames") as progress:
-            picture = write_video(shown, Camera(camera), form, aside, progress)
-        if poster is not None:
-            with written_whole(poster) as aside:
+        engines = list(Engine) if asked.engine == "both" else [Engine(asked.engine)]
+        shown = [followed(each.package.toss(coin)) for each in engines]
+        form = ENCODINGS[asked.out.suffix.lower()].form
+        with written_whole(asked.out) as aside, stage("drawing the film", "frames") as progress:
+            picture = write_video(shown, Camera(asked.camera), form, aside, progress)
+        if asked.poster is not None:
+            with written_whole(asked.poster) as aside:
                 Image.fromarray(picture).save(aside, format="png")
-        click.echo(out)
+        click.echo(asked.out)

@@ -7,7 +7,9 @@ from PIL import Image
 from cointoss.compare.basins.agreement import Agreement, Share
 from cointoss.compare.basins.picture import MapAxis, draw_comparison
 from cointoss.compare.sweep import describe
+from cointoss.models.reading import load, parse
 from tests.helpers.basin_runs import SCENARIO, basin
+from tests.helpers.command_line import refused
 from tests.helpers.made_maps import halves
 
 AXES = ("--x", "release.angular_velocity.eta=20:60:6", "--y", "release.position.z=0.2:0.6:5", "--after", 0)
@@ -61,6 +63,17 @@ def test_a_map_is_drawn_in_the_size_and_colours_asked(coin, tmp_path):
     assert gold not in colours()
     assert basin(coin, *AXES, "--out", out, "--resume", *asked[:6]).exit_code == 0
     assert gold in colours()
+
+
+def test_a_map_of_a_changed_scenario_keeps_it_and_is_gone_on_with(coin, tmp_path):
+    out, other = tmp_path / "map.zarr", ("--set", "restitution=0.5", "--set", "spin=30")
+    coin.write_text(SCENARIO + "angular_velocity = [0, 20, 0]\n")
+    axes = ("--x", "release.angles.theta=0.1:0.4:3", *AXES[2:])
+    assert basin(coin, *axes, *other, "--out", out).exit_code == 0
+    changed = load(coin).replace("floor.restitution", 0.5, "release.spin", 30)
+    assert parse(xr.open_zarr(out, chunks=None).attrs["scenario"], "map") == changed
+    assert basin(coin, *axes, *other, "--out", out, "--resume").exit_code == 0
+    assert "a store with another scenario" in refused("basin", coin, *axes, "--out", out, "--resume")
 
 
 def test_the_agreement_is_told_near_the_boundaries_and_away_from_them():

@@ -31,8 +31,8 @@ ANSWERS = {
     "solref --of '0.01 1' --with '1' --dt 0.002": "--with 1: accepted: two numbers as in a <geom>",
     "solref --of '0.01 1' --dt 0.002 --integrator RK5": "--integrator RK5: accepted: Euler, RK4, ",
     "solref --of '0.01 1' --dt 0.002 --solimp hard": "--solimp hard: accepted: up to five numbers",
-    "solref --of '0.01 1' --dt 0.002 --body 'box 1'": "--body: accepted: only beside --restitution",
-    "solref --restitution 0.5 --dt 2ms --with '1 1'": "--with: accepted: only beside --of",
+    "solref --of '0.01 1' --dt 0.002 --body 'box 1'": "--body box 1: accepted: only beside --restitution",
+    "solref --restitution 0.5 --dt 2ms --with '1 1'": "--with 1 1: accepted: only beside --of",
     "solref --restitution 0.5 --dt 2ms --body 'box 1'": "--body box 1: accepted: a type and its size [m] ",
     "solref --restitution 0.5 --dt 2ms --backend brax": "'--backend': 'brax' is not one of 'mujoco', 'mjx'",
     "solref --restitution 0.8": "--dt: missing; accepted: --dt DT, the model's timestep, such as 0.002 ",
@@ -57,6 +57,21 @@ ANSWERS = {
     f"{FIND} --sequence ht": "sequence: 'ht', accepted: letters H and T",
     "shares fig24a --up tails": "'--up': 'tails' is not one of 'heads', 'either'",
     f"{AXES} --margin weight --out a.zarr": "margin weight: accepted: height, velocity x,",
+    # settings of a scenario
+    "toss fig24a --set restitutoin=0.5": (
+        "fig24a: restitutoin: no field of a scenario; accepted: floor.restitution, numbers of coin, air, "
+        "floor, release, ending, and gravity (did you mean floor.restitution?)\n"
+    ),
+    "toss fig24a --set restitution": "'--set': restitution; accepted: FIELD=VALUE, such as restitution=0.5, ",
+    "toss fig24a --set restitution=": "'--set': restitution=; accepted: FIELD=VALUE",
+    "toss fig24a --set restitution=1.5": "fig24a: floor.restitution = 1.5: accepted: a number >= 0 and <= 1",
+    "toss fig24a --set contact=rough": 'fig24a: floor.contact = "rough": accepted: one of "sharp_edge", ',
+    "toss fig24a --set 'height=40 s'": 'fig24a: release.position[2] = "40 s": accepted: a number in m',
+    "toss fig24a --set velocity=[0,1]": "fig24a: release.velocity = [0, 1]: accepted: a list of 3 ",
+    "compare fig24a --set coin=0.5 --out report": "fig24a: coin = 0.5: accepted: a table [coin] with mass",
+    "video fig24a --set max_impacts=2.5 --out a.mp4": "fig24a: ending.max_impacts = 2.5: accepted: a whole ",
+    f"{AXES} --set height=-1 --out a.zarr": "fig24a: release.position.z = -1.0: accepted: a coin above",
+    "lab fig24a --set mass=0": "fig24a: coin.mass = 0: accepted: ",
     # numbers
     "toss fig24a --max-impacts 0": "'--max-impacts': 0; accepted: an integer >= 1 and <= 1000000 (",
     "toss fig24a --max-impacts 1e9": "'--max-impacts': 1e9; accepted: an integer >= 1 and ",
@@ -101,10 +116,10 @@ ANSWERS = {
     "video contact_knurled --engine mujoco --out a.mp4": 'contact = "knurled": accepted by the MuJoCo engine',
     "video contact_knurled --engine both --out a.mp4": 'contact = "knurled": accepted by the MuJoCo engine',
     f"{AXES.replace('fig24a', 'contact_knurled')} --compare --out a.zarr": 'floor.contact = "knurled"',
-    "toss fig29 --margin --engine mujoco": "--margin",
-    f"{AXES} --margin height --engine mujoco --out a.zarr": "--margin height --engine mujoco: accepted: only",
-    f"{AXES} --margin height --compare --out a.zarr": "--margin height --compare: accepted: only by",
-    f"{AXES} --trust --engine mujoco --out a.zarr": "--trust --engine mujoco: accepted: only",
+    "toss fig29 --margin --engine mujoco": "--margin: accepted: only without --engine mujoco (see ",
+    f"{AXES} --margin height --engine mujoco --out a.zarr": "--margin height: accepted: only without --",
+    f"{AXES} --margin height --compare --out a.zarr": "--margin height: accepted: only without --compare",
+    f"{AXES} --trust --engine mujoco --out a.zarr": "--trust: accepted: only without --engine mujoco",
     # what excludes another
     "shares fig24a --compare --engine analytic": "--engine and --compare: accepted: one of them",
     "shares fig24a --spun --caught '1 m'": "--caught 1 m: accepted: only without --spun",
@@ -114,7 +129,7 @@ ANSWERS = {
     ),
     f"{AXES} --resume --overwrite --out a.zarr": "one of them",
     f"{AXES} --compare --engine mujoco --out a.zarr": "one of them",
-    f"{AXES} --palette safe --out a.zarr": "only beside --png or --report",
+    f"{AXES} --palette safe --out a.zarr": "--palette safe: accepted: only beside --png or --report",
     f"{AXES} --contact one_step --out a.zarr": "accepted: only beside --engine mujoco or --compare",
     f"{AXES} --engine analytic --contact spring --out a.zarr": "only beside --engine mujoco or --compare",
     f"{AXES} --engine mujoco --contact hard --out a.zarr": "'spring', 'one_step'",
@@ -125,9 +140,9 @@ ANSWERS = {
     "toss fig24a --contact one_step": "--contact one_step: accepted: only beside --engine mujoco",
     # axes of a map
     "basin fig24a --x floor.contact=0:1:3 --y gravity=9:10:2 --out a.zarr": "no numeric field",
-    "basin fig24a --x height=0:1:10 --y gravity=9:10:2 --out a.zarr": (
-        "fig24a: height: no numeric field of a scenario; accepted: release.position.z, numbers of coin, air, "
-        "floor, release, ending, and gravity\n"
+    "basin fig24a --x heigth=0:1:10 --y gravity=9:10:2 --out a.zarr": (
+        "fig24a: heigth: no numeric field of a scenario; accepted: release.position.z, numbers of coin, air, "
+        "floor, release, ending, and gravity (did you mean release.position.z?)\n"
     ),
     "shares fig24a --along height=1:2:3": "accepted: hand.height, numbers of hand, coin, air, floor, ",
     "basin fig24a --x gravity=9:9:3 --y coin.mass=1:2:2 --out a.zarr": "START = STOP",

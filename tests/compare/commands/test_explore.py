@@ -93,7 +93,10 @@ def test_a_port_in_use_is_refused(map_path):
 
 
 def test_the_static_page_opens_no_browser_and_ends_in_html(map_path, tmp_path):
-    for name, more, said in (("a.html", ["--no-browser"], "--static: accepted"), ("a.txt", [], "in .html")):
+    for name, more, said in (
+        ("a.html", ["--no-browser"], "accepted: only without --no-browser"),
+        ("a.txt", [], "in .html"),
+    ):
         assert said in refused("explore", map_path, "--static", tmp_path / name, *more)
 
 

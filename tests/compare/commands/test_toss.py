@@ -9,13 +9,14 @@ from importlib.metadata import version
 import pytest
 
 from cointoss import analytic
+from cointoss.compare.commands.settings import described
 from cointoss.compare.output.answer import as_json
-from cointoss.compare.sweep.in_memory import basin
+from cointoss.compare.sweep.basin import basin
+from cointoss.compare.sweep.toss_many import toss_many
 from cointoss.models.distribution import DISTRIBUTION
 from cointoss.models.errors import ScenarioError
-from cointoss.models.reading import load, scenario_text
+from cointoss.models.reading import load, parse, scenario_text
 from cointoss.models.records import Ending, OtherOutcome, Outcome
-from cointoss.models.releases import Releases
 from cointoss.models.scenario import MOST_KEPT, Scenario
 from tests.helpers.command_line import cointoss, refused
 from tests.helpers.draws import THIN, scenario
@@ -31,11 +32,11 @@ def test_more_impacts_than_memory_has_room_for_are_refused_before_the_toss(engin
 
 def test_many_tosses_keep_no_impacts_and_may_have_more():
     case = scenario(ending={"max_impacts": 30_000_000, "max_time": 0.5})
-    two = Releases.of(case, 2)
-    assert analytic.toss_many(case, two).ending.tolist() == 2 * [Ending.MAX_TIME]
-    for horizon, certain in ((True, False), (False, True)):
+    two = {"height": [0.4, 0.5]}
+    assert toss_many(case, two).ending.values.tolist() == 2 * [str(Ending.MAX_TIME)]
+    for trust in ("impacts", "certain"):
         with pytest.raises(ScenarioError, match=r"max_impacts = 30000000: .*12\.5 GB here"):
-            analytic.toss_many(case, two, horizon=horizon, certain=certain)
+            toss_many(case, two, trust=trust)
     with pytest.raises(ScenarioError, match="max_impacts"):
         basin(case, x="gravity=9:10:2", y="coin.mass=1 g:2 g:2", trust=True)
 
@@ -101,6 +102,40 @@ def test_the_answer_says_which_impact_ends_the_trust_and_why(tmp_path):
     assert "\ntrusted   10 of 12 impacts: the engine's own errors could change impact 11\n" in cut
 
 
+def test_a_field_may_have_another_value_by_a_part_of_its_name():
+    named = (
+        "--set",
+        "height=40 cm",
+        "--set",
+        "restitution=0.5",
+        "--set",
+        "spin = 30",
+        "--set",
+        "max_impacts=2",
+    )
+    toss = json.loads(cointoss("toss", "fig24a", "--json", *named, "--set", "restitution=.6").stdout)
+    other = ("release.position.z", 0.4, "release.spin", 30, "floor.restitution", 0.6, "ending.max_impacts", 2)
+    expected = load("fig24a").replace(*other)
+    assert Scenario.model_validate(toss["scenario"]) == expected
+    assert [one["face"] for one in toss["impacts"]] == list(analytic.toss(expected).sequence)
+
+
+@pytest.mark.parametrize(
+    ("typed", "field", "value"),
+    [
+        ("contact=knurled", "floor.contact", "knurled"),
+        ('contact = "knurled"', "floor.contact", "knurled"),
+        ("angles=[0, 0.3, 0]", "release.angles", [0, 0.3, 0]),
+        ('position=[0, 0, "50 cm"]', "release.position", [0, 0, 0.5]),
+        ("air={normal = 0.001, exponent = 0}", "air", {"normal": 0.001, "exponent": 0}),
+        ("mass=2 g", "coin.mass", 0.002),
+    ],
+)
+def test_a_value_is_one_of_a_scenario_file(typed, field, value):
+    found, text = described("fig24a", [typed])
+    assert found == load("fig24a").replace(field, value) == parse(text, "changed")
+
+
 @pytest.mark.parametrize(
     ("engine", "budget"),
     [("analytic", "--contact-steps"), ("mujoco", "--contact-steps"), ("mujoco", "--flight-steps")],
@@ -112,7 +147,7 @@ def test_a_budget_of_steps_ends_a_toss_and_says_so(tmp_path, engine, budget):
     answered = cointoss("toss", tmp_path / "rolls.toml", "--engine", engine, budget, 7)
     assert answered.exit_code == 0
     assert "outcome   undecided" in answered.stdout
-    assert f"{budget} N" in answered.stdout
+    assert f"The toss stopped at {budget}; raise it to go on." in answered.stdout
 
 
 def test_the_trajectory_is_written_as_csv(tmp_path):

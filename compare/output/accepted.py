@@ -1,0 +1,24 @@
+"""What an option of a command accepts, written as an annotation of the field that it fills."""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+
+class Within(NamedTuple):
+    """A whole number between two bounds."""
+
+    least: int
+    most: int
+    """It is included, as is the least."""
+
+
+class Form(NamedTuple):
+    """A text of a certain form."""
+
+    shown: str
+    """The form as help shows it, such as WIDTHxHEIGHT."""
+    read: Callable[[str], Any] | None = None
+    """Returns the value of a text, or raises ValueError with what is accepted; None for the text itself.
+
+    The value's `str` is a text that it reads.
+    """

@@ -1,0 +1,15 @@
+"""The language of a message: the keywords of Python, or the options of the command line."""
+
+import re
+
+_KEYWORD = re.compile(r"`([a-z]+(?:_[a-z]+)*)`")
+
+
+def option_of(keyword: str) -> str:
+    """Return the option of a keyword, as "--contact-steps" of "contact_steps"; "with_" is "--with"."""
+    return f"--{keyword.rstrip('_').replace('_', '-')}"
+
+
+def in_options(message: str) -> str:
+    """Return a message whose keywords, in backticks, are the options of the command line."""
+    return _KEYWORD.sub(lambda found: option_of(found[1]), message)

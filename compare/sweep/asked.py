@@ -1,0 +1,47 @@
+"""What `cointoss basin` is asked for."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Annotated, Literal
+
+from cointoss.compare.basins.picture_style import PictureStyle
+from cointoss.compare.output.accepted import Form, Within
+
+
+@dataclass(frozen=True, kw_only=True)
+class Job:
+    """A map of a scenario, or one by each engine, with what is drawn and told of them."""
+
+    x: Annotated[str, Form("FIELD=START:STOP:N")]
+    """The field that varies along x, and its N values."""
+    y: Annotated[str, Form("FIELD=START:STOP:N")]
+    """The field that varies along y."""
+    out: Annotated[Path, Form("MAP.zarr")]
+    """The Zarr store to write."""
+    engine: Literal["analytic", "mujoco"] = "analytic"
+    """The engine."""
+    compare: bool = False
+    """Make the map by both engines, MuJoCo's as MAP-mujoco.zarr, and compare the two."""
+    contact: Literal["spring", "one_step"] = "spring"
+    """How MuJoCo realises the restitution."""
+    after: Annotated[int | None, Within(0, 999_999)] = None
+    """Map the face at the touch after this number of impacts; 0: at the first touch."""
+    margin: Annotated[str | None, Form("QUANTITY")] = None
+    """Also map the smallest change of this quantity of the release that changes a pixel's outcome:
+    height, velocity x (y, z), attitude about xi (eta, zeta) or spin about xi (eta, zeta)."""
+    trust: bool = False
+    """Also find which pixels the engine's own errors may have decided."""
+    resume: bool = False
+    """Continue a map; begin it where there is none."""
+    overwrite: bool = False
+    """Replace an existing map."""
+    scheduler: Annotated[str | None, Form("ADDRESS")] = None
+    """Address of a Dask scheduler on whose workers to toss."""
+    png: Path | None = None
+    """Also draw the map to this .png file."""
+    style: PictureStyle = field(default_factory=PictureStyle)
+    """How it is drawn."""
+    report: Path | None = None
+    """Folder of a report as by `cointoss compare`, with both maps; requires --compare."""
+    no_video: bool = False
+    """Draw no video, which takes longest."""

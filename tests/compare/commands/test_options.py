@@ -1,0 +1,145 @@
+"""Options made of a record: their kinds, their help, the rules between them, and back to words."""
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Literal
+
+import click
+import pytest
+from click.testing import CliRunner
+
+from cointoss.compare.commands.common import Given, QuantityType
+from cointoss.compare.commands.options import one_of, only_with, options_of, without, words_of
+from cointoss.compare.output.accepted import Form, Within
+from cointoss.compare.output.language import in_options
+
+
+class Pair(tuple[str, str]):
+    """Two words."""
+
+    def __str__(self) -> str:
+        """Return the text that it was."""
+        return ":".join(self)
+
+
+class Colour(StrEnum):
+    """Of the two."""
+
+    RED = "red"
+    DARK_BLUE = "dark-blue"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Look:
+    """How it is drawn."""
+
+    colour: Colour = Colour.RED
+    """The colour."""
+    pair: Annotated[tuple[str, str] | None, Form("A:B", lambda text: Pair(text.split(":")))] = None
+    """Two words."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wish:
+    """What is asked for."""
+
+    to_do: str
+    """What to do, told
+    in two lines."""
+    engine: Literal["analytic", "mujoco"] = "analytic"
+    """The engine."""
+    count: Annotated[int | None, Within(1, 9)] = None
+    """How many."""
+    out: Annotated[tuple[Path, ...], Form("FILE")] = ()
+    """Files."""
+    with_: Annotated[Given | None, QuantityType("m")] = None
+    """A length."""
+    no_video: bool = False
+    """No video."""
+    look: Look = field(default_factory=Look)
+    """How it is drawn."""
+
+
+taken: list[Wish] = []
+
+
+@click.command()
+@options_of(
+    Wish,
+    one_of("count", "no_video"),
+    only_with("pair", "engine=mujoco", "no_video"),
+    without("with_", "engine=mujoco", "out"),
+    completed={"to_do": lambda: ["walk", "work"]},
+)
+def wish(asked: Wish) -> None:
+    """Take it."""
+    taken.append(asked)
+
+
+def given(*words: str) -> Wish:
+    """Return the record that words fill."""
+    answered = CliRunner().invoke(wish, words, catch_exceptions=False)
+    assert answered.exit_code == 0, answered.output
+    return taken.pop()
+
+
+def test_each_kind_of_field_is_read():
+    assert given("--to-do", "walk") == Wish(to_do="walk")
+    found = given(
+        *("--to-do", "work", "--engine", "mujoco", "--count", "3", "--out", "a", "--out", "b"),
+        *("--colour", "dark-blue", "--pair", "1:2"),
+    )
+    assert (found.engine, found.count, found.out) == ("mujoco", 3, (Path("a"), Path("b")))
+    assert found.look == Look(colour=Colour.DARK_BLUE, pair=("1", "2"))
+    assert given("--to-do", "walk", "--with", "2 cm").with_ == Given("2 cm", 0.02)
+
+
+def test_the_help_is_the_text_below_each_field():
+    text = " ".join(CliRunner().invoke(wish, ["--help"]).output.split())
+    for line in (
+        "--to-do TEXT  What to do, told in two lines.  [required]",
+        "--engine [analytic|mujoco]  The engine.  [default: analytic]",
+        "--count COUNT  How many.  [1<=x<=9]",
+        "--out FILE  Files.",
+        "--with QUANTITY  A length.",
+        "--no-video  No video.",
+        "--colour [red|dark-blue]  The colour.  [default: red]",
+        "--pair A:B  Two words.",
+    ):
+        assert " ".join(line.split()) in text
+
+
+@pytest.mark.parametrize(
+    ("typed", "said"),
+    [
+        ("--count 2 --no-video", "--count and --no-video: accepted: one of them"),
+        ("--pair 1:2", "--pair 1:2: accepted: only beside --engine mujoco or --no-video"),
+        ("--pair 1:2 --engine analytic", "only beside --engine mujoco or --no-video"),
+        ("--with 2m --out a", "--with 2m: accepted: only without --out"),
+        ("--with 2m --engine mujoco", "--with 2m: accepted: only without --engine mujoco"),
+        ("--count 12", "'--count': 12; accepted: an integer >= 1 and <= 9"),
+        ("--colour green", "'--colour': 'green' is not one of 'red', 'dark-blue'"),
+    ],
+)
+def test_what_excludes_or_lacks_another_is_refused(typed, said):
+    answered = CliRunner().invoke(wish, ["--to-do", "walk", *typed.split()])
+    assert answered.exit_code == 2
+    assert said in answered.output
+
+
+def test_one_of_some_may_be_needed():
+    assert one_of("of", "restitution", needed=True)({}) == "--of and --restitution: accepted: one of them"
+    assert one_of("of", "restitution", needed=True)({"of": 0}) is None
+
+
+def test_a_record_goes_back_to_the_words_that_fill_it():
+    words = ["--to-do", "a b", "--out", "a", "--out", "b", "--no-video", "--colour", "dark-blue"]
+    assert words_of(given(*words)) == words
+
+
+def test_keywords_in_a_message_are_options_on_the_command_line():
+    assert (
+        in_options("`resume` goes on, `contact_steps`: see x`y")
+        == "--resume goes on, --contact-steps: see x`y"
+    )
