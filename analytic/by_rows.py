@@ -144,7 +144,7 @@ def toss_one(row: Row, answer: Row, impacts: Table, pieces: Table, sizes: Row) -
     if has_linear_air(row):
         _toss_one(body_of(row, None), row, answer, impacts, pieces, sizes)
     else:
-        _toss_one(body_of(row, row[AT.air_exponent]), row, answer, impacts, pieces, sizes)
+        _toss_one(body_of(row, float(row[AT.air_exponent])), row, answer, impacts, pieces, sizes)
 
 
 @compiled
@@ -180,7 +180,7 @@ def sample_path(row: Row, pieces: Table, times: Row, states: Table, more: Table)
     if has_linear_air(row):
         _sample_path(body_of(row, None), row, pieces, times, states, more)
     else:
-        _sample_path(body_of(row, row[AT.air_exponent]), row, pieces, times, states, more)
+        _sample_path(body_of(row, float(row[AT.air_exponent])), row, pieces, times, states, more)
 
 
 @compiled

@@ -78,7 +78,8 @@ class Answers(NamedTuple):
     @classmethod
     def of_table(cls, table: Array, trust: Trust | None = None) -> "Answers":
         """Return the answers that compiled code wrote into a table, (n, 7), in the order of `ANSWER`."""
-        found = cls(*(table[:, i].astype(COLUMNS[name].kind) for i, name in enumerate(names_of(trust))))
+        columns: Any = (table[:, i].astype(COLUMNS[name].kind) for i, name in enumerate(names_of(trust)))
+        found = cls(*columns)
         found.end_time[found.outcome < 0] = np.nan
         return found
 

@@ -88,14 +88,14 @@ class Ending(Word):
         "Its recent losses, extrapolated, leave the coin enough energy to turn over for ever.",
         "by extrapolation",
     )
-    CONTACT_STEPS = 11, "The toss stopped at contact_steps; raise it to go on: --contact-steps N."
-    FLIGHT_STEPS = 12, "The toss stopped at flight_steps; raise it to go on: --flight-steps N."
+    CONTACT_STEPS = 11, "The toss stopped at `contact_steps`; raise it to go on."
+    FLIGHT_STEPS = 12, "The toss stopped at `flight_steps`; raise it to go on."
     AT_REST = 13, "The coin rests on its edge, held by the floor's resistance to rolling.", _PROVED
-    ROLLING = 14, "The coin still rolls on its edge; to go on raise max_time or contact_steps."
+    ROLLING = 14, "The coin still rolls on its edge; to go on raise [ending] max_time or `contact_steps`."
     CAUGHT = 15, "A hand caught the coin at the height [ending] caught; the face up there counts.", _PROVED
     NOT_CAUGHT = 16, "The coin never came down to the hand at the height [ending] caught."
     PERIODIC = 17, "The coin's contact has gone through a whole period, and repeats it for ever.", _PROVED
-    TRANSIENT = 18, "A long transient: after contact_steps its losses had neither settled it nor died away."
+    TRANSIENT = 18, "A long transient: after `contact_steps` its losses had neither settled it nor died away."
 
 
 class TrustEnd(Word):

@@ -29,5 +29,5 @@ def require_no_contact_filter() -> None:
     if mujoco.get_mjcb_contactfilter() is not None:
         raise UnusableEngineError(
             "mjcb_contactfilter is set, and MuJoCo asks it about the coin's contacts as well; "
-            "accepted: mujoco.set_mjcb_contactfilter(None) before a toss, or --engine analytic"
+            "accepted: mujoco.set_mjcb_contactfilter(None) before a toss, or `engine` analytic"
         )

@@ -208,7 +208,7 @@ class _Option(click.Option):
     def _keep_nothing(self, _: object) -> None:
         """Take what click sets."""
 
-    help = property(_meaning, _keep_nothing)
+    help = property(_meaning, _keep_nothing)  # pyright: ignore[reportAssignmentType]
 
 
 def _is_record(hint: Any) -> TypeGuard[type]:

@@ -69,8 +69,8 @@ class Explorer(ThreadingTCPServer):
             super().__init__((ADDRESS, port), Request)
         except OSError as error:
             why = "another program listens there" if error.errno == errno.EADDRINUSE else error.strerror
-            accepted = "accepted: another port, or no --port for one that is free"
-            raise UnwritableError(f"--port {port}: {why}; {accepted}") from None
+            accepted = "accepted: another port, or no `port` for one that is free"
+            raise UnwritableError(f"`port` {port}: {why}; {accepted}") from None
         self.port: int = self.server_address[1]
         self.hosts = {f"{name}:{self.port}" for name in (ADDRESS, "localhost")}
         if self.port == 80:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from cointoss.compare.output.language import in_options
 from cointoss.models import certificate
 from cointoss.models.notebook import shortened, with_bar
 from cointoss.models.records import (
@@ -130,7 +131,7 @@ def as_lines(toss: Toss, *, whole: bool = False) -> str:
     lines = [
         f"engine    {toss.engine}",
         f"outcome   {toss.outcome_told}",
-        f"ending    {toss.ending}: {toss.ending.sentence}",
+        f"ending    {toss.ending}: {in_options(toss.ending.sentence)}",
         f"end       {toss.end_time:.6f} s after {counted(len(impacts), 'impact')}",
         f"sequence  {shown if whole else shortened(shown)}",
         f"trusted   {toss.trust}",

@@ -9,6 +9,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import NoReturn
 
+from cointoss.compare.output.language import in_options
+
 _NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
 SIGNALS: tuple[signal.Signals, ...] = tuple(getattr(signal, name) for name in _NAMES if hasattr(signal, name))
 """The signals that this system has; Ctrl-Break is Windows' own."""
@@ -123,7 +125,7 @@ class _Ending:
                 with suppress(Exception):
                     undo()
             with suppress(Exception):
-                print(f"cointoss: {interruption.message}", file=sys.stderr, flush=True)
+                print(f"cointoss: {in_options(interruption.message)}", file=sys.stderr, flush=True)
             with suppress(Exception):
                 sys.stdout.flush()
         else:

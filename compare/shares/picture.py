@@ -15,10 +15,10 @@ from cointoss.compare.output.style import GREY, OUTCOMES, STYLE
 from cointoss.compare.shares.show import fields_of, labelled, outcomes_of, over_engines
 from cointoss.compare.sweep.axes import word_of
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.models.units import printed_unit
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
 from cointoss.models.title import title_of_toss
+from cointoss.models.units import printed_unit
 
 if TYPE_CHECKING:
     import xarray as xr

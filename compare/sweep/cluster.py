@@ -49,26 +49,26 @@ def cluster(address: str, say: Callable[[str], None], way_on: str) -> Iterator[W
         import distributed
     except ImportError:
         raise SweepError(
-            f'--scheduler {address}: needs dask.distributed; accepted: pip install "{DISTRIBUTION}[cluster]"'
+            f'`scheduler` {address}: needs dask.distributed; accepted: pip install "{DISTRIBUTION}[cluster]"'
         ) from None
-    say(f"--scheduler {address}: connecting, for up to {PATIENCE} s")
+    say(f"`scheduler` {address}: connecting, for up to {PATIENCE} s")
     try:
         asyncio.run(_reach(address))
         client: Any = distributed.Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
         why = str(error) or f"no answer within {PATIENCE} s"
         raise SweepError(
-            f"--scheduler {address}: accepted: the address of a running Dask scheduler ({why})"
+            f"`scheduler` {address}: accepted: the address of a running Dask scheduler ({why})"
         ) from None
     # A scheduler that is lost is told of in one line.
     logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
     with client:
         if not client.nthreads():
-            say(f"--scheduler {address}: waiting for a first worker, for up to {PATIENCE_FOR_WORKERS} s")
+            say(f"`scheduler` {address}: waiting for a first worker, for up to {PATIENCE_FOR_WORKERS} s")
         try:
             client.wait_for_workers(1, timeout=PATIENCE_FOR_WORKERS)
         except TimeoutError:
-            raise SweepError(f"--scheduler {address}: accepted: a cluster with a worker") from None
+            raise SweepError(f"`scheduler` {address}: accepted: a cluster with a worker") from None
 
         def toss_there(
             toss: Callable[[Part], Tossed], parts: Iterable[Part], engine: Engine
@@ -102,7 +102,7 @@ def naming_loss(address: str, way_on: str) -> Iterator[None]:
     except (CancelledError, KilledWorker, OSError) as error:
         why = str(error) or type(error).__name__
         raise SweepError(
-            f"--scheduler {address}: the cluster was lost, or a part there ({why}); {way_on}"
+            f"`scheduler` {address}: the cluster was lost, or a part there ({why}); {way_on}"
         ) from None
 
 
@@ -131,5 +131,5 @@ def _toss_there(
 ) -> tuple[Part, Tossed]:
     there = engine.versions
     if there != expected:
-        raise SweepError(f"--scheduler: a worker has {there}; accepted: {expected}, as here")
+        raise SweepError(f"`scheduler`: a worker has {there}; accepted: {expected}, as here")
     return part, toss(part)

@@ -21,6 +21,8 @@ from cointoss.models.fields import FIELDS
 
 FORMAT = 1
 """Of a map, under the attribute `cointoss_map`."""
+TOSSES_FORMAT = 2
+"""Of a store of tosses, under the attribute `cointoss_tosses`; in 1 its certainties were bools."""
 MARGIN_ALONG = "margin_along"
 """Attribute of a map with margins: their quantity."""
 TRUST = "trust"
@@ -64,7 +66,7 @@ def is_map(folder: Path) -> bool:
     """Return whether a folder says that it is a map, or a store of tosses, of this format."""
     try:
         attributes = _description(folder)["attributes"]
-        return FORMAT in (attributes.get("cointoss_map"), attributes.get("cointoss_tosses"))
+        return attributes.get("cointoss_map") == FORMAT or attributes.get("cointoss_tosses") == TOSSES_FORMAT
     except (OSError, ValueError, LookupError, TypeError, AttributeError):
         return False
 
@@ -237,8 +239,9 @@ def _group_attributes(described: dict[str, Any]) -> dict[str, Any]:
     )
     if not isinstance(attributes, dict) or kind not in attributes:
         raise FormError(f"attribute {kind} missing")
-    if (number := attributes[kind]) != FORMAT:
-        raise FormError(f"attribute {kind} = {shown(number)}, not {FORMAT}")
+    current = TOSSES_FORMAT if kind == "cointoss_tosses" else FORMAT
+    if (number := attributes[kind]) != current:
+        raise FormError(f"attribute {kind} = {shown(number)}, not {current}")
     for name, due in _ATTRIBUTES.items():
         if name not in attributes:
             raise FormError(f"attribute {name} missing")

@@ -51,7 +51,7 @@ def layers_of(sweep: Sweep) -> dict[str, Layer]:
 
 
 def trust_layer(after: int | None) -> str:
-    """Return the name of the array that says which pixels can be trusted, of a map with this `--after`."""
+    """Return the name of the array that says which pixels can be trusted, of a map with this `after`."""
     return "outcome_certain" if after is None else "trusted_impacts"
 
 

@@ -63,7 +63,7 @@ def fill(store: Store, tosser: Tosser, *, shown: bool | None = None) -> None:
                 kept += len(numbers)
                 progress(kept, whole)
     except Interruption as interruption:
-        interruption.message = f"{name}: {kept} of {whole} tosses are saved; --resume continues"
+        interruption.message = f"{name}: {kept} of {whole} tosses are saved; `resume` continues"
         raise
 
 

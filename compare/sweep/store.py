@@ -26,6 +26,7 @@ from cointoss.compare.sweep.batch import Batch, attributes_of
 from cointoss.compare.sweep.form import (
     FORMAT,
     MARGIN_ALONG,
+    TOSSES_FORMAT,
     TRUST,
     foreign_entry,
     has_grid,
@@ -41,15 +42,15 @@ from cointoss.compare.sweep.pixels import Layers
 from cointoss.models.errors import ScenarioError
 from cointoss.models.reading import parse
 
-_WAYS_OUT = "accepted: a new name, or --overwrite"
+_WAYS_OUT = "accepted: a new name, or `overwrite`"
 _READERS = ("zarr", "xarray")
 """Versions on which no toss depends."""
 _CALLED = {
     "engine": "engine",
     "engine_settings": "engine's settings",
-    "after": "number of impacts (--after)",
-    MARGIN_ALONG: "quantity of its margins (--margin)",
-    TRUST: "set of arrays (--trust)",
+    "after": "number of impacts (`after`)",
+    MARGIN_ALONG: "quantity of its margins (`margin`)",
+    TRUST: "set of arrays (`trust`)",
 }
 """What a person calls attributes."""
 
@@ -234,7 +235,7 @@ def layout_of_tosses(batch: Batch, how: How) -> Layout:
             for one in batch.varied
         },
         attributes={
-            "cointoss_tosses": FORMAT,
+            "cointoss_tosses": TOSSES_FORMAT,
             "scenario": batch.scenario.to_toml(),
             "engine": how.engine.value,
             "engine_settings": how.settings.as_dict(),
@@ -281,7 +282,7 @@ def require_place(path: Path, *, resume: bool, overwrite: bool) -> None:
             raise UnwritableError(f"{path}: is no map; accepted: a new name, or a map of cointoss")
         elif not (resume or overwrite):
             raise UnwritableError(
-                f"{path}: exists; accepted: a new name, --resume to continue it, or --overwrite to replace it"
+                f"{path}: exists; accepted: a new name, `resume` to continue it, or `overwrite` to replace it"
             )
         elif overwrite and (foreign := foreign_entry(target)):
             raise UnwritableError(f"{path}: holds {foreign}, which is no part of a map; accepted: a new name")
@@ -388,19 +389,18 @@ def _same(path: Path, target: Path, mode: Literal["r", "r+"], layout: Layout) ->
         value = f", {json.dumps(stored.get(unlike))}" if unlike == "engine_settings" else ""
         _refuse_other(path, due, f"{_CALLED.get(unlike, unlike)}{value}")
     with _readable(path):
+        axes = layout.coordinates.items()
+        unlike_grid = [one.dims[0] for field, one in axes if not has_grid(target, field, one)]
+    if unlike_grid:
+        _refuse_other(path, due, f"grid in {unlike_grid[-1]}")
+    with _readable(path):
+        require_arrays(target, layout.sizes, layout.layers, layout.coordinates)
+        found = Store.at(target, mode)
+        for field in layout.coordinates:
+            found.require_decodable(field)
         unlike_grid = [
-            one.dims[0] for field, one in layout.coordinates.items() if not has_grid(target, field, one)
+            one.dims[0] for field, one in axes if not np.array_equal(found.whole(field), one.values)
         ]
-        if not unlike_grid:
-            require_arrays(target, layout.sizes, layout.layers, layout.coordinates)
-            found = Store.at(target, mode)
-            for field in layout.coordinates:
-                found.require_decodable(field)
-            unlike_grid = [
-                one.dims[0]
-                for field, one in layout.coordinates.items()
-                if not np.array_equal(found.whole(field), one.values)
-            ]
     if unlike_grid:
         _refuse_other(path, due, f"grid in {unlike_grid[-1]}")
     if made_by != ours:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from cointoss import coin_mj
-from cointoss.coin_mj import MANY, Friction, Realisation, Settings
+from cointoss.coin_mj import MANY, Friction, MujocoSettings, Realisation
 from cointoss.coin_mj.many import TILE
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.toss import run
@@ -28,7 +28,7 @@ def assert_same(a: Answers, b: Answers) -> None:
 
 
 def assert_each_is_a_toss(
-    case: Scenario, drawn: list[dict[str, Any]], answers: Answers, settings: Settings = MANY
+    case: Scenario, drawn: list[dict[str, Any]], answers: Answers, settings: MujocoSettings = MANY
 ) -> None:
     for i, release in enumerate(drawn):
         one = case.replace("release", release)

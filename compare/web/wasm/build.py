@@ -49,6 +49,7 @@ def _description() -> dict[str, object]:
     from cointoss.analytic import by_rows
     from cointoss.compare.web.wasm.fields import described
     from cointoss.models import rows
+    from cointoss.models.answers import ANSWER
     from cointoss.models.faults import ACCEPTED
     from cointoss.models.records import Ending, Outcome
 
@@ -57,7 +58,7 @@ def _description() -> dict[str, object]:
         "sources": sources(),
         "fields": described(),
         "faults": {fault.value: sentence for fault, sentence in ACCEPTED.items()},
-        "answer": by_rows.ANSWER,
+        "answer": ANSWER,
         "examined": rows.EXAMINED,
         "impact": by_rows.IMPACT,
         "piece": by_rows.PIECE,

@@ -60,8 +60,8 @@ def test_each_toss_is_the_scenario_that_one_would_write(vary, dims):
             start, stop, count = value if isinstance(value, tuple) else value.split(":")
             low, high = (batch_of(CASE, {field: end}).scenario for end in _ends(start, stop))
             table, key = field.split(".")[0], field.split(".")[1:]
-            ends = [_get(one, table, key) for one in (low, high)]
-            arrays[field] = (field, np.linspace(*ends, int(count)))
+            first, last = (_get(one, table, key) for one in (low, high))
+            arrays[field] = (field, np.linspace(first, last, int(count)))
         elif hasattr(value, "dims"):
             arrays[field] = value
         elif not isinstance(value, Air) and np.ndim(value):

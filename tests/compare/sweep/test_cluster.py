@@ -104,10 +104,10 @@ def test_without_dask_the_extra_is_named(coin, tmp_path, monkeypatch):
 )
 def test_a_connection_that_is_lost_is_named_with_the_way_on(lost):
     why = str(lost) or "TimeoutError"
-    with pytest.raises(SweepError) as raised, naming_loss("tcp://h:1", "--resume goes on"):
+    with pytest.raises(SweepError) as raised, naming_loss("tcp://h:1", "`resume` goes on"):
         raise lost
     assert str(raised.value) == (
-        f"--scheduler tcp://h:1: the cluster was lost, or a part there ({why}); --resume goes on"
+        f"`scheduler` tcp://h:1: the cluster was lost, or a part there ({why}); `resume` goes on"
     )
 
 

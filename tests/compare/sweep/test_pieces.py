@@ -22,7 +22,7 @@ def test_a_piece_takes_a_second(monkeypatch, cost, most):
     def toss(_batch, _how, piece):
         now[0] += cost * len(piece)
         sizes.append(len(piece))
-        yield Answers(*(np.zeros(len(piece)) for _ in range(5)))
+        yield Answers.of_table(np.zeros((len(piece), 7)))
 
     monkeypatch.setattr(module, "_tossed", toss)
     monkeypatch.setattr(module, "time", SimpleNamespace(perf_counter=lambda: now[0]))

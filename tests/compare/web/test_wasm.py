@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 
 import cointoss
-from cointoss.analytic.by_rows import ANSWER, NO_SCENARIO, NO_TRUST
+from cointoss.analytic.by_rows import NO_TRUST
 from cointoss.analytic.entries import examine, toss_each
 from cointoss.compare.web.wasm import build as building
 from cointoss.compare.web.wasm import carried
 from cointoss.compare.web.wasm.build import _leb128, main
 from cointoss.compare.web.wasm.carried import engine_bytes, made_of, sources
+from cointoss.models.answers import ANSWER, REFUSED
 from cointoss.models.faults import Fault
 from cointoss.models.fields import FIELDS
 from cointoss.models.records import Outcome
@@ -69,7 +70,7 @@ def test_a_row_with_a_number_that_no_scenario_has_is_no_scenario():
     assert foreign_number(row_of(cointoss.load("fig24a"))) == -1
     answers, told = np.empty((len(rows), len(ANSWER))), np.empty(len(EXAMINED))
     toss_each(rows, NO_TRUST, answers)
-    assert (answers[:, 0] == NO_SCENARIO).all()
+    assert (answers[:, 0] == REFUSED).all()
     assert (answers[:, 1:] == -1).all()
     for row, place in zip(rows, places, strict=True):
         examine(row, told)

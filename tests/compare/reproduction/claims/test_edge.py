@@ -32,7 +32,7 @@ from cointoss.compare.reproduction.setups.edge_touches import (
     way_to_rest,
 )
 from cointoss.compare.reproduction.setups.ends import alike, ended_as, tosses
-from cointoss.compare.shares.along import shares
+from cointoss.compare.shares.shares import shares
 from cointoss.models.records import Outcome
 from tests.helpers.pages import saved
 from tests.helpers.studies import result_of
@@ -77,7 +77,7 @@ def test_ends_are_counted_once_and_kept(tmp_path, monkeypatch):
     kind = kind_of(0.6, restitution=0.8)
     found = ends_of(kind, 50, tmp_path)
     assert tosses(found) == 50
-    counted = shares(kind.scenario, hand=kind.hand, tosses=50, seed=crc32(b"a test", SEED)).counts[0]
+    counted = shares(kind.scenario, hand=kind.hand, tosses=50, seed=crc32(b"a test", SEED))["count"].values
     assert [ended_as(found, outcome) for outcome in Outcome] == counted.tolist()
     assert 0 < ended_as(found, Outcome.EDGE) < 50
     monkeypatch.setattr(edge_classes, "by_outcome", None)

@@ -18,7 +18,7 @@ from cointoss.compare.reproduction.studies.spun import (
     plan_of,
     tails,
 )
-from cointoss.compare.shares.along import shares
+from cointoss.compare.shares.shares import shares
 from cointoss.models.batch import rows_from_states
 from cointoss.models.records import Outcome
 from tests.helpers.pages import saved
@@ -30,7 +30,7 @@ THIN = list(EDGES)[-1]
 
 def test_spins_are_counted_as_shares_are():
     plan = plan_of(THIN, "± 10°", OFFSETS[-1], 30)
-    (counted,) = shares(plan.scenario, hand=plan.hand, tosses=30, seed=plan.seed).counts
+    counted = shares(plan.scenario, hand=plan.hand, tosses=30, seed=plan.seed)["count"].values
     found = by_outcome(plan)
     assert [ended_as(found, outcome) for outcome in Outcome] == counted.tolist()
     assert tosses(found) == 30
