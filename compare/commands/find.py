@@ -1,48 +1,44 @@
 """`cointoss find`: a toss that shows a sequence of faces or an outcome."""
 
 import sys
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated, Literal
 
 import click
 
-from cointoss.compare.commands.common import SCENARIO_HELP, CountType, Place, plain_errors, print_json
-from cointoss.compare.commands.names import scenario_argument, varied, vary_option
+from cointoss.compare.commands.common import SCENARIO_HELP, plain_errors, print_json
+from cointoss.compare.commands.names import scenario_argument, varied, varying
+from cointoss.compare.commands.options import options_of
+from cointoss.compare.commands.settings import described, set_option
+from cointoss.compare.output.accepted import Form, Within
+
+
+@dataclass(frozen=True, kw_only=True)
+class SoughtToss:
+    """What a toss is to show, where it is looked for, and where it goes."""
+
+    vary: Annotated[tuple[str, ...], Form("FIELD=START:STOP")]
+    """A field that may have any value between two; may be given again."""
+    sequence: Annotated[str, Form("FACES")] = ""
+    """Faces up at the first touches, such as HTTH."""
+    outcome: Literal["heads", "tails", "edge", "perpetual", "transient", "undecided"] | None = None
+    """How the coin is to end."""
+    tosses: Annotated[int, Within(1, 1 << 30)] = 1 << 16
+    """Over the window, at most; fewer where many show it."""
+    seed: Annotated[int, Within(0, 2**32)] = 0
+    """Seed of the points tossed."""
+    out: Annotated[Path | None, Form("FILE.toml")] = None
+    """Write the scenario of the toss; without it, it is printed."""
+    json: bool = False
+    """Print JSON, in full precision."""
 
 
 @click.command(epilog=SCENARIO_HELP)
 @scenario_argument
-@vary_option
-@click.option("--sequence", default="", metavar="FACES", help="Faces up at the first touches, such as HTTH.")
-@click.option(
-    "--outcome",
-    type=click.Choice(["heads", "tails", "edge", "perpetual", "transient", "undecided"]),
-    help="How the coin is to end.",
-)
-@click.option(
-    "--tosses",
-    type=CountType(1, 1 << 30),
-    default=1 << 16,
-    show_default=True,
-    help="Over the window, at most; fewer where many show it.",
-)
-@click.option("--seed", type=CountType(0, 2**32), default=0, show_default=True, help="Of the points tossed.")
-@click.option(
-    "--out",
-    type=Place(),
-    metavar="FILE.toml",
-    help="Write the scenario of the toss; without it, it is printed.",
-)
-@click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
-def find(
-    scenario: str,
-    vary: tuple[str, ...],
-    sequence: str,
-    outcome: str | None,
-    tosses: int,
-    seed: int,
-    out: Path | None,
-    as_json: bool,
-) -> None:
+@set_option
+@options_of(SoughtToss, completed={"vary": varying})
+def find(scenario: str, settings: tuple[str, ...], asked: SoughtToss) -> None:
     """Find a toss that shows a sequence of faces, or ends on its edge.
 
     The fields of --vary may have any value between START and STOP, in SI or with a unit; all else is as the
@@ -60,22 +56,26 @@ def find(
     with plain_errors(scenario):
         from cointoss.compare.find import find as finding
         from cointoss.compare.output.files import require_file, write_text
-        from cointoss.models.reading import load
 
-        if not (sequence or outcome):
+        if not (asked.sequence or asked.outcome):
             raise click.UsageError("--sequence, --outcome: none; accepted: one of them, or both")
-        described = load(scenario)
-        if out is not None:
-            require_file(out, ".toml", scenario)
+        coin, _ = described(scenario, settings)
+        if asked.out is not None:
+            require_file(asked.out, ".toml", scenario)
         found = finding.find(
-            described, varied(vary), sequence=sequence, outcome=outcome, tosses=tosses, seed=seed
+            coin,
+            varied(asked.vary),
+            sequence=asked.sequence,
+            outcome=asked.outcome,
+            tosses=asked.tosses,
+            seed=asked.seed,
         )
-        if out is not None and found:
-            write_text(out, found.to_toml())
-        if as_json:
-            print_json({"scenario": scenario, "seed": seed, **found.as_json()}, "analytic")
-        elif found and out is None:
+        if asked.out is not None and found:
+            write_text(asked.out, found.to_toml())
+        if asked.json:
+            print_json({"scenario": scenario, "seed": asked.seed, **found.as_json()}, "analytic")
+        elif found and asked.out is None:
             click.echo(found.to_toml(), nl=False)
         else:
-            click.echo("\n".join([*found.lines, *([f"scenario: {out}"] if found else [])]))
+            click.echo("\n".join([*found.lines, *([f"scenario: {asked.out}"] if found else [])]))
     sys.exit(0 if found else 1)

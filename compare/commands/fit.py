@@ -1,19 +1,47 @@
 """`cointoss fit`: what was seen of a coin to the fields that explain it."""
 
 import sys
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
 import click
 
 from cointoss.compare.commands.common import (
     SCENARIO_HELP,
-    CountType,
     Place,
     naming_options,
     plain_errors,
     print_json,
 )
-from cointoss.compare.commands.names import scenario_argument, span_option, varied
+from cointoss.compare.commands.names import fitted, scenario_argument, varied
+from cointoss.compare.commands.options import options_of
+from cointoss.compare.commands.settings import described, set_option
+from cointoss.compare.output.accepted import Form, Within
+
+
+@dataclass(frozen=True, kw_only=True)
+class SoughtValues:
+    """The fields whose values are to be found, how, and where they go."""
+
+    vary: Annotated[tuple[str, ...], Form("FIELD=START:STOP")]
+    """A field to be found, and where it is looked for; may be given several times."""
+    sd_time: Annotated[str | None, Form("QUANTITY")] = None
+    """Standard deviation of the times of touches, such as '1 ms'; needed without a column sd_t."""
+    sd_height: Annotated[str | None, Form("QUANTITY")] = None
+    """Standard deviation of heights, such as '2 mm'."""
+    sd_attitude: Annotated[str | None, Form("QUANTITY")] = None
+    """Standard deviation of tilts and attitudes, such as '2 deg'."""
+    starts: Annotated[int, Within(1, 1 << 20)] = 2048
+    """Values that are tried first, spread evenly over the spans; more for more or wider ones."""
+    seed: Annotated[int, Within(0, 2**32)] = 0
+    """Seed of the starts."""
+    out: Path | None = None
+    """Also write the scenario with the values found to this .toml file."""
+    png: Path | None = None
+    """Also draw the fit to this .png file."""
+    json: bool = False
+    """Print JSON, in full precision."""
 
 
 @click.command(
@@ -23,38 +51,9 @@ from cointoss.compare.commands.names import scenario_argument, span_option, vari
 )
 @click.argument("observed", metavar="OBSERVED.csv", type=Place())
 @scenario_argument
-@span_option("--vary", "A field to be found, and where it is looked for; may be given several times.")
-@click.option(
-    "--sd-time",
-    metavar="QUANTITY",
-    help="Standard deviation of the times of touches, such as '1 ms'; needed without a column sd_t.",
-)
-@click.option("--sd-height", metavar="QUANTITY", help="Likewise of heights, such as '2 mm'.")
-@click.option("--sd-attitude", metavar="QUANTITY", help="Likewise of tilts and attitudes, such as '2 deg'.")
-@click.option(
-    "--starts",
-    type=CountType(1, 1 << 20),
-    default=2048,
-    show_default=True,
-    help="Values that are tried first, spread evenly over the spans; more for more or wider ones.",
-)
-@click.option("--seed", type=CountType(0, 2**32), default=0, show_default=True, help="Of the starts.")
-@click.option("--out", type=Place(), help="Also write the scenario with the values found to this .toml file.")
-@click.option("--png", type=Place(), help="Also draw the fit to this .png file.")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
-def fit(
-    observed: Path,
-    scenario: str,
-    vary: tuple[str, ...],
-    sd_time: str | None,
-    sd_height: str | None,
-    sd_attitude: str | None,
-    starts: int,
-    seed: int,
-    out: Path | None,
-    png: Path | None,
-    as_json: bool,
-) -> None:
+@set_option
+@options_of(SoughtValues, completed={"vary": fitted})
+def fit(observed: Path, scenario: str, settings: tuple[str, ...], asked: SoughtValues) -> None:
     """Find the values of a scenario's fields that explain what was seen of a coin, or that none do.
 
     Seen are the times of its touches, as a microphone hears them, faces up, or heights and attitudes, as a
@@ -70,14 +69,13 @@ def fit(
     with plain_errors(scenario):
         from cointoss.compare.fitting.table import read_observed
         from cointoss.compare.output.files import require_file, write_text, written_whole
-        from cointoss.models.reading import load
         from cointoss.models.stages import stage
 
-        described = load(scenario)
-        for path, suffix in ((out, ".toml"), (png, ".png")):
+        coin, _ = described(scenario, settings)
+        for path, suffix in ((asked.out, ".toml"), (asked.png, ".png")):
             if path is not None:
                 require_file(path, suffix, scenario, observed)
-        sd = {"time": sd_time, "height": sd_height, "attitude": sd_attitude}
+        sd = {"time": asked.sd_time, "height": asked.sd_height, "attitude": asked.sd_attitude}
         given = {name: text for name, text in sd.items() if text is not None}
         options = {f"sd.{name}": (f"--sd-{name}", text) for name, text in given.items()}
         with plain_errors(str(observed)), naming_options(options):
@@ -86,19 +84,19 @@ def fit(
             from cointoss.compare.fitting import fit as fitting
             from cointoss.compare.fitting.answer import as_lines
 
-        found = fitting.fit(seen, described, varied(vary), starts=starts, seed=seed)
-        if out is not None:
-            write_text(out, found.scenario.to_toml())
-        if png is not None:
+        found = fitting.fit(seen, coin, varied(asked.vary), starts=asked.starts, seed=asked.seed)
+        if asked.out is not None:
+            write_text(asked.out, found.scenario.to_toml())
+        if asked.png is not None:
             from cointoss.compare.fitting.picture import draw_fit
 
-            with written_whole(png) as aside:
+            with written_whole(asked.png) as aside:
                 draw_fit(found).savefig(aside, dpi=150, format="png")
-        if as_json:
-            print_json({**found.as_dict(), "seed": seed, "starts": starts}, "analytic")
+        if asked.json:
+            print_json({**found.as_dict(), "seed": asked.seed, "starts": asked.starts}, "analytic")
         else:
             click.echo(as_lines(found))
-            for name, path in (("scenario", out), ("picture", png)):
+            for name, path in (("scenario", asked.out), ("picture", asked.png)):
                 if path is not None:
                     click.echo(f"\n{name:11} {path}")
     sys.exit(0 if found.is_possible else 1)

@@ -14,6 +14,7 @@ from cointoss.compare.commands.common import (
 )
 from cointoss.compare.commands.hand_options import chosen_hand, hand_options
 from cointoss.compare.commands.names import scenario_argument
+from cointoss.compare.commands.settings import described, set_option
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -30,11 +31,20 @@ Counts = dict[str, tuple[int, int]]
 
 @click.command(epilog=SCENARIO_HELP)
 @scenario_argument
+@set_option
 @hand_options
 @click.option("--tosses", type=CountType(1, 10_000_000), default=1000, show_default=True, help="How many.")
 @engine_option
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
-def hands(scenario: str, tosses: int, seed: int, engine: str, as_json: bool, **given: Any) -> None:
+def hands(
+    scenario: str,
+    settings: tuple[str, ...],
+    tosses: int,
+    seed: int,
+    engine: str,
+    as_json: bool,
+    **given: Any,
+) -> None:
     """Toss a scenario's coin many times as a hand does, and count the side that was up at first.
 
     The coin is released flat, or on its edge with --spun; the scenario's own release is not used. The side is
@@ -48,17 +58,14 @@ def hands(scenario: str, tosses: int, seed: int, engine: str, as_json: bool, **g
         from cointoss.compare.metrics.estimates import share_of  # where Ctrl-C comes there is no time for it
         from cointoss.compare.output.interruption import Interruption, undoing
         from cointoss.compare.shares.plan import Plan, check
-        from cointoss.models.reading import load
 
-        hand, described = chosen_hand(given, load(scenario))
+        hand, coin = chosen_hand(given, described(scenario, settings)[0])
         if engine == Engine.MUJOCO:
             require_mujoco()
-        plan = Plan(
-            scenario=described, name="", hand=hand, engines=(Engine(engine),), seed=seed, tosses=tosses
-        )
+        plan = Plan(scenario=coin, name="", hand=hand, engines=(Engine(engine),), seed=seed, tosses=tosses)
         check(plan)
         counted = Counted()
-        told = {"hand": asdict(hand), "caught": described.ending.caught, "seed": seed, "engine": engine}
+        told = {"hand": asdict(hand), "caught": coin.ending.caught, "seed": seed, "engine": engine}
         with undoing(lambda: _answer(counted, told, share_of, as_json=as_json)):
             try:
                 for counted.tosses, counted.counts in (spins if hand.spun else first_sides)(plan):

@@ -44,13 +44,15 @@ def _ranging() -> list[str]:
     return [f"{field}=" for field in FIELDS]
 
 
-def _varying() -> list[str]:
+def varying() -> list[str]:
+    """Return what a span of a search begins with."""
     from cointoss.compare.find.window import FIELDS
 
     return [f"{field}=" for field in FIELDS]
 
 
-def _spans() -> list[str]:
+def fitted() -> list[str]:
+    """Return what a span of a fit begins with."""
     return ["clock=", *(axis for axis in axes() if not axis.startswith(("ending.", "release.quaternion.")))]
 
 
@@ -73,14 +75,6 @@ ranges_option = click.option(
     help="The field that varies, and its N values; a second one: both.",
     **completing(_ranging),
 )
-vary_option = click.option(
-    "--vary",
-    multiple=True,
-    required=True,
-    metavar="FIELD=START:STOP",
-    help="A field that may have any value between two; may be given again.",
-    **completing(_varying),
-)
 
 
 def varied(texts: Iterable[str]) -> dict[str, str]:
@@ -96,10 +90,3 @@ def varied(texts: Iterable[str]) -> dict[str, str]:
             raise click.UsageError(f"--vary {text}: accepted: FIELD=START:STOP, each field once")
         found[field.strip()] = span
     return found
-
-
-def span_option(name: str, about: str) -> Callable[..., Any]:
-    """Return the option of the spans of fields that are to be found."""
-    return click.option(
-        name, required=True, multiple=True, metavar="FIELD=START:STOP", help=about, **completing(_spans)
-    )

@@ -26,6 +26,7 @@ from cointoss.compare.commands.common import (
 )
 from cointoss.compare.commands.hand_options import chosen_hand, hand_options
 from cointoss.compare.commands.names import ranges_option, scenario_argument, varied
+from cointoss.compare.commands.settings import described, set_option
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -43,6 +44,7 @@ WHOLE = 1000
 
 @click.command(epilog=SCENARIO_HELP)
 @scenario_argument
+@set_option
 @ranges_option
 @hand_options
 @click.option(
@@ -71,6 +73,7 @@ WHOLE = 1000
 def shares(
     ctx: click.Context,
     scenario: str,
+    settings: tuple[str, ...],
     vary: tuple[str, ...],
     seed: int,
     tosses: int | None,
@@ -109,15 +112,14 @@ def shares(
             from cointoss.compare.film.back_end import require_mujoco
             from cointoss.compare.output.files import require_file
             from cointoss.compare.shares import plan as plans
-            from cointoss.models.reading import load
 
         read = [given["hand_file"]] if given["hand_file"] is not None else []
-        hand, _ = chosen_hand(given, described := load(scenario))
+        hand, _ = chosen_hand(given, coin := described(scenario, settings)[0])
         engines = tuple(Engine) if both else (Engine(engine),)
         with naming_options({"to": ("--to", to)}):
             plan = plans.plan_of(
                 varied(vary),
-                described,
+                coin,
                 name=Path(scenario).stem,
                 hand=hand,
                 engines=engines,

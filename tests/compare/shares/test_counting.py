@@ -196,7 +196,7 @@ def test_what_no_shares_can_be_made_of_is_refused(given, told):
             dict.fromkeys(("floor.restitution", "gravity"), "0.1:1:300"),
             "300 by 300 settings, accepted: at most",
         ),
-        ({"floor.restitution": 3}, "floor.restitution=3: accepted: START:STOP:N"),
+        ({"floor.restitution": 3}, "floor.restitution = 3: accepted: START:STOP:N"),
         (3, "vary: 3, accepted: a dict"),
     ],
 )

@@ -259,8 +259,8 @@ def test_a_map_is_replaced_only_where_asked(in_tiles, coin, tmp_path):
         ({"x": "release.angular_velocity.eta=20:61:48"}, "grid in x"),
         ({"y": "release.position.y=0.2:0.6:40"}, "grid in y"),
         ({"x": AXES[3], "y": AXES[1]}, "grid in x"),
-        ({"margin": "height"}, r"quantity of its margins \(--margin\)"),
-        ({"trust": True}, r"set of arrays \(--trust\)"),
+        ({"margin": "height"}, r"quantity of its margins \(`margin`\)"),
+        ({"trust": True}, r"set of arrays \(`trust`\)"),
         ({"engine": Engine.MUJOCO}, "engine"),
         ({"settings": replace(analytic.MANY, contact_steps=9)}, "engine's settings"),
     ],
@@ -275,7 +275,7 @@ def test_a_map_of_something_else_is_not_gone_on_with(tmp_path, change, named):
         ).__enter__()
     with opened(tmp_path / "trust.zarr", layout_of_map(map_sweep(trust=True), SCENARIO), overwrite=False):
         pass
-    with pytest.raises(UnwritableError, match=r"another set of arrays \(--trust\)"):
+    with pytest.raises(UnwritableError, match=r"another set of arrays \(`trust`\)"):
         opened(tmp_path / "trust.zarr", layout_of_map(map_sweep(), SCENARIO), overwrite=False).__enter__()
     same = SCENARIO + "# another word for the same coin\n"
     with opened(out, layout_of_map(map_sweep(case=same, name="another file"), same), overwrite=False) as map_:

@@ -239,6 +239,9 @@ def test_a_strangers_store_runs_nothing(tmp_path):
     text = json.loads(described.read_text())
     text["codecs"][1]["name"] = "pickle"
     described.write_text(json.dumps(text))
+    whole = json.loads((path / "zarr.json").read_text())
+    whole["consolidated_metadata"]["metadata"]["impacts"] = text
+    (path / "zarr.json").write_text(json.dumps(whole))
     with pytest.raises(UnwritableError, match=r"is no map of cointoss \(array impacts: codecs"):
         toss_many(CASE, {"height": [0.2, 0.3]}, out=path, resume=True)
     shutil.rmtree(path)
