@@ -74,7 +74,8 @@ def _rows(shares: "xr.Dataset") -> Iterator[_Row]:
     """Yield each setting by each engine, the engine varying fastest."""
     whole, names = over_engines(shares), [str(one) for one in shares.outcome.values]
     ends = np.stack([whole[name].values for name in ("share", "low", "high")], axis=-1)
-    counts, missed = whole["count"].values, whole.not_caught.values
+    counts = whole["count"].values
+    missed = whole["not_caught"].values if "not_caught" in whole else np.zeros(counts.shape[:-1], dtype=int)
     for *at, engine in np.ndindex(*counts.shape[1:-1], len(counts)):
         place = (engine, *at)
         own, tosses = dict(zip(names, counts[place].tolist(), strict=True)), int(counts[place].sum())

@@ -129,8 +129,8 @@ class Tosses:
             *along, "outcome"
         )
         kept = {name: one for name, one in self._dataset.coords.items() if set(one.dims) <= set(along)}
-        words = list(Outcome.by_value().values())
-        return shares_of(counts.values, (*along, "outcome"), {**kept, "outcome": words}, self._dataset.attrs)
+        kept |= {"engine": self._dataset.attrs["engine"], "outcome": list(Outcome.by_value().values())}
+        return shares_of(counts.values, (*along, "outcome"), kept, self._dataset.attrs)
 
     @property
     def _is_of_shares(self) -> bool:
@@ -171,7 +171,7 @@ class Tosses:
         palette: str = "safe",
         boundaries: bool = False,
     ) -> Any:
-        """Draw the outcomes over two fields as a map, over one as shares, over none as bars.
+        """Draw outcomes over two fields as a map, over one as shares of what else varies, else as bars.
 
         A map is hatched where the engine's own errors may have decided.
 
@@ -188,12 +188,16 @@ class Tosses:
             SweepError: for a map that is not finished, and for a layer that it has not.
         """
         from cointoss.compare.sweep import show
-        from cointoss.compare.sweep.tossed_map import map_of
+        from cointoss.compare.sweep.tossed_map import field_along, map_of
 
         if self._is_of_shares:
             return _front("shares.picture").plot_shares(self._dataset, ax)
-        if len(self._dataset["outcome"].dims) == 2:
+        dims = self._dataset["outcome"].dims
+        fields = [dim for dim in dims if field_along(self._dataset, str(dim))]
+        if len(dims) == len(fields) == 2:
             return show.plot_map(map_of(self._dataset), ax, layer, palette, boundaries=boundaries)
+        if len(fields) == 1 < len(dims):
+            return _front("shares.picture").plot_shares(self.shares(*fields), ax)
         return show.plot_counts(self.counts, ax)
 
     def page(self) -> "Frame":

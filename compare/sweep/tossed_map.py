@@ -121,7 +121,7 @@ def map_of(dataset: "xr.Dataset") -> TossedMap:
 
     coded, about = in_codes(dataset), dataset.attrs
     dims = coded["outcome"].dims if "outcome" in coded else ()
-    names = [_field_of(coded, str(dim)) for dim in dims]
+    names = [field_along(coded, str(dim)) for dim in dims]
     if len(dims) != 2 or not all(names) or "scenario" not in about:
         raise SweepError(
             "dataset: accepted: one of tosses over two fields of a scenario, as of cointoss.basin"
@@ -150,7 +150,7 @@ def map_of(dataset: "xr.Dataset") -> TossedMap:
     return TossedMap(sweep=sweep, layers=layers, name=sweep.name or "map", stride=stride)
 
 
-def _field_of(dataset: "xr.Dataset", dim: str) -> str:
+def field_along(dataset: "xr.Dataset", dim: str) -> str:
     """Return the numeric field that varies along a dimension, empty where none or several do."""
     found = [str(name) for name, one in dataset.coords.items() if one.dims == (dim,) and name in NUMBERS]
     return found[0] if len(found) == 1 else ""

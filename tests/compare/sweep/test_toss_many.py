@@ -6,6 +6,7 @@ import shutil
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.figure import Figure
 
 import cointoss
 from cointoss import Outcome, SweepError, analytic, coin_mj, load, toss_many
@@ -262,3 +263,19 @@ def test_mirrored_coins_end_alike():
     ds = toss_many(case, {"release.angles.psi": [0.0, 1.0, 2.0], "max_impacts": 5})
     assert len(set(ds.last_face.values.tolist())) == 1
     assert np.ptp(ds.end_time.values) < 1e-9
+
+
+def test_shares_along_a_field_have_a_table_and_a_picture():
+    ds = toss_many("fig24a", {"height": np.linspace(0.2, 0.6, 40), "restitution": "0.4:0.6:3"})
+    along = ds.cointoss.shares("floor.restitution")
+    assert along["count"].sum("outcome").values.tolist() == [40, 40, 40]
+    assert (along.low <= along.share).all()
+    assert (along.share <= along.high).all()
+    heads = float(along.share.sel(outcome="heads")[1])
+    assert heads == float((ds.outcome == "heads").isel({"floor.restitution": 1}).mean())
+    lines = along.cointoss.table().splitlines()
+    assert lines[0].startswith("| restitution χ | tosses | heads | tails |")
+    assert len(lines) == 5
+    for axes in (ds.cointoss.plot(Figure().subplots()), along.cointoss.plot(Figure().subplots())):
+        assert axes.get_xlabel() == "restitution χ"
+    assert repr(along.cointoss) == "<shares of 120 tosses>"
