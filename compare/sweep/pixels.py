@@ -5,10 +5,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.layers import layers_of
 from cointoss.compare.sweep.pieces import require_supported
 from cointoss.models.answers import Answers
+from cointoss.models.errors import ScenarioError
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
 from cointoss.models.unused import warn_of_unused_fields
@@ -68,13 +70,16 @@ def check(sweep: Sweep) -> None:
     """Refuse a sweep with a pixel that is no scenario, or that its engine can't toss.
 
     Raises:
-        ScenarioError: naming field, value, and what is accepted.
+        SweepError: naming field, value, and what is accepted.
         UnsupportedError: for what the engine can't toss.
 
     Warns:
         UnusedFieldWarning: for a field that nothing uses.
     """
-    sweep.batch.check()
-    largest = sweep.batch.largest()
+    try:
+        sweep.batch.check()
+        largest = sweep.batch.largest()
+    except ScenarioError as error:
+        raise SweepError(str(error)) from None
     warn_of_unused_fields(largest.floor, largest.air)
     require_supported(sweep.batch, sweep.how)

@@ -10,10 +10,10 @@ import pytest
 from cointoss import analytic, coin_mj
 from cointoss.coin_mj import Friction, MujocoSettings, Realisation
 from cointoss.compare.engines import Engine
+from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import numbers_in
 from cointoss.compare.sweep.pixels import check, pixel_scenario
 from cointoss.compare.sweep.run import toss_part
-from cointoss.models.errors import ScenarioError
 from cointoss.models.records import UnsupportedError
 from cointoss.models.unused import UnusedFieldWarning
 from tests.helpers.basin_runs import TUMBLING, sweep_of
@@ -104,14 +104,14 @@ def test_a_part_of_a_map_is_that_part_of_the_whole():
     ],
 )
 def test_a_pixel_that_is_no_scenario_is_refused_before_the_first_toss(x, y, said):
-    with pytest.raises(ValueError, match=said):
+    with pytest.raises(SweepError, match=said):
         check(sweep_of(x, y, TUMBLING))
 
 
 def test_euler_parameters_off_norm_are_refused_inside_an_axis():
     case = scenario(release={"quaternion": [1.0, 0, 0, 0]})
     check(sweep_of("release.quaternion.e1=-0.01:0.01:9", "release.position.x=0:1:3", case))
-    with pytest.raises(ScenarioError, match="norm 1 within 1e-3"):
+    with pytest.raises(SweepError, match="norm 1 within 1e-3"):
         check(sweep_of("release.quaternion.e1=0:0.1:9", "release.position.x=0:1:3", case))
 
 
