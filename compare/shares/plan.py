@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.compare.engines import Engine
-from cointoss.compare.sweep.axes import HAND, Axis, axis_of, ends_of
+from cointoss.compare.sweep.axes import HAND, Axis, axis_given
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
 from cointoss.models.batch import STATE, refused, rows_from_states, scenario_of_row
 from cointoss.models.errors import FieldError, ScenarioError
@@ -165,8 +165,7 @@ def plan_of(
     for name, given in vary.items():
         if str(name).startswith("release."):
             raise SweepError(f"{name}: the hand releases the coin; accepted: {', '.join(HAND)}, and others")
-        ends = ends_of(name, given, 3, "START:STOP:N, such as 0.2:0.8:7")
-        axes.append(axis_of(name, ends, scenario, FIELDS))
+        axes.append(axis_given(name, given, scenario, FIELDS))
     if tosses is None:
         tosses = USUAL_TOSSES if to is None else MOST_TOSSES
     return Plan(scenario=scenario, vary=tuple(axes), tosses=tosses, to=to, **others)

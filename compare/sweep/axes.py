@@ -125,6 +125,27 @@ def ends_of(name: object, given: Any, parts: int, accepted: str) -> Sequence[Any
     return ends
 
 
+def axis_given(name: object, given: Any, scenario: Scenario, units: Mapping[str, str] = NUMBERS) -> Axis:
+    """Return the axis of a range, START:STOP:N as text or tuple, or of evenly spaced values.
+
+    Raises:
+        SweepError: naming what is wrong and what is accepted.
+    """
+    form = "START:STOP:N, such as 0.2:0.8:7, as text or as a tuple, or two or more evenly spaced values"
+    if isinstance(given, str | tuple):
+        return axis_of(name, ends_of(name, given, 3, form), scenario, units)
+    try:
+        values = np.asarray(given, dtype=float)
+    except (TypeError, ValueError):
+        values = np.empty(0)
+    if values.ndim != 1 or len(values) < 2:
+        raise SweepError(f"{name} = {shown(given)}: accepted: {form}")
+    axis = axis_of(name, (float(values[0]), float(values[-1]), len(values)), scenario, units)
+    if not np.allclose(axis.values, values, rtol=1e-12, atol=0):
+        raise SweepError(f"{name}: values that are not evenly spaced; accepted: {form}")
+    return axis
+
+
 def spans_of(
     vary: Any, scenario: Scenario, units: Mapping[str, str], example: str, *, free: Collection[str] = ()
 ) -> tuple[Span, ...]:

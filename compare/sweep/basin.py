@@ -1,16 +1,17 @@
 """Make a map in memory, from Python."""
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from cointoss.compare.engines import Engine
-from cointoss.compare.sweep.axes import FORM, parse_axis
+from cointoss.compare.sweep.axes import FORM, Axis, axis_given, parse_axis
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Sweep
-from cointoss.compare.sweep.layers import layers_of
-from cointoss.compare.sweep.pieces import whole
+from cointoss.compare.sweep.layers import NOT_TOSSED, layers_of
+from cointoss.compare.sweep.pieces import warn_of_interruption, whole
 from cointoss.compare.sweep.pixels import check
 from cointoss.compare.sweep.reading import MOST_READ, is_whole
 from cointoss.compare.sweep.run import toss_here
@@ -29,9 +30,9 @@ MOST_AFTER = 999_999
 def basin(
     scenario: ScenarioSource,
     *,
-    x: str,
-    y: str,
-    engine: str = "analytic",
+    x: str | Mapping[str, Any],
+    y: str | Mapping[str, Any],
+    engine: Engine | str = "analytic",
     after: int | None = None,
     margin: str | None = None,
     trust: bool = False,
@@ -42,9 +43,10 @@ def basin(
 
     Args:
         scenario: a `Scenario`, the path of its file, or the name of one that comes with the package.
-        x: the columns, FIELD=START:STOP:N, such as "release.angular_velocity.eta=20:60:100"; both ends are
-            included, in SI or with a unit.
-        y: the rows, likewise.
+        x: the field of the columns and its values: a text, such as "spin=20:60:100", or a dict of one field,
+            such as {"spin": (20, 60, 100)}, with a range or an array that is evenly spaced; both ends of a
+            range are included, in SI or with a unit.
+        y: the field of the rows and its values.
         engine: "analytic" or "mujoco".
         after: show the face at the touch after so many impacts; by default the final outcome.
         margin: also find the smallest change of this quantity of the release, such as "height", that changes
@@ -57,14 +59,15 @@ def basin(
         `outcome_certain`, over y and x, whose coordinates are named by their fields. `ds.cointoss` draws,
         shows and saves the map.
 
+    Ctrl-C returns what is tossed by then, with a warning: the rest is "not_tossed".
+
     Raises:
         ScenarioError: naming file, field, value and what is accepted.
         ValueError: naming the argument, its value and what is accepted.
         UnsupportedError: for a scenario that the engine can't toss.
     """
-    for name, text, accepted in (("x", x, FORM), ("y", y, FORM), ("margin", margin or "", "text")):
-        if not isinstance(text, str):
-            raise SweepError(f"{name}: {text!r}, accepted: {accepted}")
+    if not isinstance(margin, str | None):
+        raise SweepError(f"margin: {margin!r}, accepted: text")
     if not isinstance(trust, bool):
         raise SweepError(f"trust: {trust!r}, accepted: True or False")
     described, tosser = scenario_of(scenario), Engine(engine)
@@ -73,8 +76,8 @@ def basin(
     sweep = Sweep(
         scenario=described,
         engine=tosser,
-        x=parse_axis(x, described),
-        y=parse_axis(y, described),
+        x=_axis("x", x, described),
+        y=_axis("y", y, described),
         settings=tosser.package.MANY,
         after=None if after is None else int(after),
         margin=margin,
@@ -93,10 +96,23 @@ def basin(
     }
     name, done = "map" if isinstance(scenario, Scenario) else f"map of {scenario}", 0
     with stage(name, "tosses", total=ny * nx) as progress:
-        for numbers, found in toss_here(sweep)(whole(ny * nx)):
-            for layer, array in layers.items():
-                array[numbers] = found[layer]
-            done += len(numbers)
-            progress(done, ny * nx)
+        try:
+            for numbers, found in toss_here(sweep)(whole(ny * nx)):
+                for layer, array in layers.items():
+                    array[numbers] = found[layer]
+                done += len(numbers)
+                progress(done, ny * nx)
+        except KeyboardInterrupt:
+            warn_of_interruption(int(np.sum(layers["outcome"] != NOT_TOSSED)), ny * nx)
     arrays = {layer: array.reshape(sweep.shape) for layer, array in layers.items()}
     return TossedMap(name=name, sweep=sweep, layers=arrays).dataset()
+
+
+def _axis(name: str, given: str | Mapping[str, Any], described: Scenario) -> Axis:
+    """Return an axis of a map."""
+    if isinstance(given, str):
+        return parse_axis(given, described)
+    if not isinstance(given, Mapping) or len(given) != 1:
+        raise SweepError(f"{name}: {given!r}, accepted: {FORM}, or a dict of one field and its range")
+    ((field, values),) = given.items()
+    return axis_given(field, values, described)

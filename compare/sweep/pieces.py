@@ -1,6 +1,7 @@
 """The tosses of a batch, made in pieces of about a second on all cores."""
 
 import time
+import warnings
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -108,3 +109,10 @@ def _tossed(batch: Batch, how: How, piece: NDArray[np.intp]) -> Iterator[Answers
     yield Answers.of_table(table, how.trust)
     if interruption is not None:
         raise interruption
+
+
+def warn_of_interruption(made: int, count: int) -> None:
+    """Warn that Ctrl-C left some tosses of a batch unmade."""
+    warnings.warn(
+        f"interrupted: {made:,} of {count:,} tosses were made; the others are not_tossed", stacklevel=4
+    )

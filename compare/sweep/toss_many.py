@@ -1,6 +1,5 @@
 """The verb: toss a batch of scenarios, and return how they ended as one dataset."""
 
-import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from os import PathLike
 from pathlib import Path
@@ -13,7 +12,7 @@ from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.batch import Batch, batch_of
 from cointoss.compare.sweep.dataset import dataset_of
 from cointoss.compare.sweep.errors import SweepError, require_whole
-from cointoss.compare.sweep.pieces import How, pieces, require_supported
+from cointoss.compare.sweep.pieces import How, pieces, require_supported, warn_of_interruption
 from cointoss.models.answers import COLUMNS, NOT_TOSSED, Trust
 from cointoss.models.errors import require_type
 from cointoss.models.reading import ScenarioSource
@@ -114,7 +113,7 @@ def toss_many(
                 done += len(tosses)
                 tell(done, len(batch))
         except KeyboardInterrupt:
-            _warn_of_interruption(int(np.sum(answers["outcome"] != NOT_TOSSED)), len(batch))
+            warn_of_interruption(int(np.sum(answers["outcome"] != NOT_TOSSED)), len(batch))
     return dataset_of(batch, how, {name: array.reshape(batch.shape) for name, array in answers.items()})
 
 
@@ -141,14 +140,8 @@ def _into_store(
             fill(kept, toss, shown=progress)
         except KeyboardInterrupt:
             left = sum(kept.missing(tile).size for tile in kept.tiles)
-            _warn_of_interruption(len(batch) - left, len(batch))
+            warn_of_interruption(len(batch) - left, len(batch))
     return accessor.opened(path)
-
-
-def _warn_of_interruption(made: int, count: int) -> None:
-    warnings.warn(
-        f"interrupted: {made:,} of {count:,} tosses were made; the others are not_tossed", stacklevel=3
-    )
 
 
 def how_of(

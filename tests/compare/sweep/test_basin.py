@@ -69,6 +69,7 @@ def test_a_map_has_the_tosses_of_its_pixels_in_words(found):
 
 
 def test_a_map_is_two_axes_of_the_verb(found):
+    assert cointoss.basin("fig24a", x={ETA: (20, 60, 7)}, y={Z: np.linspace(0.2, 0.6, 5)}).equals(found)
     same = cointoss.toss_many("fig24a", {"height": ("20 cm", "60 cm", 5), ETA: "20:60:7"})
     assert np.array_equal(same.outcome.values, found.outcome.values)
     assert np.array_equal(same.impacts.values, found.impacts.values)
@@ -280,6 +281,9 @@ after True -> after: True, accepted: a whole number
 after 1.5 -> after: 1.5, accepted: a whole number
 x None -> x: None, accepted: FIELD=START:STOP:N, such as
 y (1, 2) -> y: (1, 2), accepted: FIELD=START:STOP:N, such as
+x {'spin': [1, 2, 4]} -> spin: values that are not evenly spaced; accepted: START:STOP:N
+x {'spin': (1, 2)} -> spin = [1, 2]: accepted: START:STOP:N
+x {'spin': '1:2:3', 'height': '1:2:3'} -> accepted: FIELD=START:STOP:N, such as
 x 'release.position.z=0.1:1:9' -> release.position.z: on both axes; accepted: two fields
 x 'height=0.1:1:9' -> release.position.z: on both axes; accepted: two fields
 margin 3 -> margin: 3, accepted: text
