@@ -231,13 +231,14 @@ class Tosses:
             SweepError: for a map of which only every n-th pixel was read, and for what is no map.
         """
         from cointoss.compare.sweep import store
+        from cointoss.compare.sweep.layout import layout_of_map
         from cointoss.compare.sweep.tossed_map import map_of
 
         made, folder = map_of(self._dataset), Path(path)
         if made.stride > 1:
             raise SweepError(f"{made.name}: one pixel of every {made.stride} is here; accepted: a whole map")
         store.require_place(folder, resume=False, overwrite=overwrite)
-        layout = store.layout_of_map(made.sweep, made.sweep.scenario.to_toml())
+        layout = layout_of_map(made.sweep, made.sweep.scenario.to_toml())
         with store.opened(folder, layout, overwrite=overwrite) as kept:
             for tile in kept.tiles:
                 numbers = numbers_in(tile, made.sweep.shape).ravel()

@@ -91,7 +91,9 @@ def parse_axis(text: str, scenario: Scenario, units: Mapping[str, str] = NUMBERS
     return axis_of(field, ends, scenario, units)
 
 
-def axis_of(name: str, ends: Sequence[Any], scenario: Scenario, units: Mapping[str, str] = NUMBERS) -> Axis:
+def axis_of(
+    name: object, ends: Sequence[Any], scenario: Scenario, units: Mapping[str, str] = NUMBERS
+) -> Axis:
     """Return an axis; the arguments are those of `parse_axis`, but for its field and START, STOP and N.
 
     Raises:
@@ -189,7 +191,9 @@ def split_span(text: str, parts: int, form: str) -> tuple[str, list[str]]:
     return field.strip(), found
 
 
-def span_of(name: str, ends: Sequence[Any], scenario: Scenario, units: Mapping[str, str] = NUMBERS) -> Span:
+def span_of(
+    name: object, ends: Sequence[Any], scenario: Scenario, units: Mapping[str, str] = NUMBERS
+) -> Span:
     """Return the span of a field between two ends: numbers in SI, or texts, which may carry a unit.
 
     Raises:

@@ -17,6 +17,7 @@ from cointoss.compare.sweep.asked import Job
 from cointoss.compare.sweep.axes import Axis, parse_axis
 from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.layers import trust_layer
+from cointoss.compare.sweep.layout import layout_of_map
 from cointoss.compare.sweep.pixels import check
 from cointoss.compare.sweep.untrusted import untrusted_pixels
 from cointoss.models.scenario import Scenario
@@ -97,7 +98,7 @@ def make(job: Job, source: Source, command: str, say: Say) -> Iterator[str]:
     sweeps = sweeps_of(job, source, x, y)
     if job.resume:
         for path, sweep in sweeps.items():
-            store.require_same(path, store.layout_of_map(sweep, source.text))
+            store.require_same(path, layout_of_map(sweep, source.text))
     drawn, maps = len(sweeps) > 1 or job.png is not None, []
     margins = untrusted = None
     for sweep in sweeps.values():
@@ -105,7 +106,7 @@ def make(job: Job, source: Source, command: str, say: Say) -> Iterator[str]:
         run.require_room(sweep, job.out.parent, maps=len(sweeps), drawn=drawn)
     with _tosser(job.scheduler, say) as tosser:
         for path, sweep in sweeps.items():
-            with store.opened(path, store.layout_of_map(sweep, source.text), overwrite=job.overwrite) as map_:
+            with store.opened(path, layout_of_map(sweep, source.text), overwrite=job.overwrite) as map_:
                 run.fill(map_, tosser(sweep))
                 yield describe.describe_map(path, sweep, run.fractions_of(map_))
                 if sweep.margin is not None:

@@ -8,10 +8,9 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from importlib.metadata import version
 from itertools import product
 from pathlib import Path
-from typing import Any, Literal, NamedTuple, NoReturn
+from typing import Any, Literal, NoReturn
 
 import numpy as np
 import zarr
@@ -22,11 +21,8 @@ from zarr.errors import ZarrUserWarning
 
 from cointoss.compare.output.files import UnwritableError, beside, naming, remove, written_whole
 from cointoss.compare.output.interruption import undoing
-from cointoss.compare.sweep.batch import Batch, attributes_of
 from cointoss.compare.sweep.form import (
-    FORMAT,
     MARGIN_ALONG,
-    TOSSES_FORMAT,
     TRUST,
     foreign_entry,
     has_grid,
@@ -35,9 +31,9 @@ from cointoss.compare.sweep.form import (
     require_arrays,
     require_chunk,
 )
-from cointoss.compare.sweep.grid import MOST_TILES, Sweep, numbers_in, tile_shape, tiles, tosses_in_tile
-from cointoss.compare.sweep.layers import LAYERS, OF_TOSSES, Layer, axis_attributes, holds_tosses, layers_of
-from cointoss.compare.sweep.pieces import How
+from cointoss.compare.sweep.grid import numbers_in, tiles
+from cointoss.compare.sweep.layers import LAYERS, holds_tosses
+from cointoss.compare.sweep.layout import Layout
 from cointoss.compare.sweep.pixels import Layers
 from cointoss.models.errors import ScenarioError
 from cointoss.models.reading import parse
@@ -53,28 +49,6 @@ _CALLED = {
     TRUST: "set of arrays (`trust`)",
 }
 """What a person calls attributes."""
-
-
-class Coordinate(NamedTuple):
-    """The values of a field that varies, along dimensions of a store."""
-
-    dims: tuple[str, ...]
-    values: NDArray[Any]
-    attributes: dict[str, Any]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Layout:
-    """What a store is made of: its dimensions, arrays and coordinates, and what made it."""
-
-    sizes: dict[str, int]
-    """Of its dimensions, the last varying fastest."""
-    tile: tuple[int, ...]
-    """The lengths of a tile, which is a file of each array, along them."""
-    layers: dict[str, Layer]
-    coordinates: dict[str, Coordinate]
-    """By field."""
-    attributes: dict[str, Any]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -192,67 +166,6 @@ class Store:
     def _array(self) -> Callable[[str], Any]:
         """Opens an array by its name, once."""
         return cache(self.group.__getitem__)
-
-
-def layout_of_map(sweep: Sweep, scenario_text: str) -> Layout:
-    """Return what a sweep's map is made of.
-
-    Args:
-        sweep: of the map.
-        scenario_text: the scenario's TOML.
-    """
-    return Layout(
-        sizes=sweep.batch.sizes,
-        tile=tile_shape(sweep),
-        layers=layers_of(sweep),
-        coordinates={
-            axis.field: Coordinate((dim,), axis.values, axis_attributes(axis))
-            for axis, dim in ((sweep.y, "y"), (sweep.x, "x"))
-        },
-        attributes={
-            "cointoss_map": FORMAT,
-            "name": sweep.name,
-            "scenario": scenario_text,
-            "engine": sweep.engine.value,
-            "engine_settings": sweep.settings.as_dict(),
-            "after": sweep.after,
-            **({} if sweep.margin is None else {MARGIN_ALONG: sweep.margin}),
-            **({TRUST: True} if sweep.trust else {}),
-            "versions": {**sweep.engine.versions, "zarr": version("zarr")},
-        },
-    )
-
-
-def layout_of_tosses(batch: Batch, how: How) -> Layout:
-    """Return what a store of a batch's tosses is made of."""
-    most = max(tosses_in_tile(how.engine, batch), len(batch) // MOST_TILES)
-    return Layout(
-        sizes=batch.sizes,
-        tile=_tile_of(batch.shape, most),
-        layers={name: OF_TOSSES[name] for name in how.names},
-        coordinates={
-            one.field: Coordinate(one.dims, one.values, attributes_of(one, batch.scenario))
-            for one in batch.varied
-        },
-        attributes={
-            "cointoss_tosses": TOSSES_FORMAT,
-            "scenario": batch.scenario.to_toml(),
-            "engine": how.engine.value,
-            "engine_settings": how.settings.as_dict(),
-            "after": None,
-            "errors": "keep" if how.keeps else "raise",
-            "versions": {**how.engine.versions, "zarr": version("zarr")},
-        },
-    )
-
-
-def _tile_of(shape: tuple[int, ...], most: int) -> tuple[int, ...]:
-    """Return the lengths of a tile of at most n tosses, as long as it can be along the last dimensions."""
-    lengths: list[int] = []
-    for size in reversed(shape):
-        lengths.append(max(1, min(size, most)))
-        most //= lengths[-1]
-    return tuple(reversed(lengths))
 
 
 def require_place(path: Path, *, resume: bool, overwrite: bool) -> None:

@@ -122,6 +122,7 @@ def _into_store(
 ) -> "xr.Dataset":
     """Toss a batch into a store, and return its dataset; the arguments are those of `toss_many`."""
     from cointoss.compare.sweep import accessor, store
+    from cointoss.compare.sweep.layout import layout_of_tosses
     from cointoss.compare.sweep.run import fill
 
     if how.law is not None:
@@ -135,7 +136,7 @@ def _into_store(
         for tosses, found in pieces(batch, how, parts):
             yield tosses, {name: getattr(found, name) for name in how.names}
 
-    with store.opened(path, store.layout_of_tosses(batch, how), overwrite=overwrite) as kept:
+    with store.opened(path, layout_of_tosses(batch, how), overwrite=overwrite) as kept:
         try:
             fill(kept, toss, shown=progress)
         except KeyboardInterrupt:

@@ -20,9 +20,10 @@ from cointoss.compare.reproduction.setups.study import study
 from cointoss.compare.sweep import run as sweep_run
 from cointoss.compare.sweep.axes import parse_axis
 from cointoss.compare.sweep.grid import Sweep, numbers_in, tiles
+from cointoss.compare.sweep.layout import layout_of_map
 from cointoss.compare.sweep.pixels import Layers, check
 from cointoss.compare.sweep.run import toss_part
-from cointoss.compare.sweep.store import layout_of_map, opened
+from cointoss.compare.sweep.store import opened
 from cointoss.models.cores import cores_used
 from cointoss.models.reading import parse
 

@@ -16,8 +16,9 @@ import cointoss
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep import grid
 from cointoss.compare.sweep.errors import MapError
+from cointoss.compare.sweep.layout import layout_of_map
 from cointoss.compare.sweep.reading import tossed_map_at
-from cointoss.compare.sweep.store import layout_of_map, opened
+from cointoss.compare.sweep.store import opened
 from cointoss.models.errors import ScenarioError
 from tests.helpers.basin_runs import SCENARIO, sweep_of
 from tests.helpers.command_line import refused

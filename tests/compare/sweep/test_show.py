@@ -22,8 +22,9 @@ from cointoss.compare.report.folder import write_report
 from cointoss.compare.sweep import job, show
 from cointoss.compare.sweep.axes import parse_axis
 from cointoss.compare.sweep.describe import AWAY
+from cointoss.compare.sweep.layout import layout_of_map
 from cointoss.compare.sweep.reading import tossed_map_at
-from cointoss.compare.sweep.store import layout_of_map, opened
+from cointoss.compare.sweep.store import opened
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
 from tests.helpers.basin_runs import SCENARIO, basin, sweep_of

@@ -21,7 +21,8 @@ from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.sweep import grid, run
 from cointoss.compare.sweep.grid import numbers_in
 from cointoss.compare.sweep.layers import holds_tosses
-from cointoss.compare.sweep.store import Store, layout_of_map, opened, require_place
+from cointoss.compare.sweep.layout import layout_of_map
+from cointoss.compare.sweep.store import Store, opened, require_place
 from cointoss.models.records import Outcome
 from tests.helpers.basin_runs import (
     AXES,
