@@ -222,7 +222,7 @@ def fit(
 
     Raises:
         ObservationError: for a file or numbers that can't be used.
-        FieldError: for a standard deviation that nothing has.
+        ValueError: for a standard deviation that nothing has.
         SweepError: for a field or a span that can't be used.
         ScenarioError: for a scenario that can't be used, or where no value of the spans makes one.
     """

@@ -101,6 +101,10 @@ class Tosses:
     @property
     def counts(self) -> dict[str, int]:
         """How many tosses had each outcome that there was; those not tossed and refused ones, too."""
+        if self._is_of_shares:
+            count = self._dataset["count"]
+            totals = count.sum([dim for dim in count.dims if dim != "outcome"]).values.tolist()
+            return {str(one): n for one, n in zip(count["outcome"].values, totals, strict=True) if n}
         codes, numbers = np.unique(self.codes, return_counts=True)
         return dict(zip(words_of("outcome", codes).tolist(), numbers.tolist(), strict=True))
 

@@ -48,6 +48,9 @@ _ACCEPTED = (
 )
 
 
+_RANGE = "START:STOP:N as text, or (START, STOP, N); values that are listed stand in a list or an array"
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Varied:
     """A field that varies over a batch."""
@@ -199,8 +202,8 @@ def _batch(described: Scenario, given: Mapping[str, Any]) -> Batch:
     varied: list[Varied] = []
     arrays: dict[str, NDArray[Any]] = {}
     for field, value in given.items():
-        if _is_range(value):
-            values = axis_of(field, ends_of(field, value, 3, "START:STOP:N"), described).values
+        if _is_range(field, value):
+            values = axis_of(field, ends_of(field, value, 3, _RANGE), described).values
             varied.append(Varied(field=field, dims=(field,), values=values))
         elif hasattr(value, "dims"):
             dims = tuple(map(str, value.dims))
@@ -260,7 +263,7 @@ def _is_one(field: str, value: Any) -> bool:
     """Return whether a value is the same for all tosses."""
     if isinstance(value, Part) or field in _PARTS or field in COMPONENTS:
         return True
-    return not _is_range(value) and not hasattr(value, "dims") and not _shape(value)
+    return not _is_range(field, value) and not hasattr(value, "dims") and not _shape(value)
 
 
 def _shape(value: Any) -> tuple[int, ...]:
@@ -271,10 +274,10 @@ def _shape(value: Any) -> tuple[int, ...]:
         return (len(value),)
 
 
-def _is_range(value: Any) -> bool:
-    return (isinstance(value, tuple) and len(value) == 3) or (
-        isinstance(value, str) and value.count(":") == 2
-    )
+def _is_range(field: str, value: Any) -> bool:
+    """Return whether a value is a range, which no word has: a text with colons, or a tuple."""
+    is_text = isinstance(value, str) and value.count(":") == 2
+    return field not in WORDED and (is_text or isinstance(value, tuple))
 
 
 def _numbers(field: str, value: Any, described: Scenario) -> NDArray[Any]:

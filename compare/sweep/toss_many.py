@@ -191,6 +191,7 @@ def check(batch: Batch, how: How) -> None:
     """
     if not how.keeps:
         batch.check()
-        largest = batch.largest()
-        warn_of_unused_fields(largest.floor, largest.air)
+        if not any(one.words for one in batch.varied):  # which may use a field each
+            largest = batch.largest()
+            warn_of_unused_fields(largest.floor, largest.air)
     require_supported(batch, how)

@@ -133,16 +133,19 @@ def map_of(dataset: "xr.Dataset") -> TossedMap:
         _axis(name, coded[name].values, unit_of(name, scenario), ends)
         for name, ends in zip(names, whole, strict=True)
     )
-    after = about.get("after", "")
+    after, settings = about.get("after"), about["engine_settings"]
+    after = None if after in (None, "") else int(after)
+    # A store has them as they are; a dataset in memory as JSON, which any file takes.
+    settings = json.loads(settings) if isinstance(settings, str) else settings
     sweep = Sweep(
         scenario=scenario,
         engine=engine,
         x=x,
         y=y,
-        settings=settings_of(engine, json.loads(about["engine_settings"])),
-        after=None if after == "" else int(after),
+        settings=settings_of(engine, settings),
+        after=after,
         margin=about.get("margin_along") or None,
-        trust=bool(about.get("trust")),
+        trust=trust_layer(after) in coded,
         name=str(about.get("name", "")),
     )
     kept = layers_of(sweep)

@@ -279,3 +279,26 @@ def test_shares_along_a_field_have_a_table_and_a_picture():
     for axes in (ds.cointoss.plot(Figure().subplots()), along.cointoss.plot(Figure().subplots())):
         assert axes.get_xlabel() == "restitution χ"
     assert repr(along.cointoss) == "<shares of 120 tosses>"
+
+
+@pytest.mark.parametrize("trust", [None, "impacts", "certain"])
+def test_two_fields_are_a_map_in_memory_and_in_a_store(trust, tmp_path):
+    vary = {"height": "0.2:0.6:3", "release.angular_velocity.eta": "20:60:4"}
+    made = toss_many("fig24a", vary, trust=trust)
+    kept = toss_many("fig24a", vary, trust=trust, out=tmp_path / "a.zarr")
+    assert isinstance(made.cointoss.untrusted, np.ndarray) == (trust == "certain")
+    for number, ds in enumerate((made, kept, kept.cointoss.words)):
+        axes = ds.cointoss.plot(Figure().subplots())
+        assert (axes.get_xlabel(), axes.get_ylabel()) == ("spin about η [rad/s]", "height [m]")
+        path = ds.cointoss.save(tmp_path / f"map{number}.zarr")
+        assert (cointoss.read_map(path).outcome.values == made.outcome.values).all()
+
+
+def test_laws_vary_as_words_do():
+    laws = ("smooth", "coulomb", "knurled")
+    ds = toss_many(CASE, {"contact": laws, "friction": 0.2})  # warnings are errors
+    assert ds["floor.contact"].values.tolist() == list(laws)
+    alone = [toss_many(CASE, {"contact": law, "friction": 0.2 * (law == "coulomb")}) for law in laws]
+    assert ds.end_time.values.tolist() == [one.end_time.item() for one in alone]
+    with pytest.raises(SweepError, match=r"release\.position\.z = \[0\.2, 0\.6\]: accepted: START:STOP:N"):
+        toss_many(CASE, {"height": (0.2, 0.6)})
