@@ -14,6 +14,7 @@ from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.compare.sweep.tossed_map import TossedMap
 from cointoss.compare.web.scripts import ENGINE_POLICY, POLICY, one_file
 from cointoss.compare.web.wasm.carried import engine_data
+from cointoss.models.fields import FIELDS
 from cointoss.models.notebook import Frame
 from cointoss.models.stages import counted
 
@@ -66,6 +67,8 @@ def _page(shown: TossedMap, tossed: tuple[int, int]) -> str:
 
 def _engine(sweep: Sweep) -> dict[str, object] | None:
     """Return what the page needs to toss any pixel itself, or None where it cannot."""
+    if not {sweep.x.field, sweep.y.field} <= set(FIELDS):  # such as a spin, which the page does not know
+        return None
     most = MOST_IMPACTS[Engine.ANALYTIC]
     found = engine_data(
         sweep.scenario.replace("ending.max_impacts", min(most, sweep.scenario.rules.max_impacts))

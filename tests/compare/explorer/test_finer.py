@@ -3,10 +3,12 @@
 import numpy as np
 import pytest
 
-from cointoss import analytic
+from cointoss import analytic, toss_many
+from cointoss.compare.explorer import static
 from cointoss.compare.explorer.finer import SIDE, toss_tile
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.reading import tossed_map_at
+from cointoss.compare.sweep.tossed_map import map_of
 from cointoss.models.reading import parse
 from tests.helpers.explored import FIELDS, SCENARIO
 
@@ -28,3 +30,14 @@ def test_a_finer_tile_has_the_outcomes_of_its_points(map_path):
     assert (first[1:, 1:] > 0).all()
     with pytest.raises(SweepError):
         toss_tile(sweep, 1, 2, 0)
+
+
+def test_a_page_tosses_no_map_over_a_field_that_it_does_not_know(monkeypatch):
+    """A spin stands for components of the angular velocity; the page's engine knows these."""
+    monkeypatch.setattr(static, "engine_data", lambda _: {"wasm": "", "scenario": {}})
+    known, derived = (
+        map_of(toss_many("fig24a", {name: "20:60:2", "height": "0.2:0.3:2"})).sweep
+        for name in ("release.angular_velocity.eta", "spin")
+    )
+    assert static._engine(known) is not None
+    assert static._engine(derived) is None
