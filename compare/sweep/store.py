@@ -269,6 +269,8 @@ def _write_empty(folder: Path, layout: Layout) -> None:
             field,
             data=one.values,
             chunks=one.values.shape,
+            # Zeros are the fill value, and a file that is not there is one that was lost.
+            config={"write_empty_chunks": True},
             compressors=ZstdCodec(checksum=True),
             dimension_names=list(one.dims),
             attributes=one.attributes,
