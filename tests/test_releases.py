@@ -139,7 +139,7 @@ def test_a_hand_is_the_hand_it_was(release, name):
 def test_shares_are_told_as_they_were(release, tmp_path):
     then, table = read(release / "made" / "shares.json"), tmp_path / "shares.csv"
     # By default a coin turned about a diameter then.
-    words = ("shares", release / "given" / "dropped.toml", "--along", "floor.restitution=0.3:0.6:2")
+    words = ("shares", release / "given" / "dropped.toml", "--vary", "floor.restitution=0.3:0.6:2")
     words += ("--psi-scatter", "0")
     now = json.loads(cointoss(*words, "--tosses", "40", "--json", "--out", table).stdout)
     assert unlike(then, now, values=False) == []
@@ -181,24 +181,22 @@ def test_a_scenario_that_was_found_shows_what_it_did(release):
 def test_a_map_is_read_as_it_was(store):
     """What xarray alone read of it then, the codes as the words that they stand for."""
     then, found = read(store.with_suffix(".json")), package.read_map(store)
-    data, words = found.to_xarray(), np.vectorize(lambda code: str(Outcome(code)))
-    now = {str(name): array.values.tolist() for name, array in data.variables.items()}
-    now["outcome"] = words(found.outcome).tolist()
-    if found.outcome_certain is not None:
+    now = {str(name): array.values.tolist() for name, array in found.variables.items()}
+    if "outcome_certain" in found:
         now["outcome_certain"] = np.where(found.outcome_certain, "certain", "uncertain").tolist()
     assert unlike(then, now) == []
     given, engine, after = OF_MAPS[store.stem]
-    assert found.sweep.scenario == package.load(store.parents[1] / "given" / given)
-    assert (found.sweep.engine, found.sweep.after) == (engine, after)
+    assert found.cointoss.scenario == package.load(store.parents[1] / "given" / given)
+    assert (found.attrs["engine"], found.attrs["after"]) == (engine, "" if after is None else after)
 
 
 def test_the_pixels_of_a_map_are_tosses_of_its_scenario(release):
     found = package.read_map(release / "made" / "touch.zarr")
-    sweep = found.sweep
     for i, j in ((0, 0), (0, 1), (2, 3)):
-        place = (sweep.x.field, sweep.x.values[j], sweep.y.field, sweep.y.values[i])
-        toss = package.analytic.toss(sweep.scenario.replace(*place))
-        assert toss.impacts.face[1] == found.outcome[i, j]
+        pixel = found[{"y": i, "x": j}]
+        fields = [part for field, value in pixel.coords.items() for part in (str(field), value.item())]
+        toss = package.analytic.toss(found.cointoss.scenario.replace(*fields))
+        assert str(Outcome(toss.impacts.face[1])) == pixel.outcome.item()
 
 
 def meanings(attributes):

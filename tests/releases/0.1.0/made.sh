@@ -11,10 +11,10 @@ done
 cointoss toss caught.toml --trajectory ../made/caught.csv > /dev/null
 cointoss hands smooth.toml --hand hand.toml --tosses 40 --json > ../made/hand.json
 cointoss hands smooth.toml --hand spun.toml --tosses 40 --json > ../made/spun.json
-cointoss shares dropped.toml --along floor.restitution=0.3:0.6:2 --tosses 40 --json > ../made/shares.json
-cointoss shares dropped.toml --along floor.restitution=0.3:0.6:2 --tosses 40 --out ../made/shares.csv
-cointoss fit stopwatch.csv dropped.toml --sd-time "1 ms" --free floor.restitution=0.4:0.95 \
-  --free release.position.z=0.1:0.6 --free clock=0:1.2 --out ../made/fitted.toml --json > ../made/fit.json
+cointoss shares dropped.toml --vary floor.restitution=0.3:0.6:2 --tosses 40 --json > ../made/shares.json
+cointoss shares dropped.toml --vary floor.restitution=0.3:0.6:2 --tosses 40 --out ../made/shares.csv
+cointoss fit stopwatch.csv dropped.toml --sd-time "1 ms" --vary floor.restitution=0.4:0.95 \
+  --vary release.position.z=0.1:0.6 --vary clock=0:1.2 --out ../made/fitted.toml --json > ../made/fit.json
 cointoss find smooth.toml --sequence HTH --vary release.position.z=0.2:0.6 --tosses 200 --out ../made/found.toml --json \
   > ../made/find.json
 axes="--x release.angular_velocity.eta=20:60:4 --y release.position.z=20cm:60cm:3"
@@ -29,12 +29,13 @@ import cointoss
 import numpy as np
 import xarray
 from cointoss.compare.fitting.table import read_observed
+from cointoss.models.batch import STATE
 from cointoss.models.fields import UNITS
 from cointoss.models.laws import ContactLaw, EndingTest, RestitutionKind
 
 rng, coin = np.random.default_rng(0), cointoss.load("dropped.toml")
-chunks = (cointoss.Hand().releases(coin.body, rng, 4) for _ in range(2))
-cointoss.toss_to_zarr("../made/tosses.zarr", coin, chunks, horizon=True, certain=True)
+states = np.concatenate([cointoss.Hand().states(coin.body, rng, 4) for _ in range(2)])
+cointoss.toss_many(coin, dict(zip(STATE, states.T, strict=True)), trust="certain", out="../made/tosses.zarr")
 
 
 def words(array):
