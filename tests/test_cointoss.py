@@ -115,7 +115,7 @@ def test_each_public_name_says_what_it_is():
 def test_an_unknown_name_is_answered_with_the_names_there_are():
     script = "import cointoss; cointoss.Coins"
     done = python("-c", script)
-    accepted, meant = r"accepted: Air, .* Coin, .*, toss_to_zarr\.", r"Did you mean: 'Coin'\?"
+    accepted, meant = r"accepted: Air, .* Coin, .*, toss_many\.", r"Did you mean: 'Coin'\?"
     said = rf"AttributeError: cointoss has no Coins; {accepted} {meant}"
     assert re.fullmatch(said, done.stderr.splitlines()[-1])
 
@@ -133,10 +133,10 @@ def test_either_engine_tosses_by_its_name():
     ("engine", "name"), [("analytic", "AnalyticSettings"), ("coin_mj", "MujocoSettings")]
 )
 @pytest.mark.parametrize("wrong", [3, None, {"steps": 2}], ids=str)
-def test_settings_of_another_type_are_refused(engine, wrong):
+def test_settings_of_another_type_are_refused(engine, name, wrong):
     package, described = getattr(cointoss, engine), cointoss.load("fig24a")
     for toss, given in ((package.toss, described), (package.toss_rows, rows_of(described, 1))):
-        with pytest.raises(TypeError, match=f"^settings: of type .*, accepted: {engine}.Settings, such as"):
+        with pytest.raises(TypeError, match=f"^settings: of type .*, accepted: {engine}.{name}, such as"):
             toss(given, settings=wrong)
 
 

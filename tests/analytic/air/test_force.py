@@ -283,14 +283,14 @@ from cointoss.analytic.entries import force_and_moment
 from cointoss.analytic.flight.flying import fly
 from cointoss.models.kernel.arrays import Row
 from cointoss.models.kernel.build.linking import SYSTEMS
-from cointoss.models.kernel.build.lowering import Asked, lowered
+from cointoss.models.kernel.build.lowering import EntryRequest, lowered
 from cointoss.models.kernel.kinds import kind_of
 
 types = fly.py_func.__annotations__
 given, returned = tuple(map(kind_of, (types["body"], Row, float, bool))), kind_of(types["return"])
 asked = [
-    Asked("linear", fly, given, returned, True),
-    Asked("other", force_and_moment.function, *force_and_moment.kinds, False),
+    EntryRequest("linear", fly, given, returned, True),
+    EntryRequest("other", force_and_moment.function, *force_and_moment.kinds, False),
 ]
 module = binding.parse_bitcode(lowered(asked, SYSTEMS["linux-x86_64"].targets[""]))
 print(*(each.name for each in module.functions if not each.is_declaration))

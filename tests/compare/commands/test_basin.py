@@ -73,7 +73,7 @@ def test_a_map_of_a_changed_scenario_keeps_it_and_is_gone_on_with(coin, tmp_path
     changed = load(coin).replace("floor.restitution", 0.5, "release.spin", 30)
     assert parse(xr.open_zarr(out, chunks=None).attrs["scenario"], "map") == changed
     assert basin(coin, *axes, *other, "--out", out, "--resume").exit_code == 0
-    assert "a store with another scenario" in refused("basin", coin, *axes, "--out", out, "--resume")
+    assert "is a map with another scenario" in refused("basin", coin, *axes, "--out", out, "--resume")
 
 
 def test_the_agreement_is_told_near_the_boundaries_and_away_from_them():

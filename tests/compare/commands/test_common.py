@@ -85,12 +85,12 @@ ANSWERS = {
     ),
     "shares fig24a --to 60%": "--to 60%: accepted: a part from 0.01 % to 50 %",
     "shares fig24a --to 2": "--to 2: accepted: a part from 0.01 % to 50 %",
-    "shares fig24a --height 2e9": "hand.height = 2e+09: accepted: numbers within 1e+09",
-    "shares fig24a --along coin.thickness=0:30:5": (
+    "shares fig24a --height 2e9": "hand.height = 2e+09: accepted: a number >= -1e+09 and <= 1e+09 in m",
+    "shares fig24a --vary coin.thickness=0:30:5": (
         "hand.height = 1: accepted: a coin above the floor: z >= 3.75 m (at coin.thickness = 7.5)"
     ),
-    "shares fig24a --along hand.psi=0:1": "hand.psi=0:1: accepted: FIELD=START:STOP:N",
-    "shares fig24a --along hand.height=1e300:1e308:2": (
+    "shares fig24a --vary hand.psi=0:1": 'hand.psi = "0:1": accepted: START:STOP:N, such as 0.2:0.8:7',
+    "shares fig24a --vary hand.height=1e300:1e308:2": (
         "hand.height = 1e300: accepted: a finite number within 1e+09"
     ),
     "solref --restitution 0.5 --dt x": "'--dt': x; accepted: a number in s, or a string with a ",
@@ -108,7 +108,7 @@ ANSWERS = {
     "hands fig24a --height '-3 cm'": "--height -3 cm: accepted: a length above 0, such as 1 m",
     "hands fig24a --speed -1": "--speed -1: accepted: a speed of 0 or more, such as 2 m/s",
     "hands fig24a --spin nan": "--spin nan: accepted: ",
-    "hands fig24a --spin 1e7": "fig24a: Releases.angular_velocity: row ",
+    "hands fig24a --spin 1e7": "fig24a: hand.spin = 1e+07: accepted: a spin of at most 100000 sqrt(",
     "hands fig24a --caught '1 mm'": "--caught 1 mm: accepted: more than 0.0125399 m, so that the coin is ",
     "hands fig24a --caught '1 s'": "'--caught': 1 s; accepted: a number in m, or ",
     # what MuJoCo cannot do
@@ -144,7 +144,7 @@ ANSWERS = {
         "fig24a: heigth: no numeric field of a scenario; accepted: release.position.z, numbers of coin, air, "
         "floor, release, ending, and gravity (did you mean release.position.z?)\n"
     ),
-    "shares fig24a --along height=1:2:3": "accepted: hand.height, numbers of hand, coin, air, floor, ",
+    "shares fig24a --vary heigth=1:2:3": "accepted: hand.height, numbers of hand, coin, air, floor, ",
     "basin fig24a --x gravity=9:9:3 --y coin.mass=1:2:2 --out a.zarr": "START = STOP",
     "basin fig24a --x release.position.z=-1:1:3 --y gravity=9:10:3 --out a.zarr": "above the floor",
     f"{AXES} --after -1 --out a.zarr": "accepted: an integer >= 0",

@@ -59,7 +59,7 @@ def test_values_a_verdict_and_files(tmp_path):
             "floor.friction=-2:-1: floor.friction = -2.0",
         ),
         (("--sd-time", "1 ms", "--vary", "floor.bounce=0:1"), "floor.bounce: no numeric field"),
-        (("--sd-time", "1 ms", "--vary", "clock=1"), "vary: clock = '1', accepted: a dict such as"),
+        (("--sd-time", "1 ms", "--vary", "clock=1"), 'clock = "1": accepted: its first and last value'),
         (
             ("--sd-time", "1 ms", "--vary", "floor.restitution=0:1"),
             "--vary floor.restitution=0:1: accepted: FIELD=START:STOP, each field once",
