@@ -16,7 +16,7 @@ PACKAGES = [
     for path in (TESTS.parent / name).rglob("*.py")
 ]
 SHARED = (TESTS / "helpers", TESTS / "benchmarks")
-STILL_SHARED = ("Part", "Setting", "Tile")
+STILL_SHARED = ("Impact", "Setting")
 """Names that two classes of the product still share."""
 
 

@@ -14,7 +14,7 @@ from cointoss.coin_mj.steps.gap_evaluation import (
     state_above_floor,
     turning_rate,
 )
-from cointoss.coin_mj.steps.knots import Recorded, StepKind, add_knot
+from cointoss.coin_mj.steps.knots import RecordedPath, StepKind, add_knot
 from cointoss.coin_mj.steps.touch_search import arc_of, first_touch
 from cointoss.models.body import Rules, is_to_be_caught
 from cointoss.models.catch import approach_hand
@@ -42,8 +42,8 @@ NUDGE = 1e-6
 
 @compiled
 def fly(
-    coin: MujocoCoin, rules: Rules, time: float, steps_left: int, path: Recorded
-) -> tuple[float, FlightExit, int, Recorded]:
+    coin: MujocoCoin, rules: Rules, time: float, steps_left: int, path: RecordedPath
+) -> tuple[float, FlightExit, int, RecordedPath]:
     """Fly until the coin touches the floor or is caught.
 
     Args:

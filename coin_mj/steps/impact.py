@@ -9,7 +9,7 @@ from cointoss.coin_mj.steps.constrained_step import IMPACT, constrained_forward,
 from cointoss.coin_mj.steps.flight import TOUCH_STEP
 from cointoss.coin_mj.steps.friction import friction_step
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap
-from cointoss.coin_mj.steps.knots import Recorded, StepKind, add_knot
+from cointoss.coin_mj.steps.knots import RecordedPath, StepKind, add_knot
 from cointoss.coin_mj.steps.mujoco_step import other_force, set_margin, set_spring
 from cointoss.models.attitude import Quaternion, quaternion_product, rotation_matrix
 from cointoss.models.kernel.arrays import copy_into
@@ -40,8 +40,8 @@ class TouchResult(IntEnum):
 
 @compiled
 def resolve_impact(
-    coin: MujocoCoin, time: float, path: Recorded
-) -> tuple[TouchResult, float, Vector, Recorded]:
+    coin: MujocoCoin, time: float, path: RecordedPath
+) -> tuple[TouchResult, float, Vector, RecordedPath]:
     """Follow a contact from the touch to the release of all rim points.
 
     On a coin that lands flat there is no Coulomb force: its impulse goes through C, as in the paper's
@@ -132,8 +132,8 @@ def _turned_back(turn: Quaternion, spin: float, elapsed: float, motion: Motion) 
 
 @compiled
 def _resolve(
-    coin: MujocoCoin, has_friction: bool, time: float, path: Recorded
-) -> tuple[TouchResult, float, Vector, Recorded]:
+    coin: MujocoCoin, has_friction: bool, time: float, path: RecordedPath
+) -> tuple[TouchResult, float, Vector, RecordedPath]:
     start, momentum, other = time, momentum_of(coin), (0.0, 0.0, 0.0)
     acted, result = False, TouchResult.SUSTAINED
     while time - start <= SUSTAINED * coin.rebound.duration:

@@ -25,7 +25,7 @@ class StepKind(IntEnum):
     """A step of a sustained contact."""
 
 
-class Recorded(NamedTuple):
+class RecordedPath(NamedTuple):
     """The path so far."""
 
     table: Array
@@ -35,13 +35,13 @@ class Recorded(NamedTuple):
 
 
 @compiled
-def nothing_recorded(keep: bool) -> Recorded:
+def nothing_recorded(keep: bool) -> RecordedPath:
     """Return a path without knots, which is kept or not."""
-    return Recorded(np.empty((_FIRST_ROOM if keep else 0, KNOT)), 0)
+    return RecordedPath(np.empty((_FIRST_ROOM if keep else 0, KNOT)), 0)
 
 
 @compiled
-def add_knot(coin: MujocoCoin, time: float, step: StepKind, path: Recorded) -> Recorded:
+def add_knot(coin: MujocoCoin, time: float, step: StepKind, path: RecordedPath) -> RecordedPath:
     """Return the path with the present state, and set MuJoCo's time.
 
     Args:
@@ -58,4 +58,4 @@ def add_knot(coin: MujocoCoin, time: float, step: StepKind, path: Recorded) -> R
         table = doubled(table)
     table[n, 0], table[n, 1] = time, step.value
     copy_into(table[n, 2:], motion_of(coin))
-    return Recorded(table, n + 1)
+    return RecordedPath(table, n + 1)

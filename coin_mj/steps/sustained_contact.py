@@ -9,7 +9,7 @@ from cointoss.coin_mj.steps.constrained_step import Constraint, constrained_forw
 from cointoss.coin_mj.steps.free_step import free_step
 from cointoss.coin_mj.steps.friction import apply_friction, friction_step
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap, turning_rate
-from cointoss.coin_mj.steps.knots import Recorded, StepKind, add_knot
+from cointoss.coin_mj.steps.knots import RecordedPath, StepKind, add_knot
 from cointoss.coin_mj.steps.mujoco_step import set_margin, set_spring
 from cointoss.coin_mj.steps.resistance import shortest_stop
 from cointoss.models.body import Rules
@@ -79,8 +79,8 @@ def slow_speed(coin: MujocoCoin, chi: float, w: Vector) -> float:
 
 @compiled
 def follow_contact(
-    coin: MujocoCoin, rules: Rules, time: float, steps_left: int, history: EnergyHistory, path: Recorded
-) -> tuple[ContactExit, float, int, Outcome, Ending, Recorded]:
+    coin: MujocoCoin, rules: Rules, time: float, steps_left: int, history: EnergyHistory, path: RecordedPath
+) -> tuple[ContactExit, float, int, Outcome, Ending, RecordedPath]:
     """Follow a sustained contact until the coin lifts off, another rim point lands, or the toss is decided.
 
     Args:

@@ -47,7 +47,7 @@ MANY = SearchResolution(per_decade=2, bisections=2)
 
 
 @dataclass(frozen=True)
-class Quantity:
+class ReleaseQuantity:
     """A component of the release, and how a toss is changed along it."""
 
     name: str
@@ -64,7 +64,7 @@ class Quantity:
 class Margin:
     """The smallest change along one quantity that was found to change the outcome."""
 
-    quantity: Quantity
+    quantity: ReleaseQuantity
     change: float
     """The change with its sign, in the quantity's unit; infinite where none up to 1 SI unit does."""
     proved: float = 0.0
@@ -94,7 +94,7 @@ def _rounded(number: float, digits: int, rounding: str) -> float:
 
 Differ = Callable[[NDArray[np.intp], Array], tuple[NDArray[np.bool_], NDArray[np.bool_]]]
 """Returns which changes, (rows, rungs), of some rows make a difference, and which are accepted."""
-Proof = Callable[[Scenario, Quantity, float], float]
+Proof = Callable[[Scenario, ReleaseQuantity, float], float]
 """Returns how far a release may change with a proof that the outcome stays, given a change that changes it
 along a quantity, both in SI units; 0 where none is proved."""
 
@@ -104,16 +104,16 @@ _QUATERNION = _ATTITUDE[3:]
 _A, _Q = ([PLACE[field] for field in fields] for fields in (_ATTITUDE[:3], _QUATERNION))
 
 
-def _moved(name: str, unit: str, factor: float, field: str) -> Quantity:
+def _moved(name: str, unit: str, factor: float, field: str) -> ReleaseQuantity:
     def change(rows: Array, by: Array) -> Array:
         changed = rows.copy()
         changed[:, PLACE[field]] += by
         return changed
 
-    return Quantity(name, unit, factor, change, (field,))
+    return ReleaseQuantity(name, unit, factor, change, (field,))
 
 
-def _turned(name: str, axis: int) -> Quantity:
+def _turned(name: str, axis: int) -> ReleaseQuantity:
     def change(rows: Array, by: Array) -> Array:
         e0, e = rows[:, _Q[0]], rows[:, _Q[1:]]
         cosine, sine = np.cos(by / 2), np.sin(by / 2)
@@ -123,7 +123,7 @@ def _turned(name: str, axis: int) -> Quantity:
         changed[:, _Q[1:]] = cosine[:, None] * e + sine[:, None] * (e0[:, None] * u + np.cross(e, u))
         return changed
 
-    return Quantity(name, "rad", 1.0, change, _QUATERNION)
+    return ReleaseQuantity(name, "rad", 1.0, change, _QUATERNION)
 
 
 def with_quaternions(rows: Array) -> Array:
@@ -148,7 +148,7 @@ QUANTITIES = (
 """Horizontal position is left out: it changes nothing."""
 
 
-def quantity_of(name: str) -> Quantity:
+def quantity_of(name: str) -> ReleaseQuantity:
     """Return the quantity of a name, its axis in Greek or Latin letters.
 
     Raises:
@@ -192,7 +192,7 @@ def margins(
     def outcomes(rows: Array) -> Codes:
         return analytic.toss_rows(rows, settings=settings).outcome
 
-    def margin_along(quantity: Quantity) -> Margin:
+    def margin_along(quantity: ReleaseQuantity) -> Margin:
         found = smallest_changes(start, quantity, outcomes=outcomes, search=FINE)
         change = float(found[0])
         proved = proved_change(scenario, quantity, change) if proved_change else 0.0
@@ -203,7 +203,7 @@ def margins(
 
 
 def smallest_changes(
-    rows: Array, quantity: Quantity, *, outcomes: Callable[[Array], Codes], search: SearchResolution
+    rows: Array, quantity: ReleaseQuantity, *, outcomes: Callable[[Array], Codes], search: SearchResolution
 ) -> Array:
     """Return the margin of each of many tosses along a quantity, with its sign, in SI units, (n,).
 

@@ -12,7 +12,7 @@ from cointoss.compare.sweep.untrusted import untrusted_pixels
 from cointoss.models.records import Array, Outcome
 
 if TYPE_CHECKING:
-    from cointoss.compare.metrics.margin import Quantity
+    from cointoss.compare.metrics.margin import ReleaseQuantity
 
 AWAY = 2.0
 """A pixel is away from the boundaries where all within this distance have its outcome [pixels]."""
@@ -35,7 +35,7 @@ def describe_map(path: Path, sweep: Sweep, fractions: dict[Outcome, float]) -> s
     return "\n".join(lines)
 
 
-def describe_margins(quantity: "Quantity", margins: Array) -> str:
+def describe_margins(quantity: "ReleaseQuantity", margins: Array) -> str:
     """Return the sizes of the margins of a map along a quantity, (y, x) [its unit], as text."""
     unit, most, sizes = quantity.unit, quantity.factor, np.abs(margins)
     few, middle = np.quantile(sizes, [0.1, 0.5], method="lower")

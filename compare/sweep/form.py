@@ -48,7 +48,7 @@ class FormError(ValueError):
     """What makes a folder no map of cointoss."""
 
 
-class Form(NamedTuple):
+class MapForm(NamedTuple):
     """What the files that describe a map say."""
 
     attributes: dict[str, Any]
@@ -131,7 +131,7 @@ def foreign_entry(folder: Path) -> str | None:
     return min((entry.name for entry in folder.iterdir() if entry.name not in known), default=None)
 
 
-def read_form(folder: Path) -> Form:
+def read_form(folder: Path) -> MapForm:
     """Return what a map's descriptions say; nothing else of it is read.
 
     Raises:
@@ -198,7 +198,7 @@ def _description(folder: Path) -> dict[str, Any]:
     return found
 
 
-def _form(folder: Path) -> Form:
+def _form(folder: Path) -> MapForm:
     described = _description(folder)
     attributes = _group_attributes(described)
     if "cointoss_map" not in attributes:
@@ -226,7 +226,7 @@ def _form(folder: Path) -> Form:
             written = "NaN" if math.isnan(fill_value) else fill_value
             due = _array(np.dtype(kind).name, written, shape, tile, ("y", "x"))
             _require_array(name, arrays[name], due)
-    return Form(attributes, x, y, (rows, columns), (tile[0], tile[1]))
+    return MapForm(attributes, x, y, (rows, columns), (tile[0], tile[1]))
 
 
 def _group_attributes(described: dict[str, Any]) -> dict[str, Any]:

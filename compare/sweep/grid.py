@@ -20,7 +20,7 @@ from cointoss.models.scenario import Scenario
 from cointoss.models.title import title_of_toss
 
 if TYPE_CHECKING:
-    from cointoss.compare.metrics.margin import Quantity
+    from cointoss.compare.metrics.margin import ReleaseQuantity
 
 TILE_TOSSES = {Engine.ANALYTIC: 1 << 14, Engine.MUJOCO: 1 << 10}
 """Most tosses in a tile, which is a file: seconds of work, so that many workers have some."""
@@ -75,7 +75,7 @@ class Sweep:
             object.__setattr__(self, "margin", self.quantity.name)
 
     @property
-    def quantity(self) -> "Quantity":
+    def quantity(self) -> "ReleaseQuantity":
         """The quantity along which each pixel has its margin, of a sweep with margins."""
         from cointoss.compare.metrics.margin import quantity_of
 

@@ -12,7 +12,7 @@ from cointoss.compare.engines import Engine
 from cointoss.compare.film.back_end import BackEndError, require_mujoco
 from cointoss.compare.sweep.axes import Axis, unit_of
 from cointoss.compare.sweep.errors import MapError, SweepError
-from cointoss.compare.sweep.form import MARGIN_ALONG, TRUST, Form, read_form
+from cointoss.compare.sweep.form import MARGIN_ALONG, TRUST, MapForm, read_form
 from cointoss.compare.sweep.grid import Sweep, tiles
 from cointoss.compare.sweep.layers import LAYERS, layers_of
 from cointoss.compare.sweep.store import Store
@@ -88,7 +88,7 @@ def is_whole(number: object) -> bool:
     return isinstance(number, Integral) and not isinstance(number, bool)
 
 
-def _sweep(path: Path, form: Form, map_: Store) -> Sweep:
+def _sweep(path: Path, form: MapForm, map_: Store) -> Sweep:
     attributes = form.attributes
     scenario = parse(attributes["scenario"], f"{path}: attribute scenario")
     engine = Engine(attributes["engine"])
@@ -127,7 +127,7 @@ def _axis(field: str, map_: Store, scenario: Scenario) -> Axis:
     return axis
 
 
-def _read(map_: Store, form: Form, names: Iterable[str], stride: int) -> dict[str, NDArray[Any]]:
+def _read(map_: Store, form: MapForm, names: Iterable[str], stride: int) -> dict[str, NDArray[Any]]:
     ny, nx = (-(-count // stride) for count in form.shape)
     arrays = {name: np.full((ny, nx), LAYERS[name].fill_value, LAYERS[name].kind) for name in names}
     for tile in tiles(form.shape, form.tile):

@@ -24,7 +24,7 @@ MU = load("contact_sliding_friction").floor.friction
 
 
 @dataclass(frozen=True, kw_only=True)
-class Law:
+class LawOfFigure:
     """A contact law of Fig. 17."""
 
     letter: str
@@ -40,37 +40,37 @@ def _kept(before: Array, after: Array, number: int) -> float:
 
 
 LAWS = {
-    ContactLaw.SHARP_EDGE: Law(
+    ContactLaw.SHARP_EDGE: LawOfFigure(
         letter="a",
         claim="sharp edge: v_Aν' = 0, v_Aτ' = v_Aτ",
         misfit=lambda v, after, _: np.array([after[1], _kept(v, after, 0)]),
         contact=None,
     ),
-    ContactLaw.KNURLED: Law(
+    ContactLaw.KNURLED: LawOfFigure(
         letter="b",
         claim="knurled: v_Aν' = v_Aν, v_Aτ' = 0",
         misfit=lambda v, after, _: np.array([after[0], _kept(v, after, 1)]),
         contact=None,
     ),
-    ContactLaw.PERFECTLY_ROUGH: Law(
+    ContactLaw.PERFECTLY_ROUGH: LawOfFigure(
         letter="c",
         claim="perfectly rough: v_Aν' = v_Aτ' = 0",
         misfit=lambda _, after, __: after[:2],
         contact=(ROUGH, MujocoSettings()),
     ),
-    ContactLaw.SLIP_PRESERVING: Law(
+    ContactLaw.SLIP_PRESERVING: LawOfFigure(
         letter="d",
         claim="smooth (1): v_Aν' = v_Aν, v_Aτ' = v_Aτ",
         misfit=lambda v, after, _: after[:2] - v[:2],
         contact=(ROUGH, MujocoSettings(friction=Friction.NATIVE, slip_damping=0.0)),
     ),
-    ContactLaw.SMOOTH: Law(
+    ContactLaw.SMOOTH: LawOfFigure(
         letter="e",
         claim="smooth (2): S_τν = 0",
         misfit=lambda _, __, S: S[:2],
         contact=(0.0, MujocoSettings()),
     ),
-    ContactLaw.SLIDING_FRICTION: Law(
+    ContactLaw.SLIDING_FRICTION: LawOfFigure(
         letter="f",
         claim="developed friction: S_τν = -μ S_z v_Aτν/v_Aτν",
         misfit=lambda v, _, S: S[:2] + MU * S[2] * v[:2] / np.hypot(v[0], v[1]),

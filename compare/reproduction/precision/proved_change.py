@@ -3,7 +3,7 @@
 import math
 from fractions import Fraction
 
-from cointoss.compare.metrics.margin import Quantity, is_planar
+from cointoss.compare.metrics.margin import ReleaseQuantity, is_planar
 from cointoss.compare.reproduction.precision.certified import PlanarRelease, proved_part
 from cointoss.compare.reproduction.precision.planar_coin import planar_coin, units
 from cointoss.compare.reproduction.precision.planar_ending import planar_ending
@@ -13,7 +13,7 @@ PROVED = {"height": "height", "attitude about ξ": "tilt", "spin about ξ": "spi
 """Quantities with a proof, and their names in a `PlanarRelease`."""
 
 
-def proved_change(scenario: Scenario, quantity: Quantity, change: float) -> float:
+def proved_change(scenario: Scenario, quantity: ReleaseQuantity, change: float) -> float:
     """Return a change of a release, to both sides, within which the outcome is proved to be the same.
 
     Args:

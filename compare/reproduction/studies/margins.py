@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from cointoss import analytic
 from cointoss.compare.metrics.estimate import Estimate
 from cointoss.compare.metrics.estimates import in_words, quantile, share
-from cointoss.compare.metrics.margin import MANY, QUANTITIES, Codes, Quantity, smallest_changes
+from cointoss.compare.metrics.margin import MANY, QUANTITIES, Codes, ReleaseQuantity, smallest_changes
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
 from cointoss.compare.output.tables import paragraphs, table
@@ -99,7 +99,7 @@ def draw_planar(count: int) -> Array:
     return planar_rows(case(air=False), rng.uniform(*HEIGHTS, count), rng.uniform(*SPINS, count))
 
 
-def found_margins(rows: Array, quantity: Quantity) -> Array:
+def found_margins(rows: Array, quantity: ReleaseQuantity) -> Array:
     """Return the margins of tosses along a quantity, in its unit, without their signs, (n,)."""
     found = smallest_changes(rows, quantity, outcomes=_outcomes, search=MANY)
     return np.abs(found) * quantity.factor
@@ -109,7 +109,7 @@ def _outcomes(rows: Array) -> Codes:
     return analytic.toss_rows(rows).outcome
 
 
-def _kept_margins(parts: Path, rows: Array, quantity: Quantity, name: str) -> list[float]:
+def _kept_margins(parts: Path, rows: Array, quantity: ReleaseQuantity, name: str) -> list[float]:
     """Return the margins that an earlier computation kept, or find them and keep them."""
 
     def compute_part() -> Part:
