@@ -7,9 +7,10 @@ from cointoss.analytic.entries import toss_rows as toss_some
 from cointoss.analytic.impact.own_law import OwnLaw, require_floor
 from cointoss.analytic.settings import MANY, AnalyticSettings, contact_limits
 from cointoss.models.answers import ANSWER, NOT_TOSSED, Answers, Trust
-from cointoss.models.batch import PLACE, scenario_of_row
+from cointoss.models.batch import PLACE, checked_table, scenario_of_row
 from cointoss.models.body import NO_CODE
 from cointoss.models.errors import require_type
+from cointoss.models.fields import FIELDS
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.making import MOST_LOSSLESS
 from cointoss.models.rows import has_linear_air
@@ -53,7 +54,8 @@ def toss_rows(
     """Toss many scenarios by the event loop of `toss`: each toss is the same to the bit.
 
     Args:
-        rows: of the scenarios, in the order of `models.rows.FIELDS`, (n, 46).
+        rows: of the scenarios, in the order of `models.fields.FIELDS`, (n, 46). Each must be a scenario's:
+            `cointoss.models.batch.refused` finds those that are none.
         settings: of the engine.
         trust: "impacts" finds how many impacts of each toss can be trusted, as `toss` does, in two to three
             times the time; "certain" finds that, and whether the outcome of each is certain, in two to seven.
@@ -68,12 +70,17 @@ def toss_rows(
     Raises:
         ScenarioError, UnsupportedError: see `require_rows`.
     """
+    rows = checked_table("rows", rows, len(FIELDS))
     require_rows(rows, settings=settings, law=law, trust=trust)
     if law is not None:
         rows = rows.copy()
         most = rows[:, PLACE["ending.max_impacts"]]
         most[np.isnan(most)] = MOST_LOSSLESS
     found = np.empty((len(rows), len(ANSWER))) if answers is None else answers
+    if checked_table("answers", found, len(ANSWER)) is not found or len(found) != len(rows):
+        raise ValueError(
+            f"answers: shape {found.shape}, accepted: floats, ({len(rows)}, {len(ANSWER)}), in rows"
+        )
     found[:] = NOT_TOSSED
     own, limits, wanted = NO_CODE if law is None else law.code, contact_limits(settings), _WANTED[trust]
     is_fast = all(has_linear_air(row) for row in rows[np.unique(rows[:, _AIR], axis=0, return_index=True)[1]])

@@ -9,8 +9,9 @@ from cointoss.coin_mj.model.machine import Machine, machine_of
 from cointoss.coin_mj.model.settings import MANY, MujocoSettings
 from cointoss.coin_mj.toss import require_supported, warn_of_approximation
 from cointoss.models.answers import ANSWER, NOT_TOSSED, Answers, Trust
-from cointoss.models.batch import PLACE, scenario_of_row
+from cointoss.models.batch import PLACE, checked_table, scenario_of_row
 from cointoss.models.errors import require_type
+from cointoss.models.fields import FIELDS
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.records import UnsupportedError
 from cointoss.models.tiles import in_tiles
@@ -60,7 +61,8 @@ def toss_rows(
     one toss: docs/MUJOCO.md says what error they give.
 
     Args:
-        rows: of the scenarios, in the order of `models.rows.FIELDS`, (n, 46).
+        rows: of the scenarios, in the order of `models.fields.FIELDS`, (n, 46). Each must be a scenario's:
+            `cointoss.models.batch.refused` finds those that are none.
         settings: how MuJoCo realises the floor, and how finely it steps.
         trust: this engine finds it for one `toss` alone: None.
         law: this engine has none of one's own: None.
@@ -75,8 +77,13 @@ def toss_rows(
         UnsupportedError: see `require_rows`.
     """
     require_type("settings", settings, MujocoSettings, "coin_mj.MujocoSettings, such as coin_mj.MANY")
+    rows = checked_table("rows", rows, len(FIELDS))
     require_rows(rows, settings=settings, law=law, trust=trust)
     found = np.empty((len(rows), len(ANSWER))) if answers is None else answers
+    if checked_table("answers", found, len(ANSWER)) is not found or len(found) != len(rows):
+        raise ValueError(
+            f"answers: shape {found.shape}, accepted: floats, ({len(rows)}, {len(ANSWER)}), in rows"
+        )
     found[:] = NOT_TOSSED
     # NaN, which stands for what is left out, equals itself here.
     machines = np.nan_to_num(rows[:, :_OF_MACHINE], nan=np.inf)

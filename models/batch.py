@@ -53,6 +53,18 @@ def rows_of(scenario: Scenario, n: int, changed: Mapping[str, ArrayLike] | None 
     return rows
 
 
+def checked_table(name: str, table: ArrayLike, columns: int) -> Array:
+    """Return a table of numbers as compiled code takes it, (n, columns).
+
+    Raises:
+        ValueError: naming the argument, its shape and what is accepted.
+    """
+    found = np.ascontiguousarray(table, dtype=float)
+    if found.ndim != 2 or found.shape[1] != columns:
+        raise ValueError(f"{name}: shape {np.shape(table)}, accepted: (n, {columns})")
+    return found
+
+
 def rows_from_states(scenario: Scenario, states: Array) -> Array:
     """Return a scenario released in each of many states, as rows, (n, 46).
 

@@ -16,8 +16,6 @@ PACKAGES = [
     for path in (TESTS.parent / name).rglob("*.py")
 ]
 SHARED = (TESTS / "helpers", TESTS / "benchmarks")
-STILL_SHARED = ("Impact", "Setting")
-"""Names that two classes of the product still share."""
 
 
 def imported(source: str) -> set[str]:
@@ -154,4 +152,4 @@ def test_a_name_that_two_classes_share_is_seen():
 
 
 def test_each_class_of_the_product_has_a_name_of_its_own():
-    assert shared_names([path.read_text(encoding="utf-8") for path in PACKAGES]) == {*STILL_SHARED}
+    assert shared_names([path.read_text(encoding="utf-8") for path in PACKAGES]) == set()

@@ -38,7 +38,7 @@ _TIP = 1e-12
 """The angle by which a coin is tipped off the rim that lifts [rad]."""
 
 
-class Impact(NamedTuple):
+class ResolvedImpact(NamedTuple):
     """What the floor does to a coin that touches it."""
 
     point: Vector
@@ -53,8 +53,8 @@ class Impact(NamedTuple):
 
 
 @compiled
-def impact_of(body: Body, rules: Rules, chi: float, before: State) -> Impact:
-    """Return the `Impact` of a coin that touches the floor, at the restitution χ: Newton's law."""
+def impact_of(body: Body, rules: Rules, chi: float, before: State) -> ResolvedImpact:
+    """Return the `ResolvedImpact` of a coin that touches the floor, at the restitution χ: Newton's law."""
     x, v, e, w, R = before
     point, flat = lowest_point(body, R[2], w)
     arm = apply(R, subtract(point, body.center))
@@ -64,7 +64,7 @@ def impact_of(body: Body, rules: Rules, chi: float, before: State) -> Impact:
     S, ending = impulse(body, rules, chi, ImpactPoint(R, arm, tau, v_A, flat))
     v_after = add(v, scale(1 / body.mass, S))
     w_after = w if flat else add(w, spin_gained(body, R, arm, S))
-    return Impact(point, v_A, S, State(x, v_after, e, w_after, R), ending)
+    return ResolvedImpact(point, v_A, S, State(x, v_after, e, w_after, R), ending)
 
 
 @compiled

@@ -38,7 +38,7 @@ _GIVES = {"position": "height", "velocity": "speed", "angular_velocity": "spin"}
 """What of the hand each part of a release is made of."""
 
 
-class Setting(NamedTuple):
+class GridPoint(NamedTuple):
     """A point of the grid."""
 
     values: tuple[float, ...]
@@ -111,7 +111,7 @@ class Plan:
         has_none = self.catches & (np.arange(len(Outcome)) == Outcome.UNDECIDED)
         return np.where(has_none, 0, counts)
 
-    def settings(self) -> Iterator[Setting]:
+    def settings(self) -> Iterator[GridPoint]:
         """Yield the points of the grid, the last field varying fastest.
 
         Raises:
@@ -120,12 +120,12 @@ class Plan:
         for values in product(*(axis.values.tolist() for axis in self.vary)):
             yield self._setting(values)
 
-    def setting(self, number: int) -> Setting:
+    def setting(self, number: int) -> GridPoint:
         """Return a point of the grid by its number."""
         at = np.unravel_index(number, self.shape) if self.vary else ()
         return self._setting(tuple(float(axis.values[i]) for axis, i in zip(self.vary, at, strict=True)))
 
-    def _setting(self, values: tuple[float, ...]) -> Setting:
+    def _setting(self, values: tuple[float, ...]) -> GridPoint:
         at = ", ".join(f"{axis.field} = {one:g}" for axis, one in zip(self.vary, values, strict=True))
         place = f" (at {at})" if at else ""
         pairs = dict(zip((axis.field for axis in self.vary), values, strict=True))
@@ -141,7 +141,7 @@ class Plan:
             raise SweepError(f"hand.{error}") from None
         except ScenarioError as error:
             raise SweepError(f"{error}{place}") from None
-        return Setting(values, scenario, hand, place)
+        return GridPoint(values, scenario, hand, place)
 
 
 def plan_of(
@@ -171,7 +171,7 @@ def plan_of(
     return Plan(scenario=scenario, vary=tuple(axes), tosses=tosses, to=to, **others)
 
 
-def rows_of_releases(setting: Setting, states: Array) -> Array:
+def rows_of_releases(setting: GridPoint, states: Array) -> Array:
     """Return a setting's scenario released in each of many states, (n, 13), as rows, (n, 46).
 
     Raises:

@@ -34,7 +34,8 @@ def outcomes_of(shares: "xr.Dataset") -> list[str]:
     """Return heads, tails, and the other outcomes that there were."""
     met = shares["count"].sum([dim for dim in shares["count"].dims if dim != "outcome"])
     others = [str(one) for one in shares.outcome.values if one not in _FACES and met.sel(outcome=one)]
-    return [*_FACES, *sorted(others, key=lambda one: one == _LAST)]
+    faces = [one for one in _FACES if one in shares.outcome.values]
+    return [*faces, *sorted(others, key=lambda one: one == _LAST)]
 
 
 def alike(shares: "xr.Dataset") -> NDArray[np.float64]:
@@ -101,13 +102,15 @@ def markdown(shares: "xr.Dataset") -> str:
 
 def texts_of(values: NDArray[np.float64]) -> list[str]:
     """Return values in few digits, but so many that no two are alike."""
+    if values.dtype.kind not in "iuf":
+        return [str(value) for value in values.tolist()]
     written = ([f"{value:.{digits}g}" for value in values.tolist()] for digits in range(6, 18))
     return next(texts for texts in written if len(set(texts)) == len(values))
 
 
 def labelled(shares: "xr.Dataset", field: str) -> str:
     """Return what a person calls a field that varies, with its unit."""
-    unit = printed_unit(shares[field].attrs["units"])
+    unit = printed_unit(shares[field].attrs.get("units", ""))
     return f"{word_of(field)} [{unit}]" if unit else word_of(field)
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from cointoss.compare.metrics.estimates import wilson
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import numbers_in
-from cointoss.models.answers import COLUMNS
+from cointoss.models.answers import COLUMNS, NOT_TOSSED
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
 from cointoss.models.scenario import Scenario
@@ -29,8 +29,8 @@ WORDED = {name: column.words for name, column in COLUMNS.items() if column.words
 
 def words_of(name: str, codes: NDArray[Any]) -> NDArray[np.str_]:
     """Return the codes of a variable in words, of NumPy's strings, of any shape; words as they are."""
-    if codes.dtype.kind in "UT":
-        return codes
+    if codes.dtype.kind in "UTO":
+        return codes.astype(str)
     known = WORDED[name]
     first = min(known)
     words = np.array([known.get(code, "") for code in range(first, max(known) + 1)])
@@ -39,11 +39,13 @@ def words_of(name: str, codes: NDArray[Any]) -> NDArray[np.str_]:
 
 def codes_of(name: str, words: NDArray[Any]) -> NDArray[np.int8]:
     """Return the words of a variable as codes, of any shape; codes as they are."""
-    if words.dtype.kind not in "UT":
+    if words.dtype.kind not in "UTO":
         return words.astype(np.int8)
     known = {word: code for code, word in WORDED[name].items()}
-    each, inverse = np.unique(words, return_inverse=True)
-    return np.array([known[word] for word in each.tolist()], dtype=np.int8)[inverse].reshape(words.shape)
+    each, inverse = np.unique(words.astype(str), return_inverse=True)
+    # What xarray puts where there was nothing, as after `where`, is no toss.
+    codes = np.array([known.get(word, NOT_TOSSED) for word in each.tolist()], dtype=np.int8)
+    return codes[inverse].reshape(words.shape)
 
 
 def in_words(dataset: xr.Dataset) -> xr.Dataset:
@@ -70,7 +72,19 @@ def _mapped(dataset: xr.Dataset, change: Any, *, flagged: bool) -> xr.Dataset:
             new[name] = (dataset[name].dims, change(name, dataset[name].values), kept)
     if (certain := dataset.get("outcome_certain")) is not None and not flagged:
         new["outcome_certain"] = certain.copy(data=certain.values == 1)
-    return dataset.assign(new)
+    made = dataset.assign(new)
+    return made if flagged else made.assign_coords(_worded_coordinates(dataset))
+
+
+def _worded_coordinates(dataset: xr.Dataset) -> dict[Hashable, Any]:
+    """Return the coordinates that are codes, as words."""
+    found: dict[Hashable, Any] = {}
+    for name, one in dataset.coords.items():
+        if "flag_values" in one.attrs and one.dtype.kind in "iuf":
+            known = dict(zip(one.attrs["flag_values"], one.attrs["flag_meanings"].split(), strict=True))
+            words = np.array([known[int(code)] for code in one.values.ravel()]).reshape(one.shape)
+            found[name] = (one.dims, words, {"long_name": one.attrs["long_name"]})
+    return found
 
 
 @xr.register_dataset_accessor("cointoss")
@@ -123,11 +137,12 @@ class Tosses:
         Raises:
             SweepError: for a dimension that there is none of.
         """
+        made = self.codes
         dims = self._dataset["outcome"].dims
         for dim in along:
             if dim not in dims:
                 raise SweepError(f"along: {dim!r}, accepted: {', '.join(map(str, dims))}")
-        codes = xr.DataArray(self.codes, dims=dims)
+        codes = xr.DataArray(made, dims=dims)
         over = [dim for dim in dims if dim not in along]
         counts = xr.concat([(codes == one).sum(over) for one in Outcome], "outcome").transpose(
             *along, "outcome"

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from cointoss.compare.sweep.axes import NUMBERS, axis_of, ends_of, named, number, unit_of, word_of
 from cointoss.compare.sweep.errors import SweepError
+from cointoss.models.answers import COLUMNS
 from cointoss.models.batch import refused, rows_of, scenario_of_row
 from cointoss.models.errors import ScenarioError, shown
 from cointoss.models.fields import COMPONENTS, FIELDS, WORDED
@@ -39,7 +40,8 @@ _ENDS_SUFFICE = (
     "release.velocity.",
     "release.angular_velocity.",
     "release.spin",
-    "ending.",
+    "ending.max_time",
+    "ending.caught",
 )
 """Fields in each of which all conditions on a scenario are monotone or convex."""
 _ACCEPTED = (
@@ -200,6 +202,7 @@ def batch_of(scenario: ScenarioSource, vary: Mapping[str, Any] | None = None) ->
 
 def _batch(described: Scenario, given: Mapping[str, Any]) -> Batch:
     varied: list[Varied] = []
+    labels: dict[str, Any] = {}
     arrays: dict[str, NDArray[Any]] = {}
     for field, value in given.items():
         if _is_range(field, value):
@@ -207,7 +210,12 @@ def _batch(described: Scenario, given: Mapping[str, Any]) -> Batch:
             varied.append(Varied(field=field, dims=(field,), values=values))
         elif hasattr(value, "dims"):
             dims = tuple(map(str, value.dims))
-            varied.append(Varied(field=field, dims=dims, values=_numbers(field, value.values, described)))
+            numbers = _numbers(field, value.values, described) * _factor(field, value.attrs, described)
+            varied.append(Varied(field=field, dims=dims, values=numbers))
+            _require_free(field, dims)
+            for dim, index in value.indexes.items():
+                if not labels.setdefault(str(dim), index).equals(index):
+                    raise SweepError(f"{field}: other labels along {dim} than the others have")
         else:
             arrays[field] = _numbers(field, value, described)
             varied.append(Varied(field=field, dims=(), values=arrays[field]))
@@ -283,7 +291,7 @@ def _is_range(field: str, value: Any) -> bool:
 def _numbers(field: str, value: Any, described: Scenario) -> NDArray[Any]:
     """Return numbers in SI, or the integers of words, of an array or a list."""
     try:
-        array = np.asarray(value)
+        array = np.ma.filled(value.astype(float), np.nan) if np.ma.isMA(value) else np.asarray(value)
     except ValueError:  # lists of different lengths
         raise SweepError(f"{field} = {shown(value)}: {_ACCEPTED}") from None
     if field in WORDED:
@@ -299,6 +307,18 @@ def _numbers(field: str, value: Any, described: Scenario) -> NDArray[Any]:
     if array.dtype.kind not in "iuf":
         raise SweepError(f"{field} = {shown(value)}: {_ACCEPTED}")
     return np.array(array, dtype=float)
+
+
+def _require_free(field: str, dims: tuple[str, ...]) -> None:
+    """Refuse dimensions that have the name of an answer."""
+    if taken := set(dims) & set(COLUMNS):
+        raise SweepError(f"{field}: along {min(taken)}, accepted: a dimension of another name")
+
+
+def _factor(field: str, attributes: Mapping[str, Any], described: Scenario) -> float:
+    """Return how many SI units the unit is that a DataArray says it has."""
+    unit = attributes.get("units")
+    return number(field, f"1 {unit}", unit_of(field, described)) if unit and field in NUMBERS else 1
 
 
 def _together(arrays: Mapping[str, NDArray[Any]]) -> dict[str, int]:

@@ -40,6 +40,8 @@ _ATTRIBUTES = {
     "after": int | None,
     "versions": dict,
 }
+_DECODED = {"scale_factor", "add_offset", "_FillValue", "missing_value", "_Unsigned", "dtype"}
+"""Attributes that xarray decodes numbers by; ours have none."""
 _NAMES = {*LAYERS, *NUMBERS, *FIELDS}
 """What an array may be called."""
 
@@ -91,6 +93,11 @@ def read_attributes(folder: Path, dims: int) -> dict[str, Any]:
     except RecursionError:
         raise FormError(f"{DESCRIPTION}: nested too deeply") from None
     return attributes
+
+
+def names_of_arrays(folder: Path) -> set[str]:
+    """Return the names of the arrays of a map or a store of tosses."""
+    return set(_listed(folder, _description(folder)))
 
 
 def has_grid(folder: Path, field: str, coordinate: Any) -> bool:
@@ -265,6 +272,10 @@ def _listed(folder: Path, described: dict[str, Any]) -> dict[str, dict[str, Any]
     for name, found in arrays.items():
         if _text(found) != _text(listed[name]):
             raise FormError(f"array {name}: described otherwise in the map's {DESCRIPTION}")
+        if decoded := _DECODED & set(found.get("attributes") or ()):
+            raise FormError(
+                f"array {name}: attribute {min(decoded)}, by which xarray would change its numbers"
+            )
     return arrays
 
 

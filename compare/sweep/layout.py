@@ -82,6 +82,7 @@ def layout_of_tosses(batch: Batch, how: How) -> Layout:
             "engine_settings": how.settings.as_dict(),
             "after": None,
             "errors": "keep" if how.keeps else "raise",
+            "trust": how.trust,
             "versions": {**how.engine.versions, "zarr": version("zarr")},
         },
     )

@@ -14,7 +14,7 @@ from cointoss.compare.sweep.axes import Axis, unit_of
 from cointoss.compare.sweep.errors import MapError, SweepError
 from cointoss.compare.sweep.form import MARGIN_ALONG, TRUST, MapForm, read_form
 from cointoss.compare.sweep.grid import Sweep, tiles
-from cointoss.compare.sweep.layers import LAYERS, layers_of
+from cointoss.compare.sweep.layers import LAYERS, NOT_TOSSED, REFUSED, layers_of
 from cointoss.compare.sweep.store import Store
 from cointoss.compare.sweep.tossed_map import TossedMap, settings_of
 from cointoss.models.errors import ScenarioError, shown
@@ -138,4 +138,6 @@ def _read(map_: Store, form: MapForm, names: Iterable[str], stride: int) -> dict
         first = tuple(slice(-part.start % stride, None, stride) for part in tile)
         for name, array in arrays.items():
             array[kept] = np.where(tossed, map_.read(tile, name), LAYERS[name].fill_value)[first]
+    # No map has a pixel that is no scenario.
+    arrays["outcome"][arrays["outcome"] == REFUSED] = NOT_TOSSED
     return arrays

@@ -27,6 +27,7 @@ from cointoss.compare.sweep.form import (
     foreign_entry,
     has_grid,
     is_map,
+    names_of_arrays,
     read_attributes,
     require_arrays,
     require_chunk,
@@ -309,18 +310,25 @@ def _same(path: Path, target: Path, mode: Literal["r", "r+"], layout: Layout) ->
     if unlike_grid:
         _refuse_other(path, due, f"grid in {unlike_grid[-1]}")
     with _readable(path):
+        own = {*layout.layers, *layout.coordinates}
+        others = sorted(names_of_arrays(target) ^ own)
+    if others:
+        _refuse_other(path, due, f"set of arrays, for {', '.join(others)}")
+    with _readable(path):
         require_arrays(target, layout.sizes, layout.layers, layout.coordinates)
         found = Store.at(target, mode)
         for field in layout.coordinates:
             found.require_decodable(field)
-        unlike_grid = [
-            one.dims[0] for field, one in axes if not np.array_equal(found.whole(field), one.values)
-        ]
+        unlike_grid = [one.dims[0] for field, one in axes if not _same_values(found.whole(field), one.values)]
     if unlike_grid:
         _refuse_other(path, due, f"grid in {unlike_grid[-1]}")
     if made_by != ours:
         _refuse_other(path, due, f"set of versions, {json.dumps(made_by)}")
     return replace(found, path=path)
+
+
+def _same_values(first: NDArray[Any], second: NDArray[Any]) -> bool:
+    return bool(np.array_equal(first, second, equal_nan=first.dtype.kind == "f"))
 
 
 def _refuse_other(path: Path, due: dict[str, Any], what: str) -> NoReturn:

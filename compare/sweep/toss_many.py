@@ -88,6 +88,7 @@ def toss_many(
             accepted.
         ValueError: naming the argument, its value and what is accepted.
         UnsupportedError: for a scenario that the engine can't toss.
+        OSError: for a store that can't be written, or one that is there, naming it and why.
 
     Warns:
         UnusedFieldWarning: for a field that nothing uses.
@@ -95,7 +96,11 @@ def toss_many(
     """
     batch = batch_of(scenario, vary)
     how = how_of(engine, trust=trust, settings=settings, law=law, workers=workers, errors=errors)
+    if out is None and (resume or overwrite):
+        raise SweepError(f"{'resume' if resume else 'overwrite'}: given, accepted: only with out")
     if out is not None:
+        if not isinstance(out, str | PathLike):
+            raise SweepError(f"out: {out!r}, accepted: the path of a store, which ends in .zarr")
         return _into_store(batch, how, Path(out), progress, resume=resume, overwrite=overwrite)
     if len(batch) > MOST_IN_MEMORY:
         raise SweepError(

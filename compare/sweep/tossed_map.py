@@ -14,7 +14,14 @@ from cointoss.compare.engines import Engine, EngineSettings
 from cointoss.compare.sweep.axes import NUMBERS, Axis, unit_of
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Sweep
-from cointoss.compare.sweep.layers import LAYERS, NOT_TOSSED, axis_attributes, layers_of, trust_layer
+from cointoss.compare.sweep.layers import (
+    LAYERS,
+    NOT_TOSSED,
+    REFUSED,
+    axis_attributes,
+    layers_of,
+    trust_layer,
+)
 from cointoss.compare.sweep.pixels import Layers
 from cointoss.compare.sweep.untrusted import untrusted_pixels
 from cointoss.models.reading import parse
@@ -126,11 +133,15 @@ def map_of(dataset: "xr.Dataset") -> TossedMap:
         raise SweepError(
             "dataset: accepted: one of tosses over two fields of a scenario, as of cointoss.basin"
         )
+    if law := about.get("law"):
+        raise SweepError(
+            f"dataset: by the law {law} of one's own, accepted: the scenario's, which a map names"
+        )
     scenario = parse(about["scenario"], "attribute scenario")
     engine, stride = Engine(about["engine"]), int(about.get("stride", 1))
     whole = json.loads(about["axes"]) if stride > 1 else [None, None]
     y, x = (
-        _axis(name, coded[name].values, unit_of(name, scenario), ends)
+        _axis(name, coded[name].values, unit_of(name, scenario), ends, stride)
         for name, ends in zip(names, whole, strict=True)
     )
     after, settings = about.get("after"), about["engine_settings"]
@@ -150,6 +161,7 @@ def map_of(dataset: "xr.Dataset") -> TossedMap:
     )
     kept = layers_of(sweep)
     layers = {name: coded[name].values.astype(LAYERS[name].kind) for name in kept if name in coded}
+    layers["outcome"][layers["outcome"] == REFUSED] = NOT_TOSSED
     return TossedMap(sweep=sweep, layers=layers, name=sweep.name or "map", stride=stride)
 
 
@@ -159,11 +171,14 @@ def field_along(dataset: "xr.Dataset", dim: str) -> str:
     return found[0] if len(found) == 1 else ""
 
 
-def _axis(field: str, values: Array, unit: str, ends: list[float] | None) -> Axis:
+def _axis(field: str, values: Array, unit: str, ends: list[float] | None, stride: int) -> Axis:
+    if len(values) < 2:
+        raise SweepError(f"{field}: one value, accepted: a map of two or more")
     start, stop, count = ends or (float(values[0]), float(values[-1]), len(values))
     axis = Axis(field=field, unit=unit, start=start, stop=stop, count=int(count))
-    if ends is None and not np.allclose(axis.values, values, rtol=1e-12):
-        raise SweepError(f"{field}: values that are not evenly spaced, accepted: those of a range")
+    there = axis.values[::stride]
+    if there.shape != values.shape or not np.allclose(there, values, rtol=1e-12):
+        raise SweepError(f"{field}: values that are not evenly spaced, accepted: those of a whole range")
     return axis
 
 

@@ -13,6 +13,7 @@ from cointoss.compare.engines import Engine
 from cointoss.compare.explorer import static
 from cointoss.compare.reproduction.setups.general_coins import CLASSES
 from cointoss.compare.sweep.reading import tossed_map_at
+from cointoss.compare.sweep.tossed_map import map_of
 from cointoss.models.batch import rows_from_states
 from cointoss.models.certificate import energies
 from cointoss.models.errors import ScenarioError
@@ -316,13 +317,14 @@ def test_a_map_has_each_pixel_once_coarse_ones_first_and_is_that_of_the_package(
     assert max(strides) >= 2
     assert strides[0] == max(strides)
     more = {"after": after} if after is not None else {}
-    native = cointoss.basin(
+    made = cointoss.basin(
         case,
         x=f"release.angular_velocity.eta=20:60:{nx}",
         y=f"release.position.z=0.2:0.6:{ny}",
         trust=True,
         **more,
     )
+    native = map_of(made)
     assert native.untrusted is not None
     sure = (trusted == 1) & ~native.untrusted
     assert sure.mean() > 0.5

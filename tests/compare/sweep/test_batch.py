@@ -188,6 +188,7 @@ BAD = [
     ({"release.position": [[0, 0], [1, 1]]}, r"shape \(2, 2\), accepted: \(n, 3\)"),
     ({Z: "1:2:1000000", "gravity": "1:2:1000000", CHI: "0:1:3"}, "3e\\+12 tosses, accepted: at most 1e\\+12"),
     ({"ending.max_impacts": [1.5]}, r"ending\.max_impacts = 1\.5"),
+    ({"ending.max_impacts": [1, 2.5, 5]}, r"ending\.max_impacts = 2\.5"),
     ({"coin.mass": [-1.0]}, r"coin\.mass = -1\.0"),
 ]
 

@@ -12,6 +12,7 @@ import cointoss
 from cointoss import Outcome, SweepError, analytic, coin_mj, load, toss_many
 from cointoss.compare.engines import Engine
 from cointoss.compare.output.files import UnwritableError
+from cointoss.compare.sweep.batch import batch_of
 from cointoss.compare.sweep.grid import TILE_TOSSES
 from cointoss.models.records import UnsupportedError
 from cointoss.models.unused import UnusedFieldWarning
@@ -302,3 +303,106 @@ def test_laws_vary_as_words_do():
     assert ds.end_time.values.tolist() == [one.end_time.item() for one in alone]
     with pytest.raises(SweepError, match=r"release\.position\.z = \[0\.2, 0\.6\]: accepted: START:STOP:N"):
         toss_many(CASE, {"height": (0.2, 0.6)})
+
+
+def test_a_dataset_keeps_its_accessor_through_xarray(tmp_path):
+    ds = toss_many("fig24a", {"height": "0.2:0.6:4", "release.angular_velocity.eta": "20:60:5"})
+    counts = ds.cointoss.counts
+    part = ds.where(ds["release.position.z"] > 0.3)
+    assert part.cointoss.counts["not_tossed"] == 5
+    text = ds.assign(outcome=ds.outcome.astype(object))
+    assert text.cointoss.counts == counts
+    assert ds.isel({"release.position.z": slice(None, None, -1)}).cointoss.counts == counts
+    for one in (ds.isel({"release.position.z": [0]}), ds.isel({"release.position.z": [0, 1, 3]})):
+        with pytest.raises(SweepError, match=r"one value|not evenly spaced"):
+            one.cointoss.save(tmp_path / "never.zarr")
+    with pytest.raises(SweepError, match="dataset: no outcome"):
+        ds.drop_vars("outcome").cointoss.shares()
+    refused = toss_many(
+        "fig24a", {"height": "0.001:0.6:3", "release.angular_velocity.eta": "20:60:5"}, errors="keep"
+    )
+    with pytest.raises(SweepError, match="5 of 15 pixels are not tossed"):
+        refused.cointoss.plot()
+
+
+def test_labels_and_units_of_a_dataarray_are_heeded():
+    chi = xr.DataArray([0.4, 0.5], dims="x", coords={"x": [5, 6]})
+    z = xr.DataArray([30.0, 40.0], dims="x", coords={"x": [5, 6]}, attrs={"units": "cm"})
+    ds = toss_many(CASE, {"restitution": chi, "height": z})
+    assert ds["release.position.z"].values.tolist() == [0.3, 0.4]
+    with pytest.raises(SweepError, match="other labels along x than the others have"):
+        toss_many(CASE, {"restitution": chi, "height": z.isel(x=[1, 0])})
+    with pytest.raises(SweepError, match="along outcome, accepted: a dimension of another name"):
+        toss_many(CASE, {"restitution": xr.DataArray([0.4, 0.5], dims="outcome")})
+    masked = np.ma.array([0.4, 0.5], mask=[False, True])
+    kept = toss_many(CASE, {"restitution": masked}, errors="keep")
+    assert kept.outcome.values[1] == "refused"
+    with pytest.raises(cointoss.ScenarioError, match=r"floor\.restitution = nan"):
+        toss_many(CASE, {"restitution": masked})
+
+
+def test_shares_along_laws_have_a_table():
+    laws = xr.DataArray(["smooth", "knurled"], dims="floor.contact")
+    ds = toss_many(CASE, {"contact": laws, "height": ("20 cm", "60 cm", 5)})
+    lines = ds.cointoss.shares("floor.contact").cointoss.table().splitlines()
+    assert [line.split("|")[1].strip() for line in lines[2:]] == ["smooth", "knurled"]
+
+
+@pytest.mark.usefixtures("small_tiles")
+def test_a_store_of_fewer_fields_or_answers_is_not_gone_on_with(tmp_path):
+    path, heights = tmp_path / "a.zarr", np.linspace(0.2, 0.6, 40)
+    both = {"height": heights, "spin": np.linspace(20, 60, 40)}
+    toss_many(CASE, both, out=path)
+    with pytest.raises(UnwritableError, match=r"with another set of arrays, for release\.spin"):
+        toss_many(CASE, {"height": heights}, out=path, resume=True)
+    with pytest.raises(UnwritableError, match=r"with another set of arrays \(`trust`\)"):
+        toss_many(CASE, both, out=path, resume=True, trust="impacts")
+    for given in ({"resume": True}, {"overwrite": True}, {"out": 3}):
+        with pytest.raises(SweepError, match=r"resume: given|overwrite: given|out: 3, accepted: the path"):
+            toss_many(CASE, both, **given)  # pyright: ignore[reportArgumentType]
+
+
+def test_a_store_with_a_field_that_is_not_a_number_goes_on(tmp_path):
+    vary = {"height": [0.3, np.nan, 0.4]}
+    made = toss_many(CASE, vary, errors="keep", out=tmp_path / "a.zarr")
+    again = toss_many(CASE, vary, errors="keep", out=tmp_path / "a.zarr", resume=True)
+    assert again.cointoss.counts == made.cointoss.counts
+    assert again.cointoss.words.outcome.values[1] == "refused"
+
+
+def test_a_store_of_laws_has_them_in_words(tmp_path):
+    ds = toss_many(CASE, {"contact": ["smooth", "knurled"]}, out=tmp_path / "a.zarr")
+    assert ds.cointoss.words["floor.contact"].values.tolist() == ["smooth", "knurled"]
+
+
+def test_a_strangers_store_scales_no_numbers(tmp_path):
+    path = tmp_path / "a.zarr"
+    toss_many(CASE, {"height": [0.2, 0.3]}, out=path)
+    for file in (path / "outcome" / "zarr.json", path / "zarr.json"):
+        text = json.loads(file.read_text())
+        described = (
+            text if file.parent.name == "outcome" else text["consolidated_metadata"]["metadata"]["outcome"]
+        )
+        described["attributes"]["scale_factor"] = 2
+        file.write_text(json.dumps(text))
+    with pytest.raises(UnwritableError, match="array outcome: attribute scale_factor"):
+        toss_many(CASE, {"height": [0.2, 0.3]}, out=path, resume=True)
+
+
+def test_rows_of_another_form_are_refused_or_taken():
+    rows = batch_of(CASE, {"height": "0.2:0.6:6"}).rows(np.arange(6))
+    due = analytic.toss_rows(rows).end_time
+    assert np.array_equal(analytic.toss_rows(rows[::-1]).end_time, due[::-1])
+    assert np.array_equal(analytic.toss_rows(np.asfortranarray(rows)).end_time, due)
+    for engine in (analytic, coin_mj):
+        with pytest.raises(ValueError, match=r"rows: shape \(6, 45\), accepted: \(n, 46\)"):
+            engine.toss_rows(rows[:, :45])
+        with pytest.raises(ValueError, match=r"answers: shape \(3, 7\), accepted"):
+            engine.toss_rows(rows, answers=np.empty((3, 7)))
+
+
+def test_a_law_of_ones_own_is_in_no_map(tmp_path):
+    law = cointoss.OwnLaw(smooth)
+    ds = toss_many(CASE, {"height": "0.2:0.6:3", "release.angular_velocity.eta": "20:60:5"}, law=law)
+    with pytest.raises(SweepError, match="by the law smooth of one's own, accepted"):
+        ds.cointoss.save(tmp_path / "a.zarr")
