@@ -6,7 +6,7 @@ from cointoss.analytic.by_rows import CERTAIN, NO_TRUST, TRUST
 from cointoss.analytic.entries import toss_rows as toss_some
 from cointoss.analytic.impact.own_law import OwnLaw, require_floor
 from cointoss.analytic.settings import MANY, AnalyticSettings, contact_limits
-from cointoss.models.answers import ANSWER, NOT_TOSSED, Answers, Trust
+from cointoss.models.answers import Answers, Trust, unanswered
 from cointoss.models.batch import PLACE, checked_table, scenario_of_row
 from cointoss.models.body import NO_CODE
 from cointoss.models.errors import require_type
@@ -76,12 +76,7 @@ def toss_rows(
         rows = rows.copy()
         most = rows[:, PLACE["ending.max_impacts"]]
         most[np.isnan(most)] = MOST_LOSSLESS
-    found = np.empty((len(rows), len(ANSWER))) if answers is None else answers
-    if checked_table("answers", found, len(ANSWER)) is not found or len(found) != len(rows):
-        raise ValueError(
-            f"answers: shape {found.shape}, accepted: floats, ({len(rows)}, {len(ANSWER)}), in rows"
-        )
-    found[:] = NOT_TOSSED
+    found = unanswered(len(rows), answers)
     own, limits, wanted = NO_CODE if law is None else law.code, contact_limits(settings), _WANTED[trust]
     is_fast = all(has_linear_air(row) for row in rows[np.unique(rows[:, _AIR], axis=0, return_index=True)[1]])
 

@@ -8,7 +8,7 @@ from cointoss.coin_mj.entries import toss_rows as toss_some
 from cointoss.coin_mj.model.machine import Machine, machine_of
 from cointoss.coin_mj.model.settings import MANY, MujocoSettings
 from cointoss.coin_mj.toss import require_supported, warn_of_approximation
-from cointoss.models.answers import ANSWER, NOT_TOSSED, Answers, Trust
+from cointoss.models.answers import Answers, Trust, unanswered
 from cointoss.models.batch import PLACE, checked_table, scenario_of_row
 from cointoss.models.errors import require_type
 from cointoss.models.fields import FIELDS
@@ -79,12 +79,7 @@ def toss_rows(
     require_type("settings", settings, MujocoSettings, "coin_mj.MujocoSettings, such as coin_mj.MANY")
     rows = checked_table("rows", rows, len(FIELDS))
     require_rows(rows, settings=settings, law=law, trust=trust)
-    found = np.empty((len(rows), len(ANSWER))) if answers is None else answers
-    if checked_table("answers", found, len(ANSWER)) is not found or len(found) != len(rows):
-        raise ValueError(
-            f"answers: shape {found.shape}, accepted: floats, ({len(rows)}, {len(ANSWER)}), in rows"
-        )
-    found[:] = NOT_TOSSED
+    found = unanswered(len(rows), answers)
     # NaN, which stands for what is left out, equals itself here.
     machines = np.nan_to_num(rows[:, :_OF_MACHINE], nan=np.inf)
     _, coins = np.unique(machines, axis=0, return_inverse=True)

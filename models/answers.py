@@ -102,6 +102,24 @@ class Answers(NamedTuple):
         return np.where(self.impacts == impacts + 1, self.last_face, self.outcome)
 
 
+def unanswered(n: int, table: Array | None = None) -> Array:
+    """Return the table in which compiled code writes the answers of n tosses, (n, 7), none of them made yet.
+
+    Args:
+        n: number of tosses.
+        table: that is used, by default a new one.
+
+    Raises:
+        ValueError: for a table of another shape or kind, naming its shape and what is accepted.
+    """
+    shape = (n, len(ANSWER))
+    found = np.empty(shape) if table is None else table
+    if found.shape != shape or found.dtype != float or not found.flags.c_contiguous:
+        raise ValueError(f"answers: shape {found.shape}, accepted: floats, {shape}, row by row")
+    found[:] = NOT_TOSSED
+    return found
+
+
 def tally(outcomes: NDArray[np.integer]) -> NDArray[np.int64]:
     """Return how many of some outcomes there are of each, by the code of `Outcome`, (6,)."""
     return np.bincount(outcomes.ravel(), minlength=len(Outcome))
