@@ -130,11 +130,11 @@ lint: $(READY)
 	@$(call told,pyright: checking types,$(BIN)/pyright --pythonpath $(BIN)/python)
 	PYTHONPATH=. $(BIN)/lint-imports
 
-$(READY): pyproject.toml
+$(READY): pyproject.toml reproduction/pyproject.toml
 	$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 11) and 'cointoss needs Python >= 3.11')"
 	@$(call told,making $(VENV),$(PYTHON) -m venv $(VENV))
 	@$(call told,pip: updating itself,$(BIN)/python -m pip install --quiet "pip>=25.1")
-	@$(call told,pip: installing cointoss and what it needs,$(BIN)/python -m pip install --quiet --editable . --group dev)
+	@$(call told,pip: installing cointoss and what it needs,$(BIN)/python -m pip install --quiet --editable . --editable reproduction --group dev)
 	touch $@
 
 $(VENV)/.ready-docs: $(READY)

@@ -5,6 +5,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from cointoss.homes import brought, homes_of
+
 if TYPE_CHECKING:
     from cointoss import analytic as analytic
     from cointoss import coin_mj as coin_mj
@@ -61,44 +63,7 @@ if TYPE_CHECKING:
     __version__: str
 
 _PACKAGES = ("models", "analytic", "coin_mj", "compare")
-_NAMES = {
-    "cointoss.analytic.impact.own_law": ("OwnLaw",),
-    "cointoss.coin_mj.bounces.recipe": ("solref",),
-    "cointoss.compare.engines": ("Engine", "toss"),
-    "cointoss.compare.film.back_end": ("BackEndError",),
-    "cointoss.compare.find.find": ("Found", "find"),
-    "cointoss.compare.fitting.errors": ("ObservationError",),
-    "cointoss.compare.fitting.fit": ("Fit", "Fitted", "fit"),
-    "cointoss.compare.fitting.observed": ("Observed",),
-    "cointoss.compare.report.comparison": ("Comparison",),
-    "cointoss.compare.shares.shares": ("shares",),
-    "cointoss.compare.sweep.basin": ("basin",),
-    "cointoss.compare.sweep.errors": ("MapError", "SweepError"),
-    "cointoss.compare.sweep.reading": ("read_map",),
-    "cointoss.compare.sweep.toss_many": ("toss_many",),
-    "cointoss.models.errors": ("ScenarioError",),
-    "cointoss.models.hand": ("Hand", "load_hand"),
-    "cointoss.models.laws": ("ContactLaw", "EndingTest", "RestitutionKind"),
-    "cointoss.models.reading": ("load", "named_scenarios", "parse"),
-    "cointoss.models.records": (
-        "ApproximationWarning",
-        "Ending",
-        "Face",
-        "Flag",
-        "Impacts",
-        "Outcome",
-        "Setting",
-        "States",
-        "Toss",
-        "TrustEnd",
-        "UnsupportedError",
-        "UnusableEngineError",
-    ),
-    "cointoss.models.parts": ("Air", "Coin", "EndingCriteria", "Floor", "Release"),
-    "cointoss.models.scenario": ("Scenario",),
-    "cointoss.models.unused": ("UnusedFieldWarning",),
-}
-_HOMES = {name: home for home, names in _NAMES.items() for name in names}
+_HOMES = homes_of(__file__)
 
 # In a checkout the four folders lie beside this one, and links lead to them. Where a system or an archive has
 # lost the links, they are found there all the same.
@@ -127,13 +92,14 @@ def __getattr__(name: str) -> Any:
         return [*_PACKAGES, *_HOMES]
     if name == "__version__":
         return import_module("cointoss.models.distribution").versions_of(["cointoss"])["cointoss"]
-    if name not in (*_PACKAGES, *_HOMES):
-        raise AttributeError(f"cointoss has no {name}; accepted: {', '.join(__dir__())}")
-    import_module("cointoss.compare.output.progress")  # What takes long says so in a terminal or a notebook.
-    return (
-        import_module(f"cointoss.{name}") if name in _PACKAGES else getattr(import_module(_HOMES[name]), name)
-    )
+    if name in _PACKAGES:
+        return import_module(f"cointoss.{name}")
+    if name in _HOMES:
+        import_module(
+            "cointoss.compare.output.progress"
+        )  # What takes long says so in a terminal or a notebook.
+    return brought(_HOMES, name, __name__)
 
 
 def __dir__() -> list[str]:
-    return sorted([*_PACKAGES, *_HOMES, "__version__"])
+    return sorted({*_PACKAGES, *_HOMES, "__version__"})

@@ -3,6 +3,8 @@
 import difflib
 import os
 import sys
+from functools import cached_property
+from importlib.metadata import entry_points
 from io import TextIOWrapper
 from typing import Any, NoReturn
 
@@ -17,7 +19,6 @@ from cointoss.compare.commands.find import find
 from cointoss.compare.commands.fit import fit
 from cointoss.compare.commands.hands import hands
 from cointoss.compare.commands.lab import lab
-from cointoss.compare.commands.reproduce import reproduce
 from cointoss.compare.commands.scenarios import scenarios
 from cointoss.compare.commands.shares import shares
 from cointoss.compare.commands.solref import solref
@@ -73,10 +74,18 @@ class _Commands(click.Group):
             refuse(f"{error.filename or 'standard output'}: can't be written ({error.strerror})", status=1)
         sys.exit(status)
 
+    @cached_property
+    def offered(self) -> dict[str, click.Command]:
+        """The commands of other packages, by the entry points that offer them."""
+        return {point.name: point.load() for point in entry_points(group="cointoss.commands")}
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return sorted([*super().list_commands(ctx), *self.offered])
+
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        known = super().get_command(ctx, cmd_name)
+        known = super().get_command(ctx, cmd_name) or self.offered.get(cmd_name)
         if known is None and not ctx.resilient_parsing:  # as where a shell completes
-            ctx.fail(f"{cmd_name}: no such command; accepted: {', '.join(self.commands)}")
+            ctx.fail(f"{cmd_name}: no such command; accepted: {', '.join(self.list_commands(ctx))}")
         return known
 
 
@@ -91,7 +100,6 @@ class _Commands(click.Group):
         fit,
         hands,
         lab,
-        reproduce,
         scenarios,
         shares,
         solref,

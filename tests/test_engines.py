@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from cointoss.compare.reproduction.claim import unexpected
+from cointoss_reproduction.frame.claim import unexpected
 
 DOCS = Path(__file__).parents[1] / "docs"
 sys.path.append(str(DOCS / "extensions"))

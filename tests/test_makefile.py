@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from cointoss.compare.reproduction import runner
+from cointoss_reproduction.frame import runner
 
 MAKEFILE = Path(__file__).parents[1] / "Makefile"
 SLEEP = """#!/bin/sh

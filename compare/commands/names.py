@@ -56,16 +56,9 @@ def fitted() -> list[str]:
     return ["clock=", *(axis for axis in axes() if not axis.startswith(("ending.", "release.quaternion.")))]
 
 
-def _reproductions() -> list[str]:
-    from cointoss.compare.reproduction.runner import names
-
-    return [*names(), "all"]
-
-
 _named = completing(_scenarios, files=True)
 scenario_argument = click.argument("scenario", **_named)
 spared_scenario_argument = click.argument("scenario", default="fig24a", **_named)
-reproductions_argument = click.argument("names", nargs=-1, metavar="[NAME ...]", **completing(_reproductions))
 
 
 ranges_option = click.option(

@@ -1,7 +1,6 @@
 """`cointoss toss`: one toss, printed."""
 
 from dataclasses import dataclass, replace
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -75,19 +74,16 @@ def toss(scenario: str, settings: tuple[str, ...], asked: Answer) -> None:
             write_text(asked.trajectory, answer.path_csv(result.sample(times), coin))
         extra, unproved = [], ""
         if asked.margin:
-            from cointoss.compare.metrics.margin import is_planar, margins
+            from cointoss.compare.metrics.margin import is_planar, margins, offered_proofs
 
-            prove, lacking = None, [name for name in ("flint", "numba") if find_spec(name) is None]
-            if is_planar(coin) and lacking:
-                unproved = f'want of {" and ".join(lacking)}: pip install "cointoss-dynamics[reproduce]"'
-            elif is_planar(coin):  # a proof takes intervals in long arithmetic
-                from cointoss.compare.reproduction.precision.proved_change import proved_change as prove
-                from cointoss.compare.reproduction.precision.proved_change import refusal
-
-                unproved = refusal(coin)
+            proofs = offered_proofs() if is_planar(coin) else None
+            if proofs is not None:
+                unproved = proofs.refusal(coin)
                 if asked.contact_steps is not None:
                     unproved = f"--contact-steps: {asked.contact_steps}, accepted: none"
-            extra = margins(coin, None if unproved else prove, settings=fine)
+            elif is_planar(coin):
+                unproved = "want of a package with proofs, an entry point cointoss.proofs"
+            extra = margins(coin, None if unproved else proofs, settings=fine)
         if asked.json:
             told = {
                 item.quantity.name: {"change": item.finite, "proved": item.proved, "unit": item.quantity.unit}

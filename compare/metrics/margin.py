@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from decimal import ROUND_DOWN, ROUND_UP, Context
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,9 +95,34 @@ def _rounded(number: float, digits: int, rounding: str) -> float:
 
 Differ = Callable[[NDArray[np.intp], Array], tuple[NDArray[np.bool_], NDArray[np.bool_]]]
 """Returns which changes, (rows, rungs), of some rows make a difference, and which are accepted."""
-Proof = Callable[[Scenario, ReleaseQuantity, float], float]
-"""Returns how far a release may change with a proof that the outcome stays, given a change that changes it
-along a quantity, both in SI units; 0 where none is proved."""
+
+
+class Proofs(Protocol):
+    """Proofs that an outcome stays; an entry point of the group `cointoss.proofs` offers them."""
+
+    def refusal(self, scenario: Scenario) -> str:
+        """Return in a line why no outcome of a scenario can be proved; empty where one can be."""
+        ...
+
+    def proved_change(self, scenario: Scenario, quantity: ReleaseQuantity, change: float) -> float:
+        """Return how far a release may change along a quantity with a proof that the outcome stays.
+
+        Args:
+            scenario: whose coin is tossed.
+            quantity: what changes.
+            change: one that changes the outcome [SI].
+
+        Returns:
+            The change to both sides [SI]; 0 where none is proved.
+        """
+        ...
+
+
+def offered_proofs() -> Proofs | None:
+    """Return the proofs that an installed package offers, None where none does."""
+    from importlib.metadata import entry_points
+
+    return next((point.load() for point in entry_points(group="cointoss.proofs")), None)
 
 
 _ATTITUDE = tuple(field for field in PLACE if field.startswith(("release.angles.", "release.quaternion.")))
@@ -173,7 +199,7 @@ def is_planar(scenario: Scenario) -> bool:
 
 def margins(
     scenario: Scenario,
-    proved_change: Proof | None = None,
+    proofs: Proofs | None = None,
     *,
     settings: analytic.AnalyticSettings = analytic.MANY,
 ) -> tuple[Margin, ...]:
@@ -184,7 +210,7 @@ def margins(
 
     Args:
         scenario: whose coin is tossed.
-        proved_change: gives a lower bound too; none is given without.
+        proofs: give a lower bound too; none is given without.
         settings: of the engine.
     """
     start = rows_of(scenario, 1)
@@ -195,7 +221,7 @@ def margins(
     def margin_along(quantity: ReleaseQuantity) -> Margin:
         found = smallest_changes(start, quantity, outcomes=outcomes, search=FINE)
         change = float(found[0])
-        proved = proved_change(scenario, quantity, change) if proved_change else 0.0
+        proved = proofs.proved_change(scenario, quantity, change) if proofs else 0.0
         proved = _rounded(proved * quantity.factor, 2, ROUND_DOWN)
         return Margin(quantity, change * quantity.factor, proved)
 

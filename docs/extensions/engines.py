@@ -8,9 +8,9 @@ from typing import Any
 from places import fill
 
 from cointoss.compare.output.tables import table
-from cointoss.compare.reproduction.claim import Claim, read_claims
-from cointoss.compare.reproduction.mujoco.mujoco_laws import REALISED
-from cointoss.compare.reproduction.result import folder_of
+from cointoss_reproduction.frame.claim import Claim, read_claims
+from cointoss_reproduction.frame.result import folder_of
+from cointoss_reproduction.studies.mujoco_laws.study import REALISED
 
 PAGE = "ENGINES.md"
 ANALYTIC = {

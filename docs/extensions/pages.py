@@ -5,7 +5,7 @@ from pathlib import Path
 
 from sphinx.application import Sphinx
 
-from cointoss.compare.reproduction import gallery, runner
+from cointoss_reproduction.frame import gallery, runner
 
 BACK = '<a href="{}" style="display: block; padding: 0.5rem 1rem; color: inherit">← cointoss</a>'
 """The first line of a page that the site takes as it is."""

@@ -13,10 +13,10 @@ from typing import Any
 
 from cointoss.compare.metrics.estimate import Estimate
 from cointoss.compare.metrics.estimates import in_words
-from cointoss.compare.reproduction import gallery
-from cointoss.compare.reproduction.claim import VERDICTS, Claim, Criterion, read_claims
-from cointoss.compare.reproduction.pages import verdicts_of
-from cointoss.compare.reproduction.result import folder_of
+from cointoss_reproduction.frame import gallery
+from cointoss_reproduction.frame.claim import VERDICTS, Claim, Criterion, read_claims
+from cointoss_reproduction.frame.pages import verdicts_of
+from cointoss_reproduction.frame.result import folder_of
 
 TOP = Path(__file__).parents[2]
 DOCS = TOP / "docs"

@@ -10,9 +10,9 @@ import nbformat
 from myst_nb.core.read import read_myst_markdown_notebook
 
 from cointoss.compare.output.files import written_together
-from cointoss.compare.reproduction import gallery, pages, runner
-from cointoss.compare.reproduction.claim import to_json
-from cointoss.compare.reproduction.result import PAGE, SHEETS, folder_of
+from cointoss_reproduction.frame import gallery, pages, runner
+from cointoss_reproduction.frame.claim import to_json
+from cointoss_reproduction.frame.result import PAGE, SHEETS, folder_of
 
 DOCS = Path(__file__).parents[1]
 

@@ -11,10 +11,10 @@ import pytest
 
 from cointoss import analytic
 from cointoss.analytic.runs import run
-from cointoss.compare.reproduction.setups.general_coins import CLASSES, CoinClass
 from cointoss.models.batch import rows_from_states
 from cointoss.models.records import Array, Ending
 from cointoss.models.scenario import Scenario
+from cointoss_reproduction.setups.general_coins import CLASSES, CoinClass
 from tests.benchmarks.one_coin import mechanics
 from tests.benchmarks.rates import report
 from tests.helpers.many import as_parts

@@ -3,6 +3,7 @@
 import json
 import os
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,8 +15,8 @@ from cointoss.models.errors import ScenarioError
 from cointoss.models.hand import Hand, load_hand, same_side_probability
 from cointoss.models.reading import load
 from cointoss.models.records import Face, Outcome
-from tests.helpers.pages import saved
 
+SAVED = Path(__file__).parents[2] / "docs" / "reproduction"
 COINS = [load("fig29"), load("zloty")]
 
 
@@ -33,7 +34,7 @@ def test_a_coin_is_released_flat_with_its_angular_momentum_at_psi(scenario):
 
 
 def test_peoples_hand_has_the_wobble_that_was_found_from_their_flips():
-    found = json.loads((saved("same-side") / "numbers.json").read_text(encoding="utf-8"))["rms_angle"]
+    found = json.loads((SAVED / "same-side/numbers.json").read_text(encoding="utf-8"))["rms_angle"]
     hand = Hand.people(spin=80.0)
     assert np.degrees(hand.psi_scatter) == pytest.approx(found["value"], abs=0.05)
     assert hand == replace(Hand(spin=80.0), psi_scatter=hand.psi_scatter)

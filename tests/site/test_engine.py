@@ -11,7 +11,6 @@ from cointoss import analytic
 from cointoss.analytic.horizon.horizon import IMPULSE_ERROR, TIME_ERROR
 from cointoss.compare.engines import Engine
 from cointoss.compare.explorer import static
-from cointoss.compare.reproduction.setups.general_coins import CLASSES
 from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.compare.sweep.tossed_map import map_of
 from cointoss.models.batch import rows_from_states
@@ -22,6 +21,7 @@ from cointoss.models.laws import ContactLaw
 from cointoss.models.records import Outcome
 from cointoss.models.rows import fields_of, row_of
 from cointoss.models.scenario import Scenario
+from cointoss_reproduction.setups.general_coins import CLASSES
 from tests.helpers.draws import AIR, LONG_TRANSIENT, ZLOTY, scenario
 from tests.helpers.engine_page import ENGINE, changes, written
 from tests.helpers.explored import SCENARIO, small_map

@@ -9,8 +9,8 @@ import pytest
 import cointoss
 from cointoss import analytic
 from cointoss.compare.metrics.estimates import share
-from cointoss.compare.reproduction.setups.planar_maps import faces_after
 from cointoss.models.batch import rows_of
+from cointoss_reproduction.setups.planar_maps import faces_after
 from tests.helpers.lab import COUNTED, HEIGHT, SPIN, go
 
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from cointoss.compare.reproduction.setups.general_coins import CLASSES
 from cointoss.models.records import Outcome
+from cointoss_reproduction.setups.general_coins import CLASSES
 from tests.helpers.bits import MANY, cases, numbers_of, numbers_of_many
 from tests.helpers.engine_page import changes, written
 

@@ -10,8 +10,8 @@ import pytest
 
 import cointoss
 from cointoss import analytic
-from cointoss.compare.reproduction.setups.general_coins import CLASSES
 from cointoss.models.batch import rows_from_states, rows_of
+from cointoss_reproduction.setups.general_coins import CLASSES
 from tests.helpers.draws import AIR, THIN, scenario
 from tests.helpers.engine_page import changes, written
 from tests.helpers.many import same_states

@@ -13,13 +13,13 @@ from cointoss.analytic.contact.rest import rests
 from cointoss.analytic.contact.rim_contact import both_rims, rim_contact
 from cointoss.analytic.contact.sampling import floor_force
 from cointoss.analytic.numerics.tolerances import CONTACT_STEP_ERROR, SLOW
-from cointoss.compare.reproduction.setups.hands import states_of_hands
-from cointoss.compare.reproduction.studies.endings import draw_toss
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.batch import rows_from_states
 from cointoss.models.certificate import CONTACT_ENERGY
 from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.records import Ending, Outcome
+from cointoss_reproduction.setups.hands import states_of_hands
+from cointoss_reproduction.studies.endings.study import draw_toss
 from tests.helpers.contacts import follow_for, held, put_on_floor
 from tests.helpers.draws import AIR, IMPERFECT, THIN, ZLOTY, draw_coin, scenario
 

@@ -14,12 +14,12 @@ from cointoss.analytic.contact.upright import rim_forces, start_slow_slip
 from cointoss.analytic.numerics.tolerances import SLOW
 from cointoss.analytic.runs import run
 from cointoss.analytic.toss import state_at_release
-from cointoss.compare.reproduction.studies.endings import draw_toss
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.barriers import energy
 from cointoss.models.geometry import gap
 from cointoss.models.laws import EndingTest
 from cointoss.models.records import Ending, Outcome
+from cointoss_reproduction.studies.endings.study import draw_toss
 from tests.helpers.contacts import end_mode, follow_for, follow_step, held, upright_coin
 from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, scenario
 

@@ -11,8 +11,8 @@ from cointoss.analytic.horizon.horizon import Horizon
 from cointoss.analytic.runs import horizon_of, run
 from cointoss.analytic.settings import MANY, AnalyticSettings
 from cointoss.analytic.toss import state_at_release
-from cointoss.compare.reproduction.studies.endings import COINS, draw_toss
 from cointoss.models.records import Ending, Outcome
+from cointoss_reproduction.studies.endings.study import COINS, draw_toss
 from tests.helpers.draws import AIR, ZLOTY, scenario
 
 ROUNDING, MOVED = 2e-15, 6

@@ -13,7 +13,7 @@ from cointoss.coin_mj.bounces.approach import Pair
 from cointoss.coin_mj.bounces.pair import PairOutcome
 from cointoss.coin_mj.bounces.recipe import recipe_of
 from cointoss.compare.output.bounce_plot import bounce_table
-from cointoss.compare.reproduction.setups.mujoco_failures import leg
+from cointoss_reproduction.studies.mujoco_situations.failures import leg
 from tests.helpers.two_geoms import DT, FLOOR, HARD, SET, ball, model
 
 ROD = (

@@ -5,10 +5,10 @@ import pytest
 
 from cointoss.compare.film.back_end import ADVICE
 from cointoss.compare.film.stills import stills
-from cointoss.compare.reproduction import runner
-from cointoss.compare.reproduction.claim import unexpected
-from cointoss.compare.reproduction.paper import fig5
 from cointoss.models.records import States
+from cointoss_reproduction.frame import runner
+from cointoss_reproduction.frame.claim import unexpected
+from cointoss_reproduction.studies.fig5 import study as fig5
 from tests.helpers.draws import scenario
 
 

@@ -13,11 +13,11 @@ from cointoss.compare.metrics.margin import (
     MANY,
     QUANTITIES,
     margins,
+    offered_proofs,
     quantity_of,
     smallest_changes,
     with_quaternions,
 )
-from cointoss.compare.reproduction.precision.proved_change import PROVED, proved_change
 from cointoss.compare.sweep import grid
 from cointoss.models.batch import PLACE, STATE_PLACES, refused, rows_of
 from cointoss.models.reading import load
@@ -26,12 +26,16 @@ from tests.helpers.command_line import cointoss, python
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
 
-def by_name(scenario, prove=None):
-    return {margin.quantity.name: margin for margin in margins(scenario, prove)}
+PROOFS = offered_proofs()
+PROVED = {"height", "attitude about ξ", "spin about ξ"}
+
+
+def by_name(scenario, proofs=None):
+    return {margin.quantity.name: margin for margin in margins(scenario, proofs)}
 
 
 def proves_any(scenario):
-    return any(proved_change(scenario, quantity, 1e-9) for quantity in QUANTITIES)
+    return any(PROOFS.proved_change(scenario, quantity, 1e-9) for quantity in QUANTITIES)
 
 
 def test_every_quantity_has_a_margin_and_what_changes_nothing_has_none():
@@ -63,8 +67,8 @@ def test_a_change_of_the_margin_changes_the_outcome_and_half_of_it_does_not(name
 @pytest.mark.parametrize("law", ["smooth", "perfectly_rough"])
 def test_the_margin_of_a_planar_coin_in_vacuum_is_proved_from_below(law):
     vacuum = load("fig29").replace("air.normal", 0.0, "air.tangential", 0.0, "floor.restitution", 0.3)
-    found = by_name(vacuum.replace("floor.contact", law), proved_change)
-    assert {name for name, margin in found.items() if margin.proved} == set(PROVED)
+    found = by_name(vacuum.replace("floor.contact", law), PROOFS)
+    assert {name for name, margin in found.items() if margin.proved} == PROVED
     for name in PROVED:
         assert 2**-14 * abs(found[name].change) < found[name].proved < abs(found[name].change)
         assert f"proved to be above {found[name].proved:.2g} {found[name].quantity.unit}" in found[name].line

@@ -1,1 +1,0 @@
-"""Studies of MuJoCo's contacts, a module each, as `REPRODUCTION`."""

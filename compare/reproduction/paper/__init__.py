@@ -1,1 +1,0 @@
-"""The paper's figures and its table, a module each, as `REPRODUCTION`."""

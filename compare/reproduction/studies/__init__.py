@@ -1,1 +1,0 @@
-"""Studies of the two engines, a module each, as `REPRODUCTION`."""

@@ -1,0 +1,1 @@
+"""What every study is run, checked and shown by."""

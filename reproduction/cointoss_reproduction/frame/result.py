@@ -1,0 +1,69 @@
+"""What can be reproduced, and what a run of it found."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from cointoss_reproduction.frame.claim import Claim
+from cointoss_reproduction.frame.provenance import PROVENANCE
+
+if TYPE_CHECKING:  # names are listed without it
+    from matplotlib.figure import Figure
+
+FOLDER = "reproduction"
+"""Holds the folders of all that was reproduced."""
+PAGE = "index.md"
+"""The page of a figure of the paper."""
+SHEETS = tuple(f"table-{number}.csv" for number in range(1, 20))
+"""Long tables that a page shows."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Result:
+    """What a run found."""
+
+    claims: Sequence[Claim]
+    data: Any
+    """What its pictures show: arrays by name, or a record of numbers."""
+    tables: str = ""
+    """More of what it found, in Markdown, to be printed before the claims."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reproduction:
+    """A figure, a claim or a study that can be reproduced."""
+
+    title: str
+    """What it shows, in a few words."""
+    seconds: float
+    """Roughly how long it takes on two cores [s]."""
+    make: Callable[..., Result]
+    """Computes it, from a `Progress`; one that `resumes` from a folder `parts` too."""
+    read: Callable[[Path], Result] | None = None
+    """Reads what a run of it left in its folder, where that is more than claims."""
+    draw: "Mapping[str, Callable[[Any], Figure]]"
+    """Its pictures, by name, each drawn from the data."""
+    quick: Callable[..., Result] | None = None
+    """Computes a smaller size, where there is one."""
+    quick_seconds: float | None = None
+    """Roughly how long that takes on two cores [s]."""
+    paper: str = ""
+    """Its place in the paper, as in "Fig. 3"; empty for a study of this project."""
+    resumes: bool = False
+    """Whether it keeps what it has done in its folder, so that an interrupted run goes on."""
+    timed: bool = False
+    """Whether its numbers are times, which no two runs share."""
+    assumed: str = ""
+    """What the paper leaves unsaid, and what is assumed instead."""
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """Names of all files that it may write."""
+        pictures = (f"{name}.png" for name in self.draw)
+        return ("claims.json", "data.npz", "numbers.json", PROVENANCE, PAGE, *SHEETS, *pictures)
+
+
+def folder_of(name: str, out: Path) -> Path:
+    """Return the folder of what one of the `names` writes below `out`."""
+    return out / FOLDER / name

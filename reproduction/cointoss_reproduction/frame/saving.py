@@ -1,0 +1,56 @@
+"""What a run leaves in its folder: claims, data, and pictures drawn from the data."""
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any, TypeVar
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.figure import Figure
+from PIL import Image
+from pydantic import TypeAdapter
+
+from cointoss.study import STYLE
+from cointoss_reproduction.frame.claim import to_json
+from cointoss_reproduction.frame.provenance import PROVENANCE, provenance
+from cointoss_reproduction.frame.result import Result
+
+_COLORS = 128
+Numbers = TypeVar("Numbers")
+
+
+def save(folder: Path, result: Result, draw: Mapping[str, Callable[[Any], Figure]]) -> None:
+    """Write the claims, the data and the pictures into a folder that exists."""
+    (folder / "claims.json").write_text(to_json(result.claims), encoding="utf-8")
+    data = result.data
+    if isinstance(data, Mapping):
+        np.savez_compressed(folder / "data.npz", allow_pickle=False, **data)
+    else:
+        numbers = json.dumps(asdict(data), indent=1, allow_nan=False, default=np.ndarray.tolist)
+        (folder / "numbers.json").write_text(numbers, encoding="utf-8")
+    draw_all(folder, result.data, draw)
+
+
+def keep_provenance(folder: Path, *, quick: bool) -> None:
+    """Write what a run was made of into its folder, after all else; see `provenance`."""
+    made_of = json.dumps(provenance(folder, quick=quick), indent=1)
+    (folder / PROVENANCE).write_text(made_of + "\n", encoding="utf-8")
+
+
+def draw_all(folder: Path, data: Any, draw: Mapping[str, Callable[[Any], Figure]]) -> None:
+    """Draw the pictures of a reproduction from its data into a folder that exists."""
+    for name, picture in draw.items():
+        path = folder / f"{name}.png"
+        with mpl.rc_context(STYLE):
+            picture(data).savefig(path, dpi=110)
+        # A map's fine stripes would make a large file in full colour.
+        with Image.open(path) as drawn:
+            few = drawn.convert("RGB").quantize(_COLORS)
+        few.save(path, optimize=True)
+
+
+def read_numbers(folder: Path, kind: type[Numbers]) -> Numbers:
+    """Read the numbers that a run of a study wrote, as the record that they are of."""
+    return TypeAdapter(kind).validate_json((folder / "numbers.json").read_bytes())

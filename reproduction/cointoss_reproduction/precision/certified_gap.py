@@ -1,0 +1,124 @@
+"""The gap between a planar coin's rim point and the floor in a flight, and its first zero, enclosed."""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from flint import arb, ctx
+
+from cointoss_reproduction.precision.planar_flight import safe_step
+from cointoss_reproduction.precision.taylor_models import UndecidedError
+
+MOST_STEPS = 20_000
+"""Of the search for a touch."""
+NEAR = 1e-9
+"""Below this gap, and what it is uncertain by, a zero is enclosed by the gap's falling."""
+
+
+def polynomial(coefficients: Sequence[Any], s: Any) -> Any:
+    """Return a polynomial's value, lowest coefficient first."""
+    total = arb(0)
+    for c in reversed(coefficients):
+        total = total * s + c
+    return total
+
+
+class Gap:
+    """The gap of a rim point over the clock of a flight."""
+
+    def __init__(
+        self,
+        heights: list[Any],
+        tail: Any,
+        tilt: Any,
+        w: Any,
+        corners: tuple[int, ...],
+        start: Any,
+        side: int,
+        part: Callable[[Any], Any],
+    ) -> None:
+        """Take a flight, the rim points that it starts from, and one of them.
+
+        Args:
+            heights: of the coin's centre, a series in the clock.
+            tail: what the series leaves out.
+            tilt: at the start.
+            w: the spin there.
+            corners: the rim points that are on the floor there.
+            start: the clock before which none of these touches again; None where that is not known.
+            side: 1 or -1, the rim point.
+            part: what is taken of each number that varies with the release.
+        """
+        heights = [part(c) for c in heights]
+        sine, cosine = part(tilt).sin_cos()
+        self.sn, self.cs, self.w = side * sine, side * cosine, part(w)
+        self.f0 = arb(0) if side in corners else heights[0] + self.sn
+        self.f1 = heights[1] + self.cs * self.w
+        self.start = 0.0
+        if side in corners and start is not None:
+            self.f1, self.start = arb(0), float(start.lower()) * (1 - 1e-9)
+        self.rest, self.tail = [arb(0), arb(0), *heights[2:]], tail
+        self.slopes = [n * c for n, c in enumerate(self.rest)][1:]
+        self.bends = [n * c for n, c in enumerate(self.slopes)][1:]
+
+    def at(self, s: Any) -> tuple[Any, Any]:
+        """Return the gap and its rate."""
+        angle = self.w * s
+        half = (angle / 2).sin()
+        less, sine = 2 * half**2, angle.sin()
+        f = self.f0 + self.f1 * s + polynomial(self.rest, s) + self.tail
+        f = f + self.cs * (sine - angle) - self.sn * less
+        rate = self.f1 + polynomial(self.slopes, s) + self.tail * len(self.rest) * 4
+        return f, rate - self.w * (self.sn * sine + self.cs * less)
+
+    def bend(self, s: Any) -> Any:
+        """Return the gap's second derivative."""
+        sine, cosine = (self.w * s).sin_cos()
+        tail = self.tail * len(self.rest) ** 2 * 16
+        return polynomial(self.bends, s) + tail - self.w**2 * (self.sn * cosine + self.cs * sine)
+
+    def bounds(self, length: float) -> tuple[float, float]:
+        """Bound how fast the rate and the second derivative fall, up to a clock."""
+        second, third, power = -2 * self.rest[2], arb(0), arb(1)
+        for n in range(3, len(self.rest)):
+            third = third + n * (n - 1) * (n - 2) * abs(self.rest[n]) * power
+            power = power * length
+            second = second + n * (n - 1) * abs(self.rest[n]) * power
+        tail = abs(self.tail) * len(self.rest) ** 3 * 64 / min(length, 1.0) ** 3
+        second, third = second + self.w**2 + tail, third + abs(self.w) ** 3 + tail
+        return float(second.upper()) * (1 + 1e-12), float(third.upper()) * (1 + 1e-12)
+
+    def first_zero(self, limit: float) -> Any:
+        """Return an enclosure of the first zero up to the limit; None where there is proved to be none."""
+        bound, third = self.bounds(limit)
+        s = arb(self.start)
+        for _ in range(MOST_STEPS):
+            if s > limit:
+                return None
+            f, rate = self.at(s)
+            low, slope = float(f.lower()), float(rate.lower())
+            if s > 0 and f.mid() < NEAR + 2 * f.rad() and rate < 0 and (root := self.enclosed(s)) is not None:
+                return root
+            if s == 0 and self.f0 == 0:
+                low = 0.0
+            elif not f > 0:
+                raise UndecidedError
+            step = safe_step(low, slope, float(self.bend(s).lower()), (bound, third)) * (1 - 1e-12)
+            if not step > 0:
+                raise UndecidedError
+            s = (s + arb(step)).mid()
+        raise UndecidedError
+
+    def enclosed(self, s: Any) -> Any:
+        """Enclose a zero after s, up to which the gap falls; None where that is not proved."""
+        x = s
+        for _ in range(12):
+            f, rate = self.at(x)
+            x = (x - f.mid() / rate.mid()).mid()
+        f, rate = self.at(x)
+        wide = 4 * abs(f).upper() / abs(rate).lower() + arb(2) ** (-2 * ctx.prec)
+        low, high = (x - wide).lower(), (x + wide).upper()
+        whole = s.union(high)
+        f_low, f_high = self.at(low)[0], self.at(high)[0]
+        if self.at(whole)[1] < 0 and f_low > 0 and f_high < 0:
+            return low.union(high)
+        return None

@@ -1,0 +1,75 @@
+"""Three-sided coins that were thrown: the shares quoted of them, and tosses that stand for the throws."""
+
+from collections.abc import Mapping
+from math import erfc
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from cointoss.study import Estimate, share_of
+from cointoss_reproduction.setups.edge_classes import DIAMETRAL, WOBBLING, EdgeClass, hand_of
+from cointoss_reproduction.setups.ends import Ends, on_edge
+
+QUOTED = {"0.353553": 132, "0.57735": 410}
+"""Throws on edge, by h/D: M. Parker, "How thick is a three-sided coin?" (a film of 2018), at second hand.
+
+The shares, 13.2 % and 41.0 %, stand in README.md of github.com/iaroslav-ai/coin-experiment, the number of
+throws at frankforce.com/?p=5559.
+"""
+THROWS = 1000
+"""Of each of the two coins."""
+CHIS = (0.0, 0.05, 0.1, 0.2, 0.3, 0.5)
+FLOORS: dict[str, tuple[str, dict[str, Any]]] = {
+    **{f"χ = {chi:g}": (WOBBLING, {"restitution": chi}) for chi in CHIS},
+    **{f"χ = 0.1, μ = {mu:g}": (WOBBLING, {"restitution": 0.1, "friction": mu}) for mu in (0.15, 0.6)},
+    "χ = 0.1, about a diameter": (DIAMETRAL, {"restitution": 0.1}),
+}
+"""Hand, and what is other than in `BASE`, by what the table calls it."""
+_NORMAL, _INSIDE = 2.5758, 6.635
+"""Half the width of an interval of 99 %, in standard deviations; the square of it."""
+_FINE = np.linspace(0, max(CHIS), 501)
+"""Where the model's shares are compared."""
+
+
+class FittedFloor(NamedTuple):
+    """The restitution with which the model comes nearest to the quoted shares."""
+
+    chi: Estimate
+    chance: float
+    """The probability by chance of shares that differ from the model's as much, χ being at its best."""
+
+
+def thrown(floor: str, aspect: str) -> EdgeClass:
+    """Return the coin of an h/D, and the hand and floor of one of `FLOORS`."""
+    wobble, other = FLOORS[floor]
+    name = f"thrown, {floor}, h/D = {aspect}"
+    return EdgeClass(name=name, aspect=float(aspect), hand=hand_of(wobble), floor=other)
+
+
+def quoted(aspect: str) -> Estimate:
+    """Return the share on edge that is quoted, with its interval."""
+    return share_of(QUOTED[aspect], THROWS)
+
+
+def fitted_floor(found: Mapping[str, Mapping[str, Ends]]) -> FittedFloor:
+    """Return the one χ of both coins, all else as in `BASE`; a parabola smooths the model's shares over χ.
+
+    Args:
+        found: ends by floor and h/D.
+    """
+    misfit = np.zeros_like(_FINE)
+    for aspect in QUOTED:
+        mine = [on_edge(found[f"χ = {chi:g}"][aspect]) for chi in CHIS]
+        weights = [1 / _deviation(one) for one in mine]
+        curve, covariance = np.polyfit(CHIS, [one.value for one in mine], 2, w=weights, cov="unscaled")
+        powers = np.vander(_FINE, 3)
+        variance = ((powers @ covariance) * powers).sum(axis=1) + _deviation(quoted(aspect)) ** 2
+        misfit += (powers @ curve - quoted(aspect).value) ** 2 / variance
+    inside = _FINE[misfit <= misfit.min() + _INSIDE]
+    best = float(_FINE[misfit.argmin()])
+    chi = Estimate(best, float(inside[0]), float(inside[-1]), len(QUOTED) * THROWS, "throws")
+    return FittedFloor(chi, erfc((misfit.min() / 2) ** 0.5))
+
+
+def _deviation(one: Estimate) -> float:
+    return (one.high - one.low) / 2 / _NORMAL

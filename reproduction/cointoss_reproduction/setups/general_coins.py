@@ -1,0 +1,90 @@
+"""General coins: 16 classes of coin, air and floor, and the releases by which they are timed."""
+
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from cointoss import Scenario
+from cointoss.study import Array, rows_from_states
+
+SEED = 15
+PAPER_OFFSET, THICKNESS = (-1e-3, -1e-3, -2e-4), 2e-3
+"""C from B of the paper's imperfect coin, and how thick it is [m]; a thin coin has its ζ at 0."""
+AIR = {"normal": 0.8, "tangential": 0.2}
+
+
+def paper_coin(*, thick: bool, imperfect: bool) -> dict[str, Any]:
+    """Return the paper's coin as a scenario describes it."""
+    xi, eta, zeta = PAPER_OFFSET if imperfect else (0.0, 0.0, 0.0)
+    return {
+        "mass": 2e-3,
+        "radius": 1.25e-2,
+        "thickness": THICKNESS if thick else 0.0,
+        "center_of_mass": (xi, eta, zeta if thick else 0.0),
+    }
+
+
+@dataclass(frozen=True, kw_only=True)
+class CoinClass:
+    """A coin, its air and its floor."""
+
+    thick: bool
+    imperfect: bool
+    air: bool
+    coulomb: bool
+
+    @property
+    def name(self) -> str:
+        """The class in words."""
+        words = (
+            "thick" if self.thick else "thin",
+            "imperfect" if self.imperfect else "ideal",
+            "air" if self.air else "vacuum",
+            "coulomb" if self.coulomb else "smooth",
+        )
+        return ", ".join(words)
+
+    @property
+    def scenario(self) -> Scenario:
+        """What is tossed."""
+        return Scenario.model_validate(
+            {
+                "coin": paper_coin(thick=self.thick, imperfect=self.imperfect),
+                "air": AIR if self.air else {},
+                "floor": {
+                    "restitution": 0.6,
+                    "contact": "coulomb" if self.coulomb else "smooth",
+                    "friction": 0.2 if self.coulomb else 0.0,
+                },
+                "release": {"position": (0.0, 0.0, 0.4)},
+            }
+        )
+
+    def starts(self, count: int) -> Array:
+        """Draw states at release from a hand's height: every attitude, the spin mostly about one diameter.
+
+        Args:
+            count: how many; the draws are those of this class and this number.
+
+        Returns:
+            Position, velocity, Euler parameters and angular velocity, (count, 13).
+        """
+        rng = np.random.default_rng([SEED, CLASSES.index(self)])
+        height, velocity = rng.uniform(0.2, 0.6, count), rng.normal(0, 0.3, (count, 3))
+        e = rng.normal(size=(count, 4))
+        spin = [rng.normal(0, 10, count), rng.uniform(20, 60, count), rng.normal(0, 10, count)]
+        place = np.stack([np.zeros(count), np.zeros(count), height], axis=1)
+        turned = e / np.linalg.norm(e, axis=1, keepdims=True)
+        return np.hstack([place, velocity, turned, np.stack(spin, axis=1)])
+
+    def rows(self, count: int) -> Array:
+        """Return the tosses from those states as rows, (count, 46)."""
+        return rows_from_states(self.scenario, self.starts(count))
+
+
+CLASSES = tuple(
+    CoinClass(thick=thick, imperfect=imperfect, air=air, coulomb=coulomb)
+    for thick, imperfect, air, coulomb in product((False, True), repeat=4)
+)

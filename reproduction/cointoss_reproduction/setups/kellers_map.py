@@ -1,0 +1,33 @@
+"""Keller's map, Fig. 2: its axes, and the coins that are tossed and caught in it."""
+
+import numpy as np
+
+from cointoss import Scenario
+from cointoss.study import Array, by_numba, sample_flight
+
+sample_flight = by_numba(sample_flight)
+
+FASTEST, HIGHEST = 20.0, 0.25
+"""Ends of the axes: ω_0/π [1/s] and v_0/g [s]."""
+
+
+def middles(end: float, count: int) -> Array:
+    """Return the middles of equal parts of an axis from 0 on: for an even count none lies on a boundary."""
+    return (np.arange(count) + 0.5) * end / count
+
+
+def thrown(scenario: Scenario, over: Array, up: Array) -> Array:
+    """Return states flat, one radius above the floor, with ω_0/π [1/s] and v_0/g [s], (n, 13)."""
+    states = np.zeros((len(over), 13))
+    states[:, 2], states[:, 5] = scenario.coin.radius, up * scenario.gravity
+    states[:, 6], states[:, 10] = 1.0, over * np.pi
+    return states
+
+
+def caught(scenario: Scenario, starts: Array) -> Array:
+    """Return n_z when coins would be back, in vacuum, at the height of their release, (n,)."""
+    heights, state = [], np.empty((1, 13))
+    for start in starts:
+        sample_flight(scenario.body, start, 0.0, np.array([2 * start[5] / scenario.gravity]), state)
+        heights.append(1 - 2 * (state[0, 7] ** 2 + state[0, 8] ** 2))
+    return np.array(heights)

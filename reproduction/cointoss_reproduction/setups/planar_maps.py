@@ -1,0 +1,122 @@
+"""The maps of Figs 29 to 31: faces of the planar thin coin over its release height and spin."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cointoss import Air, Scenario, analytic, coin_mj, load
+from cointoss.study import (
+    BLUE,
+    PLACE,
+    VERMILION,
+    Answers,
+    Array,
+    MapAxis,
+    OutcomeCodes,
+    rows_from_states,
+    run,
+    states_of,
+)
+
+HEIGHTS, SPINS = (0.2, 0.6), (20.0, 60.0)
+"""Ranges of the axes: release height [m] and spin about ξ [rad/s]."""
+HEIGHT = MapAxis(name="height", unit="m", start=HEIGHTS[0], stop=HEIGHTS[1])
+SPIN = MapAxis(name="spin", unit="rad/s", start=SPINS[0], stop=SPINS[1])
+MEDIA = {"air": BLUE, "vacuum": VERMILION}
+LANDINGS = {"soft floor": BLUE, "bouncing": VERMILION}
+"""How a toss ends, at its first touch or after its bounces; both with the colours of their curves."""
+
+toss_rows_by_mujoco = partial(coin_mj.toss_rows, settings=coin_mj.FINE)
+"""MuJoCo's tosses where single ones are compared."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Grid:
+    """Points of a map: every spin with every height."""
+
+    heights: Array
+    """(x) [m]."""
+    spins: Array
+    """(y) [rad/s]."""
+
+    def rows(self, scenario: Scenario) -> Array:
+        """Return the tosses of all points, line by line, as rows, (y x, 46)."""
+        z, w = (part.ravel() for part in np.meshgrid(self.heights, self.spins))
+        return planar_rows(scenario, z, w)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Shape of a map, (y, x)."""
+        return len(self.spins), len(self.heights)
+
+
+def whole_grid(points: int) -> Grid:
+    """Return the grid of a whole map with so many points along each side."""
+    return Grid(heights=np.linspace(*HEIGHTS, points), spins=np.linspace(*SPINS, points))
+
+
+def planar_rows(scenario: Scenario, heights: Array, spins: Array) -> Array:
+    """Return tosses of a coin released flat, heads up, at rest but for its spin about ξ, as rows, (n, 46).
+
+    Args:
+        scenario: what is tossed.
+        heights: of the releases, (n,) [m].
+        spins: about ξ, (n,) [rad/s].
+    """
+    states = np.zeros((len(heights), 13))
+    states[:, 2], states[:, 6], states[:, 10] = heights, 1.0, spins
+    return rows_from_states(scenario, states)
+
+
+def case(*, air: bool, restitution: float = 0.6, max_impacts: int | None = None) -> Scenario:
+    """Return the scenario of the maps.
+
+    Args:
+        air: whether there is any.
+        restitution: χ.
+        max_impacts: as many as that end a toss, by default those of the scenario.
+    """
+    scenario = load("fig29")
+    medium, most = scenario.air if air else Air(), max_impacts or scenario.ending.max_impacts
+    return scenario.replace("air", medium, "floor.restitution", restitution, "ending.max_impacts", most)
+
+
+def final_faces(scenario: Scenario, grid: Grid) -> OutcomeCodes:
+    """Return the map of the outcomes, (y, x)."""
+    return analytic.toss_rows(grid.rows(scenario)).outcome.reshape(grid.shape)
+
+
+def faces_after(
+    rows: Array, impacts: int, toss_rows: Callable[[Array], Answers] = analytic.toss_rows
+) -> NDArray[np.int8]:
+    """Return the face up at the touch after some impacts, the outcome where a toss ended before, (n,).
+
+    Args:
+        rows: of the tosses, (n, 46).
+        impacts: how many.
+        toss_rows: the engine's.
+    """
+    shorter = rows.copy()
+    shorter[:, PLACE["ending.max_impacts"]] = impacts + 1
+    return toss_rows(shorter).after(impacts)
+
+
+def touched_faces(scenario: Scenario, heights: Array, spins: Array, touches: int) -> NDArray[np.int8]:
+    """Return the faces up at the first touches, the outcome once the toss has ended, (n, touches).
+
+    Args:
+        scenario: of the maps.
+        heights: (n,) [m].
+        spins: (n,) [rad/s].
+        touches: how many.
+    """
+    body, rules = scenario.body, scenario.replace("ending.max_impacts", touches).rules
+    faces = np.empty((len(heights), touches), dtype=np.int8)
+    for row, state in zip(faces, states_of(planar_rows(scenario, heights, spins)), strict=True):
+        tossed = run(body, rules, state)
+        row[: len(tossed.rows)] = tossed.rows["face"]
+        row[len(tossed.rows) :] = tossed.outcome
+    return faces

@@ -1,0 +1,1 @@
+"""The figures, claims and studies, one folder each; they never import each other."""

@@ -1,0 +1,43 @@
+"""Random impacts of a coin: the states in which it comes down on its rim."""
+
+import numpy as np
+
+from cointoss.study import Array, Body, Rules, strike
+
+SPEED = 1.0
+"""Of C, along each axis at most [m/s]."""
+SPIN = 100.0
+"""About each axis of the body at most [rad/s]."""
+
+
+def draw_states(body: Body, rules: Rules, count: int, rng: np.random.Generator) -> Array:
+    """Draw states of a coin that touches the floor, its lowest point moving down.
+
+    Every attitude is equally likely, and so is every velocity of C and every ω within `SPEED` and `SPIN`; of
+    these states each is kept with a probability that grows as the speed at which its lowest point comes down,
+    for the floor meets a fast point more often.
+
+    Args:
+        body: the coin.
+        rules: of any floor.
+        count: how many states.
+        rng: the source of chance.
+
+    Returns:
+        States, (count, 13). C is at height 0: an impact does not depend on where it is.
+    """
+    states = np.empty((0, 13))
+    while len(states) < count:
+        e = rng.normal(size=(count, 4))
+        drawn = np.hstack(
+            [
+                np.zeros((count, 3)),
+                rng.uniform(-SPEED, SPEED, (count, 3)),
+                e / np.linalg.norm(e, axis=1, keepdims=True),
+                rng.uniform(-SPIN, SPIN, (count, 3)),
+            ]
+        )
+        impacts, _ = strike(body, rules, drawn, restitution=0.0, friction=0.0)
+        closing = -impacts.contact_velocity_before[:, 2]
+        states = np.vstack([states, drawn[closing > rng.uniform(0, closing.max(), count)]])
+    return states[:count]

@@ -1,0 +1,101 @@
+"""Fig. 29: basins of heads and tails over height and spin, without and with bouncing, in air and not."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from cointoss import Face, Outcome, Scenario
+from cointoss.coin_mj import impacts_of
+from cointoss.study import OutcomeCodes, Progress, crossings, distance_to_doubt, draw_panel, fractions, share
+from cointoss_reproduction.frame.declared import Data, Findings, declared
+from cointoss_reproduction.setups.planar_maps import (
+    HEIGHT,
+    HEIGHTS,
+    SPIN,
+    SPINS,
+    Grid,
+    case,
+    faces_after,
+    final_faces,
+    planar_rows,
+    whole_grid,
+)
+
+SEED = 29
+
+
+def make(progress: Progress, points: int = 400, points_mujoco: int = 16, tosses: int = 100_000) -> Findings:
+    """Make the four maps, and toss at random in them; MuJoCo tosses a coarser grid to its first touch."""
+    found = Findings()
+    grid = whole_grid(points)
+    landed, settled = {}, {}
+    for done, medium in enumerate(("air", "vacuum")):
+        scenario = case(air=medium == "air")
+        landed[medium] = faces_after(grid.rows(scenario), 0).reshape(grid.shape)
+        progress(2 * done + 1, 5)
+        settled[medium] = final_faces(scenario, grid)
+        progress(2 * done + 2, 5)
+    away = distance_to_doubt(landed["vacuum"]) > 1
+    found.wrong = int(np.sum((landed["vacuum"] != _closed_form(grid)) & away))
+    coarse = whole_grid(points_mujoco)
+    faces = faces_after(coarse.rows(case(air=True)), 0).reshape(coarse.shape)
+    found.same = int(np.sum(_first_touches(case(air=True), coarse) == faces))
+    progress(5, 5)
+    found.lines = {name: crossings(maps[::20]).mean() for name, maps in settled.items()}
+    found.lines_landed = {name: crossings(maps[::20]).mean() for name, maps in landed.items()}
+    found.stripes = {name: crossings(maps).mean() for name, maps in landed.items()}
+    rng = np.random.default_rng(SEED)
+    random = rng.uniform(*HEIGHTS, tosses), rng.uniform(*SPINS, tosses)
+    air, vacuum = (faces_after(planar_rows(case(air=air), *random), 0) for air in (True, False))
+    found.changed = share(air != vacuum, "tosses")
+    found.undecided = sum(fractions(maps)[Outcome.UNDECIDED] for maps in settled.values())
+    found.pixels = away.sum()
+    found.coarse_pixels = faces.size
+    found.more_stripes = found.stripes["air"] / found.stripes["vacuum"] - 1
+    found.fewest = min(found.lines.values())
+    found.ten_times_landed = 10 * max(found.lines_landed.values())
+    data = {f"first touch, {name}": maps for name, maps in landed.items()}
+    data |= {f"final, {name}": maps for name, maps in settled.items()}
+    found.data = data
+    return found
+
+
+def _first_touches(scenario: Scenario, grid: Grid) -> OutcomeCodes:
+    """Return MuJoCo's map of the face up at the first touch, (y, x)."""
+    faces, once = [], scenario.replace("ending.max_impacts", 1)
+    for w in grid.spins.tolist():
+        for z in grid.heights.tolist():
+            released = once.replace("release.position.z", z, "release.angular_velocity.xi", w)
+            tossed = impacts_of(released)
+            faces.append(tossed.face[0])
+    return np.array(faces, dtype=np.int8).reshape(grid.shape)
+
+
+def _closed_form(grid: Grid) -> OutcomeCodes:
+    """Return the face up at the first touch of a planar thin coin in vacuum, (y, x).
+
+    It touches when z_0 - g t²/2 = r |sin ω t| for the first time; heads is up while cos ω t > 0.
+    """
+    scenario = case(air=False)
+    r, g = scenario.coin.radius, scenario.gravity
+    z, w = np.meshgrid(grid.heights, grid.spins)
+    # The lower rim can't touch before C is at r; from there on in steps of a tenth of a milliradian.
+    start = np.sqrt(2 * (z - r) / g)
+    t = start.copy()
+    falling = np.ones(t.shape, dtype=bool)
+    while falling.any():
+        t[falling] += 1e-4 / w[falling]
+        falling &= z - g * t**2 / 2 > r * np.abs(np.sin(w * t))
+    return np.where(np.cos(w * t) > 0, Face.HEADS, Face.TAILS).astype(np.int8)
+
+
+def _draw(data: Data) -> Figure:
+    picture = Figure(figsize=(6.4, 5.6))
+    order = ("first touch, air", "first touch, vacuum", "final, air", "final, vacuum")
+    for axes, letter, name in zip(picture.subplots(2, 2).flat, "abcd", order, strict=True):
+        draw_panel(axes, data[name], x=HEIGHT, y=SPIN)
+        axes.set_title(f"({letter}) {name}")
+        axes.grid(visible=False)
+    return picture
+
+
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

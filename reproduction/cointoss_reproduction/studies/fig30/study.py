@@ -1,0 +1,235 @@
+"""Fig. 30, section 5.2: boundaries magnified to 1e-25 m, and how the share of uncertain tosses falls."""
+
+from fractions import Fraction
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from cointoss import Scenario, analytic
+from cointoss.study import GREY, Array, MapAxis, Progress, draw_panel, share
+from cointoss_reproduction.frame.declared import Data, Findings, declared
+from cointoss_reproduction.frame.threads import all_cores
+from cointoss_reproduction.precision.magnified import MAGNIFICATION, Magnified, magnify
+from cointoss_reproduction.precision.planar_coin import planar_coin, units
+from cointoss_reproduction.precision.planar_state import HEIGHT, release
+from cointoss_reproduction.setups.planar_maps import (
+    HEIGHTS,
+    MEDIA,
+    SPINS,
+    Grid,
+    case,
+    final_faces,
+    planar_rows,
+    toss_rows_by_mujoco,
+)
+from cointoss_reproduction.setups.uncertain_shares import ACCURACIES, kept_run, slope
+
+WINDOWS_BELOW = 25
+"""A line through the map is magnified so many times, 1 included; the last is 4e-25 m long."""
+POINTS = 50
+"""On a line."""
+DECADES = 3
+"""α is the slope over so many of them."""
+DOUBLES = (3, 4)
+"""Index of the first and number of those for which doubles would do: 1e-6 m to 1e-10 m."""
+UPRIGHT = 1e-6
+"""A coin stands when it comes so near to the upright coin at rest [m g r]."""
+TENFOLDS = 3
+"""Over so many magnifications it is seen to come nearer."""
+SEED = 30
+WINDOWS = ((0.05, 5.0), (5e-4, 0.05))
+"""Height and spin of the enlarged maps [m, rad/s]."""
+NEAR = (0.258, 39.0)
+"""They are centred on the boundary of this spin that is nearest to this height [m, rad/s]."""
+REACH = 0.02
+"""How far it may be [m]."""
+ACCURACY_MUJOCO = 1e-4
+"""By which nearby tosses of MuJoCo differ [m]."""
+
+
+def make(
+    progress: Progress,
+    parts: Path,
+    points: int = 100,
+    lines: int = 20,
+    runs: int = 24,
+    population: int = 60,
+    tosses_mujoco: int = 200,
+) -> Findings:
+    """Enlarge the maps of Fig. 29(c, d) and lines through them, and find the share of uncertain tosses."""
+    whole = len(MEDIA) * (len(WINDOWS) + lines + runs) + 1
+    done = 0
+    rng = np.random.default_rng(SEED)
+    data: Data = {}
+    media: dict[str, dict[str, Any]] = {}
+    heights, spins = rng.uniform(*HEIGHTS, tosses_mujoco), rng.uniform(*SPINS, tosses_mujoco)
+    mujoco = _by_mujoco(case(air=True), heights, spins)
+    progress(done := done + 1, whole)
+    jobs = list(product(MEDIA, range(runs)))
+    made: dict[str, list[Array]] = {medium: [] for medium in MEDIA}
+
+    def run(job: tuple[str, int]) -> Array:
+        medium, number = job
+        scenario = case(air=medium == "air")
+        return kept_run(parts, medium, scenario, (SEED, number), population=population).shares
+
+    with all_cores() as pool:
+        for (medium, _), shares in zip(jobs, pool.map(run, jobs), strict=True):
+            made[medium].extend(shares)
+            progress(done := done + 1, whole)
+    for medium in MEDIA:
+        scenario = case(air=medium == "air")
+        z, w = _boundary_near(scenario), NEAR[1]
+        data[f"{medium}, center"] = np.array([z, w])
+        for number, (height, spin) in enumerate(WINDOWS):
+            grid = Grid(
+                heights=np.linspace(z - height / 2, z + height / 2, points),
+                spins=np.linspace(w - spin / 2, w + spin / 2, points),
+            )
+            data[f"{medium}, enlargement {number}"] = final_faces(scenario, grid)
+            progress(done := done + 1, whole)
+        followed = []
+        for spin in np.linspace(*SPINS, lines + 2)[1:-1]:
+            followed.append(_magnified(scenario, float(spin)))
+            progress(done := done + 1, whole)
+        data[f"{medium}, crossings"] = np.array([line.counts for line in followed])
+        data[f"{medium}, off"] = off = np.array([line.from_upright.max(axis=1) for line in followed])
+        data[f"{medium}, shares"] = shares = np.array(made[medium])
+        media[medium] = _lines(followed) | _standing(off) | _slopes(shares)
+        media[medium]["mujoco"] = mujoco if medium == "air" else "-"
+    return Findings(data=data, media=media)
+
+
+def _lines(followed: list[Magnified]) -> dict[str, Any]:
+    """Return from where on boundaries are isolated, by the names of the claims."""
+    isolated = np.array([line.isolated_from for line in followed if line.isolated_from is not None])
+    left = [int(line.counts[-1]) for line in followed if line.isolated_from is None]
+    widest = _window(isolated)
+    return {
+        "lines": len(followed),
+        "isolated": len(isolated),
+        "widest": widest,
+        "half": np.median(widest),
+        "others": f"; about the others are up to {max(left)} in a window of 4e-25 m" if left else "",
+        "impacts": np.array([line.impacts[-1].max() for line in followed]),
+    }
+
+
+def _standing(off: Array) -> dict[str, Any]:
+    """Return how near coins at a boundary come to standing upright, by the names of the claims.
+
+    Args:
+        off: energy that the coin lacks, or has too much, to stand, by boundary and window, (n, m) [m g r].
+    """
+    stands = off[:, -1] < UPRIGHT
+    last, before = (np.median(off[:, -1 - tenfolds]) for tenfolds in (0, TENFOLDS))
+    window = _window(np.array(WINDOWS_BELOW - 1))
+    return {"standing": stands, "upright": share(stands, "lines")} | {
+        "window": window,
+        "last": last,
+        "tenfolds": 10**TENFOLDS,
+        "before": before,
+    }
+
+
+def _slopes(shares: Array) -> dict[str, Any]:
+    """Return how the share of uncertain tosses falls, by the names of the claims."""
+    tenths, f = range(0, len(ACCURACIES), DECADES), shares.mean(axis=0)
+    slopes = {ACCURACIES[i]: slope(shares, i, DECADES).value for i in tenths[:-1]}
+    doubles = slope(shares, *DOUBLES)
+    return {
+        "slopes": ", ".join(f"{accuracy:.0e} m: {alpha:.2f}" for accuracy, alpha in slopes.items()),
+        "shares": ", ".join(f"{f[i]:.1e}" for i in tenths),
+        "finest": slope(shares, len(ACCURACIES) - 1 - DECADES, DECADES),
+        "uncertain": f[-1],
+        "doubles": doubles,
+        "finer": 2 ** (1 / doubles.value),
+        "coarse": slope(shares, 0, 1),
+    }
+
+
+def _window(stage: NDArray[np.intp]) -> Array:
+    """Return how long the lines of a stage are [m]."""
+    return (HEIGHTS[1] - HEIGHTS[0]) / MAGNIFICATION ** stage.astype(float)
+
+
+def _boundary_near(scenario: Scenario) -> float:
+    """Return the height of the boundary that is the nearest to `NEAR` on a line through it [m]."""
+    z = np.linspace(NEAR[0] - REACH, NEAR[0] + REACH, 4 * POINTS)
+    faces = analytic.toss_rows(planar_rows(scenario, z, np.full_like(z, NEAR[1]))).outcome
+    changes = z[np.flatnonzero(faces[1:] != faces[:-1])]
+    return float(changes[np.argmin(np.abs(changes - NEAR[0]))])
+
+
+def _magnified(scenario: Scenario, spin: float) -> Magnified:
+    """Magnify a line of heights time and again about one of its boundaries."""
+    own = units(scenario)
+    low, high = (Fraction(height) / own.length for height in HEIGHTS)
+    return magnify(
+        planar_coin(scenario),
+        release(own, height=HEIGHTS[0], spin=spin),
+        row=HEIGHT,
+        length=high - low,
+        windows=WINDOWS_BELOW,
+        points=POINTS,
+    )
+
+
+def _by_mujoco(scenario: Scenario, heights: Array, spins: Array) -> str:
+    """Return how many of MuJoCo's outcomes agree, and how many of its tosses are uncertain, in words."""
+    both = np.concatenate([heights, heights + ACCURACY_MUJOCO]), np.tile(spins, 2)
+    rows = planar_rows(scenario, *both)
+    (by_analytic, nearby_analytic), (by_mujoco, nearby) = (
+        toss_rows(rows).outcome.reshape(2, -1) for toss_rows in (analytic.toss_rows, toss_rows_by_mujoco)
+    )
+    return (
+        f"{np.sum(by_mujoco == by_analytic)} of {len(heights)} outcomes as the analytic engine; "
+        f"{ACCURACY_MUJOCO:.0e} m higher changes {np.sum(by_mujoco != nearby)} of them, of the analytic "
+        f"engine's {np.sum(by_analytic != nearby_analytic)}"
+    )
+
+
+def _draw(data: Data) -> Figure:
+    picture = Figure(figsize=(10, 6))
+    grid = picture.subplots(2, 3)
+    for row, medium in enumerate(MEDIA):
+        for column, (height, spin) in enumerate(WINDOWS):
+            axes = grid[row, column]
+            z, w = data[f"{medium}, center"]
+            draw_panel(
+                axes,
+                data[f"{medium}, enlargement {column}"],
+                x=MapAxis(name="height", unit="m", start=z - height / 2, stop=z + height / 2),
+                y=MapAxis(name="spin", unit="rad/s", start=w - spin / 2, stop=w + spin / 2),
+            )
+            axes.set_title(f"in {medium}, {height:g} m wide")
+            axes.ticklabel_format(useOffset=False)
+            axes.locator_params(axis="x", nbins=4)
+            axes.grid(visible=False)
+    counts, slopes = grid[:, 2]
+    windows = _window(np.arange(WINDOWS_BELOW))
+    for medium, color in MEDIA.items():
+        crossings, shares = data[f"{medium}, crossings"], data[f"{medium}, shares"].mean(axis=0)
+        counts.loglog(windows, crossings.T, "-", color=color, linewidth=0.3)
+        counts.loglog(windows, np.median(crossings, axis=0), "o-", color=color, label=f"median, {medium}")
+        local = np.log10(shares[:-DECADES] / shares[DECADES:]) / DECADES
+        slopes.semilogx(ACCURACIES[:-DECADES], local, "o-", color=color, label=medium)
+    counts.set(title="magnified lines", xlabel="length [m]", ylabel="boundaries on it")
+    slopes.axhline(1, linestyle=":", color=GREY, label="a smooth boundary")
+    slopes.set(
+        title="local slope of the uncertain share",
+        xlabel="ε [m]",
+        ylabel=f"α over {DECADES} decades",
+        ylim=(0, 1.2),
+    )
+    for axes in (counts, slopes):
+        axes.legend()
+        axes.invert_xaxis()
+    return picture
+
+
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

@@ -1,0 +1,290 @@
+"""Section 5.2: whether general coins on the boundary between heads and tails come to stand on their edge."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from scipy.spatial.transform import Rotation
+
+from cointoss import Outcome, Scenario
+from cointoss.analytic import AnalyticSettings
+from cointoss.study import BLUE, GREY, VERMILION, Array, FloorFriction, Pieces, Progress, mean, run, share
+from cointoss_reproduction.frame.declared import Data, Findings, declared
+from cointoss_reproduction.frame.threads import all_cores
+from cointoss_reproduction.precision.double_double import pair_of
+from cointoss_reproduction.precision.planar_coin import planar_coin, units
+from cointoss_reproduction.precision.planar_state import HEIGHT, release, spread
+from cointoss_reproduction.precision.planar_toss import toss_many
+from cointoss_reproduction.setups.general_coins import CoinClass
+from cointoss_reproduction.setups.halving import halved
+from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case
+from cointoss_reproduction.studies.standing_coins.standing import Standing, standing
+
+SEED = 522
+CHI = 0.3
+"""So low that doubles resolve most boundaries."""
+IN_AIR = {"thin, in air": False, "thick, in air": True}
+"""Kinds of coin, and whether they are thick."""
+COLORS = dict(zip(IN_AIR, (BLUE, VERMILION), strict=True))
+SPANS = {"height": 0.02, "spin": 2.0, "tilt": 0.05}
+"""What varies along a line of releases, and how far [m, rad/s, rad]."""
+POINTS = 40
+"""On a line."""
+SETTINGS = AnalyticSettings(contact_steps=20_000)
+STANDS = 1e-3
+"""A coin that lacks no more than this comes to stand [m g r]."""
+AT_REST = 0.01
+"""A coin stands at rest whose energy is so near to that of the upright coin [m g r]."""
+NEAR, FAR = 2.0**8, 2.0**14
+"""So many last digits from a boundary the time is taken for which a coin stands."""
+FALLEN = 0.1
+"""It has fallen when it leans so much further than at the top [rad]."""
+AFTER, SAMPLED = 1.0, 1e-3
+"""A coin is followed so long after its face is settled, and looked at in such steps [s]."""
+BESIDE = Fraction(1, 10**12)
+"""So far from a release that lands flat its neighbours are tossed [m]."""
+_HEADS_AND_TAILS = {int(Outcome.HEADS), int(Outcome.TAILS)}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Boundary:
+    """Two releases as near to each other as doubles are, with different outcomes."""
+
+    scenario: Scenario
+    start: Array
+    """State from which the line of releases starts, (13,)."""
+    quantity: str
+    """What varies along it: one of `SPANS`."""
+    places: tuple[float, float]
+    """Where on it."""
+    outcomes: tuple[int, int]
+
+
+def make(progress: Progress, lines: int = 120, flat: int = 2000) -> Findings:
+    """Find boundaries on random lines of releases, and follow the coins at their sides."""
+    data: Data = {}
+    whole, done = (len(IN_AIR) + 1) * lines + 1, 0
+    with all_cores() as pool:
+        for name, thick in IN_AIR.items():
+            rows = []
+            for row in pool.map(_sides, *_lines(CoinClass(thick=thick, **_OTHERS, air=True), lines)):
+                rows += [row] if row is not None else []
+                progress(done := done + 1, whole)
+            data[name] = np.array(rows)
+        in_vacuum = CoinClass(thick=False, **_OTHERS, air=False)
+        meets = []
+        for boundary in pool.map(boundary_on, *_lines(in_vacuum, lines)):
+            meets += [set(boundary.outcomes) == _HEADS_AND_TAILS] if boundary is not None else []
+            progress(done := done + 1, whole)
+        data["in vacuum heads meet tails"] = np.array(meets)
+    data["flat landings"] = landings = flat_landings(flat)
+    progress(done + 1, whole)
+    differ, near = landings[:, 0] == 1, landings[:, 1]
+    return Findings(
+        data=data,
+        coins={name: _stands(data[name]) for name in IN_AIR},
+        lines=len(meets),
+        beside=float(BESIDE),
+        meeting=np.sum(meets),
+        meets=share(meets, "boundaries"),
+        landings=len(landings),
+        differing=np.sum(differ),
+        off=np.median(near[differ]) if differ.any() else np.nan,
+        differ=share(differ, "releases"),
+    )
+
+
+_OTHERS: dict[str, bool] = {"imperfect": False, "coulomb": False}
+
+
+def _lines(kind: CoinClass, count: int) -> tuple[list[Scenario], Array, list[str]]:
+    """Return scenarios, states and quantities that vary, of random lines of releases."""
+    scenario = kind.scenario.replace("floor.restitution", CHI)
+    quantities = list(SPANS)
+    return [scenario] * count, kind.starts(count), [quantities[i % len(SPANS)] for i in range(count)]
+
+
+def at(start: Array, quantity: str, place: float) -> Array:
+    """Return the state at a place of a line of releases, (13,)."""
+    y = start.copy()
+    if quantity == "height":
+        y[2] = place
+    elif quantity == "spin":
+        y[11] = place
+    else:
+        attitude = Rotation.from_quat(start[6:10], scalar_first=True)
+        y[6:10] = (Rotation.from_rotvec([place, 0, 0]) * attitude).as_quat(scalar_first=True)
+    return y
+
+
+def boundary_on(scenario: Scenario, start: Array, quantity: str) -> Boundary | None:
+    """Return the middle one of the boundaries between heads and tails on a line, to the last digit.
+
+    Args:
+        scenario: coin, air and floor.
+        start: state from which the line starts, (13,).
+        quantity: what varies along it.
+
+    Returns:
+        The boundary, which in the end may have another outcome on one side; None without any.
+    """
+    body, rules = scenario.body, scenario.rules
+
+    def outcome(place: float) -> int:
+        return int(run(body, rules, at(start, quantity, place), SETTINGS).outcome)
+
+    first = {"height": start[2], "spin": start[11], "tilt": 1.0}[quantity]
+    places = np.linspace(first, first + SPANS[quantity], POINTS)
+    found = [outcome(place) for place in places]
+    changes = [i for i in range(POINTS - 1) if set(found[i : i + 2]) == _HEADS_AND_TAILS]
+    if not changes:
+        return None
+    i = changes[len(changes) // 2]
+    low, high = halved(float(places[i]), float(places[i + 1]), outcome)
+    return Boundary(
+        scenario=scenario,
+        start=start,
+        quantity=quantity,
+        places=(low, high),
+        outcomes=(outcome(low), outcome(high)),
+    )
+
+
+def _sides(scenario: Scenario, start: Array, quantity: str) -> Array | None:
+    """Return what the coins at both sides of a line's boundary do; None where it has none.
+
+    Returns:
+        Their largest lack, how far they lean [rad], their energy [m g r], and by how much longer the coin
+        stands at `NEAR` than at `FAR`, times the rate at which it falls, over ln(`FAR`/`NEAR`), (4,).
+    """
+    found = boundary_on(scenario, start, quantity)
+    if found is None:
+        return None
+    sides = [nearest(*followed(found, place)) for place in found.places]
+    digit = np.spacing(max(np.abs(found.places)))
+    stays = [
+        _stay(*(followed(found, place + sign * digits * digit) for digits in (NEAR, FAR)))
+        for place, sign in zip(found.places, (-1, 1), strict=True)
+    ]
+    worse = max(sides, key=lambda side: side[0])
+    return np.array([*worse, float(np.mean(stays))])
+
+
+def followed(found: Boundary, place: float) -> tuple[Array, Standing]:
+    """Return the times of a toss in contact [s], beyond that when it is settled, and how near it stands."""
+    y = at(found.start, found.quantity, place)
+    scenario = found.scenario
+    end = run(scenario.body, scenario.rules, y, SETTINGS).end_time + AFTER
+    # The paper's test counts all energies, those that lift no coin too: it ends the toss later.
+    later = scenario.replace("ending.test", "paper", "ending.max_time", end)
+    body, log = later.body, run(later.body, later.rules, y, SETTINGS)
+    path = Pieces(
+        body=body,
+        friction=FloorFriction(0.0),
+        contact_tolerance=SETTINGS.contact_tolerance,
+        start_times=log.start_times,
+        start_states=log.start_states,
+        modes=log.modes,
+    )
+    times = np.concatenate([np.arange(start, stop, SAMPLED) for start, stop in log.contacts] or [np.empty(0)])
+    states = path.sample(times)
+    rows = [states.position, states.velocity, states.quaternion, states.angular_velocity]
+    return times, standing(body, np.hstack(rows))
+
+
+def nearest(times: Array, near: Standing) -> Array:
+    """Return lack, lean [rad] and energy of a coin where it comes nearest to standing, (3,)."""
+    if len(times) == 0:
+        return np.array([np.inf, np.nan, np.nan])
+    i = int(np.argmin(near.lack))
+    return np.array([near.lack[i], near.lean[i], near.energy[i]])
+
+
+def _stay(one: tuple[Array, Standing], other: tuple[Array, Standing]) -> float:
+    """Return by how much longer the one coin stands, times its rate, over ln(`FAR`/`NEAR`)."""
+    first, last = falls(*other), falls(*one)
+    times, near = one
+    meanwhile = (times >= first) & (times <= last)
+    if not meanwhile.any():
+        return np.nan
+    return float((last - first) * near.rate[meanwhile].mean() / np.log(FAR / NEAR))
+
+
+def falls(times: Array, near: Standing) -> float:
+    """Return when a coin that came nearest to standing has fallen by `FALLEN`, or NaN [s]."""
+    if len(times) == 0:
+        return np.nan
+    first = int(np.argmin(near.lack))
+    off = np.abs(near.angle - near.lean)[first:]
+    beyond = np.flatnonzero(off > FALLEN)
+    if len(beyond) == 0 or beyond[0] == 0:
+        return np.nan
+    last = slice(beyond[0] - 1, beyond[0] + 1)
+    return float(np.interp(np.log(FALLEN), np.log(off[last]), times[first:][last]))
+
+
+def flat_landings(count: int) -> Array:
+    """Toss planar coins beside releases whose first touch is exactly flat, in vacuum, in 106 bits.
+
+    Args:
+        count: of such releases, at random.
+
+    Returns:
+        Whether the outcomes at the two sides differ, and how near to standing the nearer one comes, of those
+        that are decided, (n, 2).
+    """
+    scenario = case(air=False)
+    coin, own, rng = planar_coin(scenario), units(scenario), np.random.default_rng(SEED)
+    starts = []
+    while len(starts) < count:
+        spin, half_turns = Fraction(rng.uniform(*SPINS)), int(rng.integers(1, 10))
+        height = own.gravity / 2 * (half_turns * _PI / spin) ** 2
+        if HEIGHTS[0] < height < HEIGHTS[1]:
+            starts.append(release(own, height=height - BESIDE, spin=spin))
+    both = spread(np.array(starts), HEIGHT, pair_of(2 * BESIDE / own.length), 2)
+    found = toss_many(coin, both, to_contact=True)
+    outcome, near = found.outcome.reshape(-1, 2), found.from_upright.reshape(-1, 2)
+    decided = (outcome != Outcome.UNDECIDED).all(axis=1)
+    return np.column_stack([outcome[:, 0] != outcome[:, 1], near.min(axis=1)])[decided]
+
+
+_PI = Fraction("3.14159265358979323846264338327950288419716939937510582097494")
+
+
+def _stands(rows: Array) -> dict[str, Any]:
+    """Return how coins in air stand, of which `rows` has what `_sides` gives, (n, 4)."""
+    lack, lean, E, slopes = rows.T
+    stands = lack < STANDS
+    return {
+        "boundaries": len(rows),
+        "lack": (np.median(lack), lack.max()),
+        "stands": share(stands, "boundaries"),
+        "lean": np.degrees(np.abs(lean[stands]).max()),
+        "energy": E[stands],
+        "median": np.median(E[stands]),
+        "at_rest": share(np.abs(E[stands] - 1) < AT_REST, "boundaries"),
+        "ratio": mean(slopes[stands & np.isfinite(slopes)], "boundaries"),
+    }
+
+
+def _draw(data: Data) -> Figure:
+    picture = Figure(figsize=(9, 3.6))
+    lacks, energies = picture.subplots(1, 2)
+    for name, color in COLORS.items():
+        lack, lean, E, _ = data[name].T
+        order = np.sort(lack)
+        lacks.loglog(order, np.arange(1, len(order) + 1) / len(order), drawstyle="steps-post", color=color)
+        energies.plot(np.degrees(np.abs(lean)), E, ".", color=color, label=name)
+    lacks.axvline(STANDS, linestyle="--", color=GREY)
+    lacks.annotate("counts as standing ", (STANDS, 0.05), ha="right", color=GREY, fontsize=9)
+    lacks.set(title="how near to standing", xlabel="energy lacking [m g r]", ylabel="share of boundaries")
+    lacks.set_yscale("linear")
+    energies.axhline(1, linestyle=":", color=GREY, label="upright, at rest")
+    energies.set(title="how the coin stands", xlabel="leaning by [deg]", ylabel="its energy [m g r]")
+    picture.legend(loc="outside upper center", ncols=3)
+    return picture
+
+
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

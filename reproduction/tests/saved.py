@@ -1,0 +1,43 @@
+"""A study run, what it says of a record of numbers, and what a page of docs/ shows of it."""
+
+import re
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from cointoss_reproduction.frame import runner
+from cointoss_reproduction.frame.claim import unexpected
+from cointoss_reproduction.frame.result import Result, folder_of
+from cointoss_reproduction.frame.saving import save
+
+DOCS = Path(__file__).parents[2] / "docs"
+
+
+def unseen(done: int, whole: int) -> None:
+    """Hear of a study's progress, and tell nobody."""
+    assert done <= whole
+
+
+def result_of(study: str, record: Any) -> Result:
+    """Return the tables and claims of a study that found this record; it is saved and read again."""
+    with TemporaryDirectory() as folder:
+        save(Path(folder), Result(claims=(), data=record), {})
+        read = runner.find(study).read
+        assert read is not None
+        return read(Path(folder))
+
+
+def missed(study: str, record: Any) -> tuple[str, ...]:
+    """Return the claims of a study that found this record whose verdict is not the known one."""
+    return unexpected(result_of(study, record).claims)
+
+
+def pictures(page: str, study: str) -> set[str]:
+    """Return the names of a study's pictures that a page shows."""
+    text = (DOCS / page).read_text(encoding="utf-8")
+    return set(re.findall(rf"\]\(reproduction/{study}/([\w-]+\.png)\)", text))
+
+
+def saved(study: str) -> Path:
+    """Return the folder of what a study saved beside its page."""
+    return folder_of(study, DOCS)
