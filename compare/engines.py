@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any, Protocol, cast
 from cointoss.models.answers import Answers
 from cointoss.models.distribution import versions_of
 from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.digests import digest_of
+from cointoss.models.kernel.library import library_file
 from cointoss.models.reading import ScenarioSource
 from cointoss.models.records import Toss, UnsupportedError
 from cointoss.models.scenario import Scenario
@@ -103,3 +105,13 @@ def toss(
             f'law: given, accepted: none with the engine {name}; engine = "analytic" takes one'
         )
     return package.toss(scenario, settings=package.FINE if settings is None else settings, **more)
+
+
+def engine_digests() -> dict[str, str]:
+    """Return the digest of the machine code of each engine's library, and of what both share, by its folder.
+
+    Raises:
+        EngineMissingError: where a library is missing, and can't be built.
+    """
+    tables = (f"cointoss.{name}.entries" for name in ("analytic", "coin_mj", "models"))
+    return {table.split(".")[1]: digest_of(library_file(table))[:16] for table in tables}

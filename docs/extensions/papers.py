@@ -67,7 +67,7 @@ def _found(binding: Mapping[str, Any], docs: Path) -> str | float | Estimate:
     if "count" in binding:
         named = [folder_of(name, docs) for name in gallery.of_paper()]
         claims = [
-            claim for folder in named for claim in read_claims(folder / "claims.json") if not claim.beside
+            claim for folder in named for claim in read_claims(folder / "claims.json") if not claim.regression
         ]
         return f"{len(claims):,d}" if binding["count"] == "claims" else verdicts_of(claims)
     folder = folder_of(binding["of"], docs)

@@ -33,15 +33,29 @@ def _names() -> list[str]:
     metavar="[DIR]",
     help="Compare the numbers with those in DIR/reproduction/NAME, else in docs; after the names.",
 )
+@click.option(
+    "--older",
+    "kept_here",
+    is_flag=False,
+    flag_value="docs",
+    metavar="[DIR]",
+    help="List what DIR, else docs, holds that was made by other engines than those here; after the names.",
+)
 @click.pass_context
 def reproduce(
-    ctx: click.Context, names: tuple[str, ...], out: Path | None, quick: bool, kept: str | None
+    ctx: click.Context,
+    names: tuple[str, ...],
+    out: Path | None,
+    quick: bool,
+    kept: str | None,
+    kept_here: str | None,
 ) -> None:
     """Compute the paper's figures and the studies anew.
 
     Each NAME writes its data, tables, pictures and page and checks its claims; `all` computes all figures of
     the paper and writes REPRODUCTION.md, claims.csv and gallery.html. Without NAME, list the names. Exit
-    status 1: a claim comes out otherwise than known; with --check, a verdict changes or a number is off.
+    status 1: a claim comes out otherwise than known; with --check, a verdict changes or a number
+    is off; with --older, something is.
     """
     from cointoss.study import drawing_problem, require_folder, require_mujoco, stage
     from cointoss_reproduction.frame import gallery, printing, runner
@@ -59,6 +73,10 @@ def reproduce(
     for name in names:
         if name not in known:
             ctx.fail(f"{name}: no such name; accepted: {', '.join(known)}")
+    if kept_here is not None:
+        if out is not None or kept is not None:
+            ctx.fail("--older: not with --out or --check; accepted: one of them")
+        sys.exit(_list_older(names or tuple(known), Path(kept_here)))
     if kept is not None:
         if not names:
             ctx.fail("--check: comes after the names; accepted: NAME ... --check [DIR]")
@@ -94,6 +112,25 @@ def reproduce(
     for claim in failed:
         click.echo(f"cointoss: {claim}: another verdict than the known one", err=True)
     sys.exit(1 if failed else 0)
+
+
+def _list_older(names: tuple[str, ...], kept: Path) -> int:
+    """Print which results in a folder are older than the engines here, and return 1 where any is, else 0."""
+    from cointoss_reproduction.frame import checking, provenance, runner
+
+    found = 0
+    for name in names:
+        folder = runner.folder_of(name, kept)
+        try:
+            checking.require_run(folder, quick=None)
+            with plain_errors(name):
+                why = provenance.older(folder)
+        except checking.RunError as error:
+            why = str(error)
+        if why:
+            click.echo(f"{name}: {why}")
+            found = 1
+    return found
 
 
 def _agree(names: tuple[str, ...], kept: Path, *, quick: bool) -> bool:

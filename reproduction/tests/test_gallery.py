@@ -72,8 +72,8 @@ def result(progress, holds):
         missing=missing,
         expected=holds,
     )
-    beside = Claim(claim="0 < 1", criteria=[Criterion("nought", 0, "<", 1, "so")], beside=True)
-    return Result(claims=(beside, claim), data={"one": np.ones(1)})
+    kept = Claim(claim="0 < 1", criteria=[Criterion("nought", 0, "<", 1, "so")], regression=True)
+    return Result(claims=(kept, claim), data={"one": np.ones(1)})
 
 
 def test_all_makes_a_table_of_verdicts_and_a_gallery(made):

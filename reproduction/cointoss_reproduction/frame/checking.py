@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, TypeGuard
 
 from cointoss.study import read_bounded
+from cointoss_reproduction.frame.cells import ENDS, TABLE, read_table
 from cointoss_reproduction.frame.claim import VERDICTS, read_claims
 from cointoss_reproduction.frame.provenance import PROVENANCE, read_provenance, unlike
 
@@ -74,8 +75,8 @@ class RunError(ValueError):
     """A folder that is not as a run leaves it; the message names the file and why."""
 
 
-def require_run(folder: Path, *, quick: bool) -> None:
-    """Check that a folder holds what a run of this size has left.
+def require_run(folder: Path, *, quick: bool | None) -> None:
+    """Check that a folder holds what a run of this size, or of any, has left.
 
     Raises:
         RunError: naming the file, why, and what is accepted.
@@ -88,6 +89,7 @@ def require_run(folder: Path, *, quick: bool) -> None:
     for name, read in (
         ("claims.json", lambda: _require_claims(folder)),
         ("numbers.json", lambda: _numbers(folder)),
+        (TABLE, lambda: _columns(folder)),
         (PROVENANCE, lambda: read_provenance(folder)),
     ):
         try:
@@ -95,7 +97,7 @@ def require_run(folder: Path, *, quick: bool) -> None:
         except (ValueError, TypeError, LookupError, AttributeError, RecursionError, OSError) as error:
             why = error.strerror if isinstance(error, OSError) else error
             raise RunError(f"{folder / name}: {why}; accepted: the file as a run has written it") from None
-    if quick is not (made_of is not None and made_of["quick"]):
+    if quick is not None and quick is not (made_of is not None and made_of["quick"]):
         size, way = ("full", "without") if quick else ("quick", "with")
         raise RunError(f"{folder}: of the {size} size; accepted: the same {way} --quick")
 
@@ -138,6 +140,23 @@ def _numbers(folder: Path) -> Any:
         return None
     read = {"parse_int": _whole, "parse_float": _finite, "parse_constant": _finite}
     return json.loads(read_bounded(path, MOST_BYTES), object_hook=_of_numbers, **read)
+
+
+def _columns(folder: Path) -> dict[str, list[Any]] | None:
+    """Return the table of a run by columns, an estimate as its ends, None where it keeps none.
+
+    Raises:
+        ValueError, OSError: where it is no table.
+    """
+    path = folder / TABLE
+    if not path.exists():
+        return None
+    table = read_table(path).astype(object)
+    columns = {str(name): values.tolist() for name, values in table.where(table.notna(), None).items()}
+    for name in [name for name in columns if f"{name}{ENDS[0]}" in columns]:
+        ends = zip(columns[name], *(columns.pop(name + end) for end in ENDS), strict=True)
+        columns[name] = [{"value": value, "low": low, "high": high} for value, low, high, *_ in ends]
+    return columns
 
 
 def _whole(text: str) -> int:
@@ -189,6 +208,8 @@ def check(there: Path, here: Path, *, timed: bool) -> Check:
             numbers += _criteria(claim, claims[claim]["criteria"], found[claim]["criteria"], exact=not other)
         if (kept := _numbers(there)) is not None:
             numbers += compared("numbers.json", kept, _numbers(here), exact=not other)
+        if (columns := _columns(there)) is not None:
+            numbers += compared(TABLE, columns, _columns(here), exact=not other)
     return Check(
         unlike=other,
         verdicts=len({**claims, **found}),

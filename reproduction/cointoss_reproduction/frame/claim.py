@@ -96,7 +96,7 @@ class Criterion:
 
 @dataclass(frozen=True, kw_only=True)
 class Claim:
-    """A claim beside the numbers that decide it."""
+    """A sentence of somebody, a prediction made before, or a regression test; with what decides it."""
 
     claim: str
     """What the paper shows or says, or what a study found."""
@@ -112,8 +112,8 @@ class Claim:
     """What was found, in a sentence for the opening of the page; empty for most."""
     expected: bool | None = True
     """The known verdict, as `holds` has it."""
-    beside: bool = False
-    """Whether neither the paper nor one that it cites claims it: it is measured beside their claims."""
+    regression: bool = False
+    """Whether it is a regression test: written after its numbers, it could not come out otherwise."""
 
     def __post_init__(self) -> None:
         """Keep the criteria as a tuple; refuse a claim that nothing decides."""

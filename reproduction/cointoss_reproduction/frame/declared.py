@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import NDArray
 
+from cointoss.study import Estimate, in_words, percent
 from cointoss_reproduction.frame.claim import Claim, Criterion
 from cointoss_reproduction.frame.result import Reproduction, Result
 
@@ -26,6 +27,8 @@ OPEN = "open"
 """The verdict that a declaration expects of a claim which cannot be tested."""
 UNITS = {"cm": 1e2, "mm": 1e3, "µm": 1e6, "ms": 1e3, "µs": 1e6}
 """How many make an SI unit."""
+SELECTING = ("claim", "measure", "table", "picture")
+"""What a declaration says of its results."""
 _WORDS = ("claim", "headline", "analytic", "mujoco", "missing")
 
 
@@ -57,9 +60,8 @@ def declared(
         draw: the pictures, by name, each drawn from the data.
         others: further fields of `Reproduction`.
     """
-    said = dict(_said(module))
+    said = {name: one for name, one in said_by(module).items() if name not in SELECTING}
     quick = said.pop("quick", {}) | dict(others.pop("quick", {}))
-    del said["claim"]
     said["assumed"] = _in_words(said.get("assumed", ""), _constants(module))
 
     def run(*arguments: Any, **given: Any) -> Result:
@@ -80,7 +82,7 @@ def result(module: str, found: Findings, sizes: Mapping[str, Any] = MappingProxy
         sizes: of the run.
     """
     names = ChainMap(vars(found), dict(sizes), _constants(module))
-    claims = tuple(filled(_said(module)["claim"], names))
+    claims = tuple(filled(said_by(module)["claim"], names))
     return Result(claims=claims, data=found.data, tables=found.tables)
 
 
@@ -89,7 +91,8 @@ def _constants(module: str) -> dict[str, Any]:
 
 
 @cache
-def _said(module: str) -> dict[str, Any]:
+def said_by(module: str) -> dict[str, Any]:
+    """Return what the TOML file beside a module declares."""
     package, _, name = module.rpartition(".")
     return tomllib.loads((resources.files(package) / f"{name}.toml").read_text(encoding="utf-8"))
 
@@ -138,8 +141,17 @@ def _in_words(text: str, names: Mapping[str, Any]) -> str:
         words.append(literal)
         if field is not None:
             value, (spec, _, unit) = value_of(field, names), (form or "").partition(" ")
-            words.append(f"{UNITS[unit] * value:{spec}} {unit}" if unit else format(value, spec))
+            words.append(f"{UNITS[unit] * value:{spec}} {unit}" if unit else _worded(value, spec))
     return "".join(words)
+
+
+def _worded(value: Any, spec: str) -> str:
+    """Return a value by its format, an estimate's "%" being per cent; several values are named."""
+    if isinstance(value, Mapping):
+        return "; ".join(f"{_worded(one, spec)} ({name})" for name, one in value.items())
+    if isinstance(value, Estimate):
+        return percent(value) if spec == "%" else in_words(value, spec)
+    return format(value, spec)
 
 
 def _claim(claim: Mapping[str, Any], names: ChainMap[str, Any]) -> Claim:
@@ -148,7 +160,7 @@ def _claim(claim: Mapping[str, Any], names: ChainMap[str, Any]) -> Claim:
     if isinstance(expected, str):
         expected = None if expected == OPEN else value_of(expected, names)
     criteria = [one for row in claim.get("criteria", ()) for one in _criteria(row, names)]
-    return Claim(criteria=criteria, expected=expected, beside=claim.get("beside", False), **words)
+    return Claim(criteria=criteria, expected=expected, regression=claim.get("regression", False), **words)
 
 
 def _criteria(row: Sequence[Any], names: ChainMap[str, Any]) -> Iterator[Criterion]:

@@ -70,8 +70,8 @@ Its main claims, and what we find:
 
 A claim has thresholds, which measured quantities must meet. An estimate from random tosses has its 99 %
 confidence interval in brackets; a threshold inside it decides nothing. A claim cannot be tested where the
-paper leaves out what it needs, or where more tosses would be needed to tell. What nobody claims is measured
-beside the claims, and is not counted.
+paper leaves out what it needs, or where more tosses would be needed to tell. A sentence that was written
+after its numbers is a regression test, and is not counted.
 
 **Strong** are results that rest on what the paper prints: the share of uncertain tosses down to 1e-24 m, the
 coins on the boundary, the stop test, the closed forms of the contact laws, and the errata. Programs written
@@ -105,7 +105,7 @@ class GalleryEntry:
     @property
     def verdicts(self) -> dict[bool | None, int]:
         """How many of the claims have each of the verdicts."""
-        counted = Counter(claim.holds for claim in self.claims if not claim.beside)
+        counted = Counter(claim.holds for claim in self.claims if not claim.regression)
         return {kind: counted[kind] for kind in VERDICTS}
 
 
@@ -206,7 +206,7 @@ def claims_sheet(shown: Sequence[GalleryEntry]) -> str:
             entry.name,
             entry.found.paper,
             claim.claim,
-            "no" if claim.beside else "yes",
+            "no" if claim.regression else "yes",
             VERDICTS[claim.holds],
             *criterion,
         )

@@ -67,15 +67,15 @@ def write_blocks(out: Path, name: str, result: Result) -> None:
 
 def claims_of(claims: Sequence[Claim]) -> str:
     """Return the claims and their verdicts, each unfolding to what decides it."""
-    made, beside = ([claim for claim in claims if claim.beside is flag] for flag in (False, True))
+    made, kept = ([claim for claim in claims if claim.regression is flag] for flag in (False, True))
     counted = [f"**Claims:** {verdicts_of(made)}."] if made else []
-    measured = ["**Beside the claims:** what nobody claims, measured here."] if beside else []
-    return "\n\n".join([*counted, *map(_unfolding, made), *measured, *map(_unfolding, beside)])
+    named = ["**Regression tests:** written after their numbers, so that a change is seen."] if kept else []
+    return "\n\n".join([*counted, *map(_unfolding, made), *named, *map(_unfolding, kept)])
 
 
 def verdicts_of(claims: Iterable[Claim]) -> str:
-    """Return how many of the claims have each of the verdicts, in words; those measured beside are none."""
-    counted = Counter(claim.holds for claim in claims if not claim.beside)
+    """Return how many of the claims have each of the verdicts, in words; regression tests are none."""
+    counted = Counter(claim.holds for claim in claims if not claim.regression)
     words = {kind: VERDICTS[kind] if counted[kind] == 1 else plural for kind, plural in _PLURAL.items()}
     counts = [f"{counted[kind]} {word}" for kind, word in words.items() if counted[kind]]
     *most, last = counts or ["none"]

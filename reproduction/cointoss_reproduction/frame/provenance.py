@@ -5,16 +5,18 @@ import json
 import platform
 import sys
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
-from cointoss.study import code_digest, versions_of
+from cointoss.study import code_digest, engine_digests, versions_of
 
 PROVENANCE = "provenance.json"
 """Lies beside the claims of a run; earlier runs have none."""
 PACKAGES = ("mujoco", "numpy", "scipy")
 """Those whose numbers a result is made of."""
-_OUTPUTS = ("claims.json", "numbers.json")
+_OUTPUTS = ("claims.json", "numbers.json", "cells.csv")
+_BOOK = Path(__file__).parents[1]
 
 
 def provenance(folder: Path, *, quick: bool) -> dict[str, Any]:
@@ -26,12 +28,37 @@ def provenance(folder: Path, *, quick: bool) -> dict[str, Any]:
     """
     written = {name: folder / name for name in _OUTPUTS if (folder / name).exists()}
     return {
-        "sources": code_digest(),
+        "sources": sources(),
+        "engines": engine_digests(),
         "quick": quick,
         "versions": {"python": platform.python_version(), **versions_of(PACKAGES)},
         "machine": machine(),
         "sha256": {name: hashlib.sha256(path.read_bytes()).hexdigest() for name, path in written.items()},
     }
+
+
+@cache
+def sources() -> str:
+    """Return the digest of the sources of cointoss and of its studies."""
+    digest = hashlib.sha256(code_digest().encode())
+    for file in sorted(path for path in _BOOK.rglob("*") if path.suffix in (".py", ".toml")):
+        digest.update(f"{file.relative_to(_BOOK)} ".encode() + file.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def older(folder: Path) -> str:
+    """Return in words by which engines other than those here a run was made, empty where by none.
+
+    Raises:
+        ValueError: as `read_provenance`.
+    """
+    made_of = read_provenance(folder)
+    if made_of is None or "engines" not in made_of:
+        return "does not say by which engines it was made"
+    if made_of["machine"] != machine():
+        return f"was made on another system, {' '.join(made_of['machine'].values())}"
+    other = [name for name, digest in engine_digests().items() if made_of["engines"].get(name) != digest]
+    return f"is older than {' and '.join(other)}" if other else ""
 
 
 def machine() -> dict[str, str]:

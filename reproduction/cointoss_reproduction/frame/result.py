@@ -39,7 +39,7 @@ class Reproduction:
     seconds: float
     """Roughly how long it takes on two cores [s]."""
     make: Callable[..., Result]
-    """Computes it, from a `Progress`; one that `resumes` from a folder `parts` too."""
+    """Computes it, from a `Progress`; one that `resumes`, with a folder `kept` of what was done before."""
     read: Callable[[Path], Result] | None = None
     """Reads what a run of it left in its folder, where that is more than claims."""
     draw: "Mapping[str, Callable[[Any], Figure]]"
@@ -61,7 +61,7 @@ class Reproduction:
     def files(self) -> tuple[str, ...]:
         """Names of all files that it may write."""
         pictures = (f"{name}.png" for name in self.draw)
-        return ("claims.json", "data.npz", "numbers.json", PROVENANCE, PAGE, *SHEETS, *pictures)
+        return ("claims.json", "data.npz", "numbers.json", "cells.csv", PROVENANCE, PAGE, *SHEETS, *pictures)
 
 
 def folder_of(name: str, out: Path) -> Path:

@@ -58,7 +58,7 @@ def reproduce(name: str, out: Path, progress: Progress, *, quick: bool = False) 
     folder = folder_of(name, out)
     make = (found.quick if quick else None) or found.make
     if found.resumes:
-        make = partial(make, parts=folder / PARTS)
+        make = partial(make, kept=folder / PARTS)
     with written_together(folder, found.files) as aside:
         with _numba_named(name):
             result = make(progress)

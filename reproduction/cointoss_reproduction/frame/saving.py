@@ -8,11 +8,13 @@ from typing import Any, TypeVar
 
 import matplotlib as mpl
 import numpy as np
+import pandas as pd
 from matplotlib.figure import Figure
 from PIL import Image
 from pydantic import TypeAdapter
 
 from cointoss.study import STYLE
+from cointoss_reproduction.frame.cells import TABLE, text_of
 from cointoss_reproduction.frame.claim import to_json
 from cointoss_reproduction.frame.provenance import PROVENANCE, provenance
 from cointoss_reproduction.frame.result import Result
@@ -25,7 +27,9 @@ def save(folder: Path, result: Result, draw: Mapping[str, Callable[[Any], Figure
     """Write the claims, the data and the pictures into a folder that exists."""
     (folder / "claims.json").write_text(to_json(result.claims), encoding="utf-8")
     data = result.data
-    if isinstance(data, Mapping):
+    if isinstance(data, pd.DataFrame):
+        (folder / TABLE).write_text(text_of(data), encoding="utf-8")
+    elif isinstance(data, Mapping):
         np.savez_compressed(folder / "data.npz", allow_pickle=False, **data)
     else:
         numbers = json.dumps(asdict(data), indent=1, allow_nan=False, default=np.ndarray.tolist)

@@ -1,48 +1,62 @@
-"""A study: it computes a record of numbers, from which its claims, tables and pictures follow."""
+"""A study: axes, a cell, claims. Its table is computed; measures, tables and pictures select from it."""
 
 from collections.abc import Callable, Mapping
-from functools import wraps
+from inspect import signature
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
-from cointoss_reproduction.frame.declared import Findings, declared, result
+from cointoss.study import Progress
+from cointoss_reproduction.frame.declared import Findings, declared, result, said_by
 from cointoss_reproduction.frame.result import Reproduction, Result
-from cointoss_reproduction.frame.saving import read_numbers
 
 if TYPE_CHECKING:  # names are listed without it
+    import pandas as pd
     from matplotlib.figure import Figure
+
+    from cointoss_reproduction.frame.cells import Cells
 
 
 def study(
     module: str,
-    compute: Callable[..., Any],
-    *,
-    measures: Callable[[Any], Mapping[str, Any]],
-    tables: Callable[[Any], str],
-    draw: "Mapping[str, Callable[[Any], Figure]]",
-    record: type | None = None,
-    **others: Any,
+    *parts: "Cells",
+    found: "Callable[[pd.DataFrame], Mapping[str, Any]]" = lambda _cells: {},
+    draw: "Mapping[str, Callable[[pd.DataFrame], Figure]]" = MappingProxyType({}),
 ) -> Reproduction:
     """Return a study, as the TOML file beside its module declares it.
 
+    Beside what `declared` reads, the file has measures by name, each `[measure.NAME]`, tables, each
+    `[[table]]`, and pictures of lines, each `[picture.NAME]`; `selection` says what they select.
+
     Args:
         module: its full name.
-        compute: gives the record, from a `Progress` and the sizes of the run.
-        measures: gives what the declared claims name, from the record.
-        tables: gives the tables in Markdown.
-        draw: the pictures, by name, each drawn from the record.
-        record: its type; none where it cannot be read again.
-        others: further fields of `Reproduction`.
+        parts: cells with the axes that they are computed over.
+        found: gives what the claims name and no measure selects, from the table.
+        draw: the pictures that are more than lines, by name, each drawn from the table.
     """
+    from cointoss_reproduction.frame.cells import TABLE, read_table, table_of
+    from cointoss_reproduction.frame.selection import measured, picture_of, tables_of
 
-    def findings(found: Any) -> Findings:
-        return Findings(data=found, tables=tables(found), **measures(found))
+    said = said_by(module)
+    usual = {
+        name: one.default
+        for part in parts
+        for name, one in signature(part.cell).parameters.items()
+        if name not in part.axes
+    }
 
-    @wraps(compute)
-    def make(*arguments: Any, **sizes: Any) -> Findings:
-        return findings(compute(*arguments, **sizes))
+    def findings(cells: "pd.DataFrame", **sizes: Any) -> Findings:
+        measures = {name: measured(cells, one) for name, one in said.get("measure", {}).items()}
+        tables = tables_of(cells, said.get("table", ()))
+        return Findings(data=cells, **{"tables": tables, **usual, **sizes, **measures, **found(cells)})
+
+    def make(progress: Progress, *, kept: Path | None = None, **sizes: Any) -> Findings:
+        return findings(table_of(parts, progress, sizes, kept=kept), **sizes)
 
     def read(folder: Path) -> Result:
-        return result(module, findings(read_numbers(folder, cast(type, record))))
+        return result(module, findings(read_table(folder / TABLE)))
 
-    return declared(module, make, read=read if record else None, draw=draw, **others)
+    pictures = {
+        name: (lambda cells, one=one: picture_of(cells, one)) for name, one in said.get("picture", {}).items()
+    }
+    return declared(module, make, read=read, draw={**pictures, **draw}, resumes=True)

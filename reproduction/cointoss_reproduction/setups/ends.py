@@ -6,9 +6,11 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss import Ending, Outcome
+from cointoss import Ending, Hand, Outcome, Scenario, shares
 from cointoss.study import Answers, Estimate, Plan, chance_alike, counting, share_of
 
+SEVERAL = {"edge": "edges"}
+"""Columns whose names would be those of axes."""
 Ends = dict[str, int]
 """Numbers of tosses by outcome, as in "edge", or by outcome and ending, as in "edge, paper"."""
 
@@ -23,6 +25,25 @@ def by_outcome(plan: Plan) -> Ends:
     """Toss a plan of one setting and one engine as `cointoss shares` does, and count the outcomes."""
     *_, counts = counting(plan)
     return {str(outcome): int(counts[0][outcome]) for outcome in Outcome if counts[0][outcome]}
+
+
+def ends_of(
+    scenario: Scenario, hand: Hand, count: int, *, engine: str = "analytic", seed: int
+) -> dict[str, int]:
+    """Toss a coin by a hand, and return how often it ends how: a row of a study's table.
+
+    Raises:
+        KeyboardInterrupt: where one has left the count short.
+    """
+    found = shares(scenario, hand=hand, engine=engine, tosses=count, seed=seed)
+    if not found.attrs["complete"]:
+        raise KeyboardInterrupt
+    counts = {str(name): int(number) for name, number in found["count"].to_series().items()}
+    return {
+        **{SEVERAL.get(name, name): number for name, number in counts.items()},
+        "faces": counts["heads"] + counts["tails"],
+        "tosses": sum(counts.values()),
+    }
 
 
 def together(several: Iterable[Ends]) -> Ends:

@@ -7,7 +7,7 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from cointoss.study import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION, paragraphs, table
-from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.frame.recorded import recorded
 from cointoss_reproduction.studies.contact_laws.impacts import (
     COINS,
     FRICTIONS_OF_ONSETS,
@@ -240,7 +240,7 @@ def _onset(found: ContactRecord) -> Figure:
     return picture
 
 
-REPRODUCTION = study(
+REPRODUCTION = recorded(
     __name__,
     compute,
     record=ContactRecord,

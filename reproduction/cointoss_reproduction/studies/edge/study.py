@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 from cointoss import Outcome
 from cointoss.study import Estimate, difference, in_words, share_of
 from cointoss_reproduction.frame.declared import listed
-from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.frame.recorded import recorded
 from cointoss_reproduction.setups.edge_classes import DIAMETRAL, HANDS, PUBLISHED, edge_of_die
 from cointoss_reproduction.setups.edge_record import ANGLE, QUICK, SOLID_ANGLE, SQUARE, EdgeRecord, record_of
 from cointoss_reproduction.setups.edge_thrown import QUOTED, fitted_floor
@@ -116,7 +116,7 @@ def _one_in(ends: Ends) -> str:
     return f"{percent(part)} of {part.count:,d}, 1 in {1 / part.value:,.0f}" if part.value else "none"
 
 
-REPRODUCTION = study(
+REPRODUCTION = recorded(
     __name__,
     record_of,
     record=EdgeRecord,

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from cointoss import Outcome, Scenario, analytic, coin_mj
 from cointoss.study import GREY, OUTCOMES, Answers, Array, Progress, chance_alike, paragraphs, row_of, table
-from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.frame.recorded import recorded
 from cointoss_reproduction.setups.ends import Ends, counted, ended_as, together, tosses
 from cointoss_reproduction.setups.general_coins import AIR, paper_coin
 
@@ -225,6 +225,6 @@ def draw(counts: EndingCounts) -> Figure:
     return picture
 
 
-REPRODUCTION = study(
+REPRODUCTION = recorded(
     __name__, compute, record=EndingCounts, measures=measures, tables=tables, draw={"endings": draw}
 )

@@ -35,7 +35,7 @@ from cointoss.study import (
     table,
 )
 from cointoss_reproduction.frame.parts import Part, kept
-from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.frame.recorded import recorded
 from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case, planar_rows
 
@@ -255,6 +255,6 @@ def _steps(axes, sizes: Array, **style) -> None:
     axes.step(x[np.isfinite(x)], (np.arange(len(x)) + 1)[np.isfinite(x)] / len(x), where="post", **style)
 
 
-REPRODUCTION = study(
+REPRODUCTION = recorded(
     __name__, compute, record=Margins, measures=measures, tables=tables, draw={"margins": draw}
 )

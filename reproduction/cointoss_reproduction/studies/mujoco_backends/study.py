@@ -24,7 +24,7 @@ from cointoss.study import (
     recipe_of,
     table,
 )
-from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.frame.recorded import recorded
 from cointoss_reproduction.setups.mujoco_situations import RECIPE
 from cointoss_reproduction.studies.mujoco_backends.backends import BACKENDS, Stepped, require_backends
 
@@ -228,4 +228,4 @@ def _shown(name: str, cell: Cell) -> str:
     return "runs"
 
 
-REPRODUCTION = study(__name__, compute, record=Backends, measures=measures, tables=tables, draw={})
+REPRODUCTION = recorded(__name__, compute, record=Backends, measures=measures, tables=tables, draw={})

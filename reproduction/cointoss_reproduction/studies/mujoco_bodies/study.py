@@ -20,7 +20,7 @@ from cointoss.study import (
     spring_solref,
     table,
 )
-from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.frame.recorded import recorded
 from cointoss_reproduction.studies.mujoco_bodies.bodies import (
     SHAPES,
     SIZE,
@@ -254,6 +254,6 @@ def draw(found: Bodies) -> Figure:
     return picture
 
 
-REPRODUCTION = study(
+REPRODUCTION = recorded(
     __name__, compute, record=Bodies, measures=measures, tables=tables, draw={"errors": draw}
 )

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from cointoss import ContactLaw
 from cointoss.coin_mj import Friction, MujocoSettings, Realisation
 from cointoss.study import BLUE, GREEN, GREY, ROUGH, VERMILION, Array, Progress, paragraphs, stepping, table
-from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.frame.recorded import recorded
 from cointoss_reproduction.setups.mujoco_impacts import (
     by_law,
     by_mujoco,
@@ -177,4 +177,4 @@ def draw(found: LawFits) -> Figure:
     return picture
 
 
-REPRODUCTION = study(__name__, compute, measures=measures, tables=tables, draw={"impulses": draw})
+REPRODUCTION = recorded(__name__, compute, measures=measures, tables=tables, draw={"impulses": draw})

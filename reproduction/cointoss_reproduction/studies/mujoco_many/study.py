@@ -13,7 +13,7 @@ import numpy as np
 from cointoss import ContactLaw, Scenario, coin_mj, load
 from cointoss.coin_mj import MANY, MujocoSettings, Realisation
 from cointoss.study import Array, Progress, cores_used, of_release, paragraphs, rows_from_states, table
-from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.frame.recorded import recorded
 from cointoss_reproduction.setups.mujoco_impacts import (
     draw_touches,
     impulse_errors,
@@ -190,4 +190,4 @@ def tables(found: TossSpeeds) -> str:
     )
 
 
-REPRODUCTION = study(__name__, compute, record=TossSpeeds, measures=measures, tables=tables, draw={})
+REPRODUCTION = recorded(__name__, compute, record=TossSpeeds, measures=measures, tables=tables, draw={})

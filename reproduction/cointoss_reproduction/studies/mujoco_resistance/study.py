@@ -25,7 +25,7 @@ from cointoss.study import (
     paragraphs,
     table,
 )
-from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.frame.recorded import recorded
 
 MASS, RADIUS, GRAVITY = 2e-3, 1.25e-2, 9.81
 """Of all bodies [kg], [m], and on them [m/s²]."""
@@ -309,6 +309,6 @@ def draw(found: NativeResistance) -> Figure:
     return picture
 
 
-REPRODUCTION = study(
+REPRODUCTION = recorded(
     __name__, compute, record=NativeResistance, measures=measures, tables=tables, draw={"ball": draw}
 )

@@ -26,7 +26,7 @@ from cointoss.study import (
     spring_solref,
     table,
 )
-from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.frame.recorded import recorded
 from cointoss_reproduction.setups.mujoco_situations import (
     RADIUS,
     RECIPE,
@@ -360,6 +360,6 @@ def draw(found: Situations) -> Figure:
     return picture
 
 
-REPRODUCTION = study(
+REPRODUCTION = recorded(
     __name__, compute, record=Situations, measures=measures, tables=tables, draw={"flight": draw}
 )

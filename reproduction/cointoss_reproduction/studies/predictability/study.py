@@ -9,7 +9,7 @@ import numpy as np
 from scipy.constants import hbar
 
 from cointoss.study import Progress
-from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.frame.recorded import recorded
 from cointoss_reproduction.frame.threads import all_cores
 from cointoss_reproduction.precision.branching import Branches
 from cointoss_reproduction.precision.planar_state import HEIGHT, SPIN, TILT
@@ -190,7 +190,7 @@ def _headline(one: Case, end: float) -> str:
     )
 
 
-REPRODUCTION = study(
+REPRODUCTION = recorded(
     __name__,
     compute,
     record=Predictability,

@@ -24,7 +24,7 @@ from cointoss.study import (
     table,
     turned,
 )
-from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.frame.recorded import recorded
 from cointoss_reproduction.setups.edge_classes import PUBLISHED, WOBBLING
 from cointoss_reproduction.setups.edge_record import FREE, nickel
 from cointoss_reproduction.setups.edge_touches import endings_of
@@ -265,6 +265,6 @@ def draw(found: ResistanceRecord) -> Figure:
     return picture
 
 
-REPRODUCTION = study(
+REPRODUCTION = recorded(
     __name__, compute, record=ResistanceRecord, measures=measures, tables=tables, draw={"disk": draw}
 )

@@ -30,7 +30,7 @@ from cointoss.study import (
     share_of,
     table,
 )
-from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.frame.recorded import recorded
 from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.studies.same_side.people import (
     EXPONENTIAL,
@@ -330,6 +330,6 @@ def draw(found: SameSide) -> Figure:
     return picture
 
 
-REPRODUCTION = study(
+REPRODUCTION = recorded(
     __name__, compute, record=SameSide, measures=measures, tables=tables, draw={"same-side": draw}
 )

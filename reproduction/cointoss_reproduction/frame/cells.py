@@ -1,0 +1,152 @@
+"""A study's cells over its axes, as one long table: names on the axes, and what was found there."""
+
+import csv
+import hashlib
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import asdict, dataclass
+from inspect import signature
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from cointoss.study import Estimate, Progress, read_bounded, write_text
+from cointoss_reproduction.frame.provenance import sources
+
+Cell = Callable[..., Mapping[str, Any] | Iterable[Mapping[str, Any]] | None]
+"""Answers for a value of each axis, and for the sizes of the run that it names: a row, several, or none."""
+Axis = Sequence[Any] | Mapping[str, Any]
+"""The values of an axis, by names where they have some."""
+TABLE = "cells.csv"
+"""The file of the table that a run leaves."""
+MOST_BYTES = 1 << 26
+"""Of a table."""
+_WORDS = {"": None, "True": True, "False": False}
+ENDS = (" low", " high", " count", " counted")
+"""End the names of columns: of an estimate's interval, the size of its sample, and what that is of."""
+
+
+@dataclass(frozen=True)
+class Cells:
+    """A cell and the axes that it is computed over."""
+
+    cell: Cell
+    axes: Mapping[str, Axis]
+
+    def asked(self) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
+        """Yield, for each combination of the axes, its names and its values."""
+        named = [
+            list(axis.items()) if isinstance(axis, Mapping) else [(value, value) for value in axis]
+            for axis in self.axes.values()
+        ]
+        for chosen in product(*named):
+            names, values = zip(*chosen, strict=True) if chosen else ((), ())
+            yield dict(zip(self.axes, names, strict=True)), dict(zip(self.axes, values, strict=True))
+
+
+def table_of(
+    parts: Sequence[Cells], progress: Progress, sizes: Mapping[str, Any], *, kept: Path | None = None
+) -> pd.DataFrame:
+    """Return all cells' rows as one table.
+
+    Args:
+        parts: what is computed.
+        progress: called after each cell.
+        sizes: of the run; a cell is given those that it names.
+        kept: folder of the cells that an earlier run has computed; those are taken from it, others put there.
+
+    Raises:
+        ValueError: for a name that is both an axis and a column.
+    """
+    asked = [(part.cell, *each) for part in parts for each in part.asked()]
+    rows: list[dict[str, Any]] = []
+    for done, (cell, names, values) in enumerate(asked, start=1):
+        own = {name: size for name, size in sizes.items() if name in signature(cell).parameters}
+        where = None if kept is None else kept / f"{_key(cell, names, own)}.json"
+        found = _read(where) if where is not None else None
+        if found is None:
+            found = [_flat(row) for row in _rows(cell(**values, **own))]
+            if where is not None:
+                where.parent.mkdir(parents=True, exist_ok=True)
+                write_text(where, json.dumps(found))
+        for row in found:
+            if twice := row.keys() & names.keys():
+                raise ValueError(f"{', '.join(sorted(twice))}: an axis and a column; accepted: one of them")
+            rows.append({**names, **row})
+        progress(done, len(asked))
+    return _frame(rows)
+
+
+def read_table(path: Path) -> pd.DataFrame:
+    """Read a table that was written, to the bit.
+
+    Raises:
+        ValueError, OSError: where it is no table.
+    """
+    head, *rows = csv.reader(read_bounded(path, MOST_BYTES).decode().splitlines())
+    return _frame([dict(zip(head, map(_value, row), strict=True)) for row in rows])
+
+
+def text_of(table: pd.DataFrame) -> str:
+    """Return a table as comma-separated values in full precision."""
+    return table.to_csv(index=False, lineterminator="\n")
+
+
+def estimate(row: Mapping[str, Any], column: str) -> Any:
+    """Return what a row has in a column, with its interval where there is one."""
+    value = row[column]
+    if f"{column}{ENDS[0]}" not in row or pd.isna(row[f"{column}{ENDS[-1]}"]):
+        return value
+    low, high, count, counted = (row[column + end] for end in ENDS)
+    return Estimate(float(value), float(low), float(high), int(count), str(counted))
+
+
+def _frame(rows: list[dict[str, Any]]) -> pd.DataFrame:
+    """Return rows as a table in which counts stay whole numbers where some rows have none."""
+    table = pd.DataFrame(rows)
+    for name in table:
+        there = [row[name] for row in rows if row.get(name) is not None]
+        if all(isinstance(value, int) and not isinstance(value, bool) for value in there):
+            table[name] = table[name].astype("int64" if len(there) == len(rows) else "Int64")
+    return table
+
+
+def _value(text: str) -> Any:
+    if text in _WORDS:
+        return _WORDS[text]
+    for kind in (int, float):
+        with suppress(ValueError):
+            return kind(text)
+    return text
+
+
+def _rows(found: Mapping[str, Any] | Iterable[Mapping[str, Any]] | None) -> list[Mapping[str, Any]]:
+    if found is None:
+        return []
+    return [found] if isinstance(found, Mapping) else list(found)
+
+
+def _flat(row: Mapping[str, Any]) -> dict[str, Any]:
+    flat: dict[str, Any] = {}
+    for name, value in row.items():
+        if isinstance(value, Estimate):
+            flat |= {name + end: each for end, each in zip(("", *ENDS), asdict(value).values(), strict=True)}
+        else:
+            flat[name] = value.item() if isinstance(value, np.generic) else value
+    return flat
+
+
+def _key(cell: Cell, names: Mapping[str, Any], sizes: Mapping[str, Any]) -> str:
+    said = json.dumps([sources(), cell.__module__, cell.__qualname__, {**names}, {**sizes}], default=str)
+    return hashlib.sha256(said.encode()).hexdigest()[:16]
+
+
+def _read(path: Path) -> list[dict[str, Any]] | None:
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None

@@ -1,0 +1,161 @@
+"""What a study declares of its table: measures for its claims, tables for its page, pictures of lines."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pandas as pd
+
+from cointoss.study import Estimate, chance_alike, in_words, paragraphs, percent, share_of, table
+from cointoss_reproduction.frame.cells import estimate
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Declared = Mapping[str, Any]
+"""A table of the TOML file."""
+TAKEN = {
+    "max": lambda values: float(np.max(values)),
+    "min": lambda values: float(np.min(values)),
+    "farthest": lambda values: float(np.max(np.abs(values))),
+    "median": lambda values: float(np.median(values)),
+    "mean": lambda values: float(np.mean(values)),
+    "sum": lambda values: np.sum(values).item(),
+}
+"""What one number may be made of several."""
+
+
+def selected(cells: pd.DataFrame, said: Declared) -> pd.DataFrame:
+    """Return the rows that a declaration selects by its `where`, of pandas' query; all without."""
+    return cells.query(said["where"], engine="python") if "where" in said else cells
+
+
+def measured(cells: pd.DataFrame, said: Declared) -> Any:
+    """Return what a measure selects: one number or estimate, or several by what tells their rows apart.
+
+    A measure has `value`, a column or an expression of columns, or `share`, the columns of a part and of its
+    whole; of them the number `less` is subtracted, and `take` makes one of `TAKEN` of all rows. `key` has the
+    columns that name the rows, by default none where one row is selected. `alike` has columns of counts: the
+    probability by chance that rows of the same `key` differ as they do.
+
+    Raises:
+        ValueError: where nothing is selected.
+    """
+    rows = selected(cells, said)
+    if rows.empty:
+        raise ValueError(f"{said}: selects no row")
+    if "alike" in said:
+        groups = rows.groupby(said["key"], sort=False)
+        return {_name(key): chance_alike(each[said["alike"]].to_numpy(dtype=int)) for key, each in groups}
+    if "take" in said:
+        return _shifted(_taken(rows, said), said)
+    found = [_shifted(_one(row, said), said) for row in _with_value(rows, said).to_dict("records")]
+    if "key" not in said:
+        if len(found) != 1:
+            raise ValueError(f"{said}: selects {len(found)} rows, and has no key")
+        return found[0]
+    names = [_name(tuple(row)) for row in rows[said["key"]].itertuples(index=False)]
+    return dict(zip(names, found, strict=True))
+
+
+def _taken(rows: pd.DataFrame, said: Declared) -> Any:
+    if "share" in said:
+        part, whole = (int(rows[column].sum()) for column in said["share"])
+        return share_of(part, whole, said.get("counted", "tosses"))
+    values = rows.eval(said["value"], engine="python").to_numpy(dtype=float)
+    return TAKEN[said["take"]](values)
+
+
+def _with_value(rows: pd.DataFrame, said: Declared) -> pd.DataFrame:
+    value = said.get("value")
+    if value is None or value in rows:
+        return rows
+    return rows.assign(**{value: rows.eval(value, engine="python")})
+
+
+def _one(row: Mapping[Any, Any], said: Declared) -> Any:
+    if "share" in said:
+        part, whole = (int(row[column]) for column in said["share"])
+        return share_of(part, whole, said.get("counted", "tosses"))
+    return estimate(row, said["value"])
+
+
+def _shifted(found: Any, said: Declared) -> Any:
+    return found - said["less"] if "less" in said else found
+
+
+def _name(key: Any) -> str:
+    """Return what tells a row apart, in words."""
+    parts = key if isinstance(key, tuple) else (key,)
+    return ", ".join(f"{one:g}" if isinstance(one, float) else str(one) for one in parts)
+
+
+def tables_of(cells: pd.DataFrame, declared: Sequence[Declared]) -> str:
+    """Return the declared tables in Markdown.
+
+    A table has the sentence that it `says`, `where`, and `columns`: each a heading, a column or an expression
+    or a pair whose share is shown, and a format. The last is spread `across` the names on an axis.
+    """
+    return paragraphs(*(block for said in declared for block in (said["says"], _table(cells, said))))
+
+
+def _table(cells: pd.DataFrame, said: Declared) -> str:
+    rows, heads, shown = selected(cells, said), [], []
+    for head, what, *form in said["columns"]:
+        heads.append(head)
+        measure = {"share": what} if isinstance(what, list) else {"value": what}
+        found = [_one(row, measure) for row in _with_value(rows, measure).to_dict("records")]
+        shown.append([_cell(one, *form) for one in found])
+    body = [list(row) for row in zip(*shown, strict=True)]
+    if "across" in said:
+        heads, body = _across(heads, body, [_name((one,)) for one in rows[said["across"]]])
+    return table(heads, body)
+
+
+def _across(heads: list[str], body: list[list[str]], names: list[str]) -> tuple[list[str], list[list[str]]]:
+    spread: dict[tuple[str, ...], dict[str, str]] = {}
+    for (*key, last), name in zip(body, names, strict=True):
+        spread.setdefault(tuple(key), {})[name] = last
+    columns = list(dict.fromkeys(names))
+    return [*heads[:-1], *columns], [
+        [*key, *(row.get(one, "") for one in columns)] for key, row in spread.items()
+    ]
+
+
+def _cell(found: Any, form: str = "") -> str:
+    if isinstance(found, Estimate):
+        return in_words(found, form) if form else percent(found)
+    if found is None or pd.isna(found):
+        return ""
+    return format(found, form or ("g" if isinstance(found, float) else ""))
+
+
+def picture_of(cells: pd.DataFrame, said: Declared) -> "Figure":
+    """Draw lines: `y`, an expression or the columns of a share, over `x`, one for each of what is in `lines`.
+
+    `panels` names an axis that has a panel for each name. `levels` are drawn as grey lines; all else is what
+    `Axes.set` takes.
+    """
+    from matplotlib.figure import Figure
+
+    rows = selected(cells, said)
+    panels = list(rows.groupby(said["panels"], sort=False)) if "panels" in said else [("", rows)]
+    drawn = Figure(figsize=(7 if len(panels) == 1 else 4.5 * len(panels), 3.8))
+    own = {"where", "x", "y", "lines", "panels", "levels"}
+    for axes, (name, of_panel) in zip(drawn.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
+        for label, line in _lines(of_panel, said):
+            x, (value, low, high) = line
+            axes.errorbar(x, value, [value - low, high - value], fmt="o-", capsize=2, label=label)
+        for level in said.get("levels", ()):
+            axes.axhline(level, color="grey", linewidth=0.8)
+        axes.set(title=str(name), **{key: value for key, value in said.items() if key not in own})
+    drawn.axes[-1].legend(loc="upper left", bbox_to_anchor=(1, 1))
+    return drawn
+
+
+def _lines(rows: pd.DataFrame, said: Declared) -> Iterator[tuple[str, Any]]:
+    measure = {"share": said["y"]} if isinstance(said["y"], list) else {"value": said["y"]}
+    for key, line in rows.groupby(said["lines"], sort=False):
+        found = [_one(row, measure) for row in _with_value(line, measure).to_dict("records")]
+        ends = [one.ends if isinstance(one, Estimate) else (one, one, one) for one in found]
+        yield _name(key), (line.eval(said["x"], engine="python"), np.array(ends, dtype=float).T)

@@ -1,0 +1,105 @@
+"""A study: its cells make one long table, and measures, tables and pictures select from it."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from cointoss.compare.metrics.estimates import share_of
+from cointoss_reproduction.frame.cells import Cells, read_table, table_of, text_of
+from cointoss_reproduction.frame.selection import measured, picture_of, tables_of
+from saved import unseen
+
+AXES = {"floor": {"smooth": 0.0, "rough": 0.5}, "chi": (0.3, 0.6)}
+
+
+def counted(floor: float, chi: float, tosses: int = 100) -> dict[str, object] | None:
+    if (floor, chi) == (0.5, 0.6):
+        return None
+    heads = int(tosses * (floor + chi) / 2)
+    return {"heads": heads, "tosses": tosses, "width": chi**2, "part": share_of(heads, tosses, "coins")}
+
+
+CELLS = table_of([Cells(counted, AXES)], unseen, {"tosses": 1000})
+
+
+def test_a_table_has_a_row_for_each_cell_that_answers_with_the_names_on_its_axes():
+    assert CELLS[["floor", "chi", "heads"]].to_numpy().tolist() == [
+        ["smooth", 0.3, 150],
+        ["smooth", 0.6, 300],
+        ["rough", 0.3, 400],
+    ]
+
+
+def test_a_table_is_read_as_it_was_written(tmp_path):
+    (tmp_path / "cells.csv").write_text(text_of(CELLS))
+    pd.testing.assert_frame_equal(read_table(tmp_path / "cells.csv"), CELLS)
+
+
+def test_a_cell_that_was_kept_is_not_computed_again(tmp_path):
+    asked = []
+
+    def cell(chi: float) -> dict[str, float]:
+        asked.append(chi)
+        if len(asked) == 2:
+            raise KeyboardInterrupt
+        return {"half": chi / 2}
+
+    with pytest.raises(KeyboardInterrupt):
+        table_of([Cells(cell, {"chi": (0.2, 0.4)})], unseen, {}, kept=tmp_path)
+    found = table_of([Cells(cell, {"chi": (0.2, 0.4)})], unseen, {}, kept=tmp_path)
+    assert (asked, found["half"].tolist()) == ([0.2, 0.4, 0.4], [0.1, 0.2])
+
+
+def test_an_axis_and_a_column_of_one_name_are_refused():
+    with pytest.raises(ValueError, match=r"^floor: an axis and a column; accepted: one of them$"):
+        table_of([Cells(lambda floor: {"floor": floor}, {"floor": (1,)})], unseen, {})
+
+
+@pytest.mark.parametrize(
+    ("said", "found"),
+    [
+        ({"value": "1e3 * width", "where": "floor == 'rough'"}, 90),
+        ({"value": "width", "key": ["floor"], "where": "chi == 0.3"}, {"smooth": 0.09, "rough": 0.09}),
+        ({"value": "width", "take": "max", "less": 0.06}, 0.3),
+        ({"value": "heads", "take": "sum"}, 850),
+        ({"value": "width - 1", "take": "farthest"}, 0.91),
+    ],
+)
+def test_a_measure_selects_numbers(said, found):
+    assert measured(CELLS, said) == pytest.approx(found)
+
+
+def test_a_measure_selects_shares_with_their_intervals():
+    rough = {"where": "floor == 'rough'"}
+    assert measured(CELLS, {**rough, "share": ["heads", "tosses"], "less": 0.5}) == share_of(400, 1000) - 0.5
+    assert measured(CELLS, {**rough, "value": "part"}) == share_of(400, 1000, "coins")
+    assert measured(CELLS, {"share": ["heads", "tosses"], "take": "sum"}) == share_of(850, 3000)
+
+
+def test_a_measure_that_selects_nothing_or_too_much_is_refused():
+    with pytest.raises(ValueError, match="selects no row"):
+        measured(CELLS, {"where": "chi > 1", "value": "width"})
+    with pytest.raises(ValueError, match="selects 3 rows, and has no key"):
+        measured(CELLS, {"value": "width"})
+
+
+def test_tables_show_columns_shares_and_one_axis_across():
+    columns = [["floor", "floor"], ["heads", ["heads", "tosses"]]]
+    text = tables_of(CELLS, [{"says": "Heads:", "columns": columns, "across": "chi"}])
+    assert text.splitlines() == [
+        "Heads:",
+        "",
+        "| floor | 0.3 | 0.6 |",
+        "| --- | ---: | ---: |",
+        "| smooth | 15.0 % [12.3, 18.1] | 30.0 % [26.4, 33.9] |",
+        "| rough | 40.0 % [36.1, 44.0] |  |",
+    ]
+
+
+def test_a_picture_has_a_line_for_each_name_and_a_panel_for_each_of_another_axis():
+    said = {"x": "chi", "y": ["heads", "tosses"], "lines": ["floor"], "levels": [0.5], "ylim": [0, 1]}
+    (axes,) = picture_of(CELLS, said).axes
+    assert axes.get_legend_handles_labels()[1] == ["smooth", "rough"]
+    assert axes.get_ylim() == (0, 1)
+    assert np.allclose(axes.containers[0].lines[0].get_xydata(), [[0.3, 0.15], [0.6, 0.3]])
+    assert len(picture_of(CELLS, {**said, "panels": "floor"}).axes) == 2
