@@ -21,7 +21,7 @@ told = echo "$(1)"; \
   while sleep 10 >/dev/null 2>&1 && kill -0 $$$$; do s=$$(($$s + 10)); echo "$(1): $$s s"; done & \
   trap "kill $$!" EXIT; $(2)
 
-.PHONY: report test check test-all bench docs pages paper results releasable release wheels lock lint emulated opengl chromium engines clean
+.PHONY: report test check test-all bench docs pages paper results releasable release wheels lock lint sink emulated opengl chromium engines clean
 
 report: $(READY) opengl engines
 	@for name in $(SCENARIOS); do $(BIN)/cointoss compare $$name --out out/$$name || exit; done
@@ -95,7 +95,9 @@ wheels: $(READY) $(ENGINE)
 	$(BIN)/python -m hatchling build -t sdist -d dist
 	@for system in $(SYSTEMS); do export COINTOSS_SYSTEM=$$system COINTOSS_ENGINES=$(CURDIR)/out/engines; \
 	  ($(call told,pip: making the wheel for $$system,$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation \
-	  --wheel-dir dist dist/*.tar.gz)) || exit; done
+	  --wheel-dir dist dist/cointoss_dynamics-*.tar.gz)) || exit; done
+	@$(call told,pip: making the wheel of the studies,$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation \
+	  --wheel-dir dist ./reproduction)
 
 # All that docs/ holds of results, computed anew in several hours, and the pages of them. A claim that comes out
 # otherwise than known is printed, and is no reason to stop.
@@ -129,6 +131,11 @@ lint: $(READY)
 	$(BIN)/ruff format --check .
 	@$(call told,pyright: checking types,$(BIN)/pyright --pythonpath $(BIN)/python)
 	PYTHONPATH=. $(BIN)/lint-imports
+	$(BIN)/python -m tests.helpers.ceilings
+
+# A ceiling sinks to the statements that its folder has.
+sink: $(READY)
+	$(BIN)/python -m tests.helpers.ceilings --sink
 
 $(READY): pyproject.toml reproduction/pyproject.toml
 	$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 11) and 'cointoss needs Python >= 3.11')"
