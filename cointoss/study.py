@@ -129,8 +129,6 @@ if TYPE_CHECKING:
     from cointoss.compare.output.tables import table as table
     from cointoss.compare.output.tables import unfolding as unfolding
     from cointoss.compare.output.terminal import laid_out as laid_out
-    from cointoss.compare.shares.counting import counting as counting
-    from cointoss.compare.shares.plan import Plan as Plan
     from cointoss.models.answers import Answers as Answers
     from cointoss.models.attitude import quaternion_from_angles as quaternion_from_angles
     from cointoss.models.attitude import rotation_matrix as rotation_matrix

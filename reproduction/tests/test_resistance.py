@@ -1,34 +1,27 @@
-"""The study of resistance to rolling and pivoting: its page shows what it saved, and what it claims."""
+"""The study of resistance to rolling and pivoting: closed forms, and a power law that would be seen."""
 
+import numpy as np
 import pytest
 
-from cointoss_reproduction.frame.saving import read_numbers
-from cointoss_reproduction.setups.ends import on_edge
-from cointoss_reproduction.studies.resistance import study as resistance
-from cointoss_reproduction.studies.resistance.study import ResistanceRecord, pivoting_stop, power_law
-from saved import saved
-
-SAVED = read_numbers(saved("resistance"), ResistanceRecord)
+from cointoss_reproduction.studies.resistance.study import NICKELS, STOPS, disk, on_edge, power_law
 
 
-@pytest.mark.parametrize("coin", [resistance._DISC, resistance._THICK], ids=["disc", "thick"])
-def test_a_coin_that_pivots_upright_stops_as_the_closed_form_says(coin):
-    found = pivoting_stop(coin)
+@pytest.mark.parametrize("stop", ["disc pivots", "thick coin pivots"])
+def test_a_coin_that_pivots_upright_stops_as_the_closed_form_says(stop):
+    found = STOPS[stop]()
     # Rest is found at 1e-3 √(g/r), 3e-4 of the spin; slow slip is regularised likewise.
-    assert found.time == pytest.approx(found.expected_time, rel=1e-3)
+    assert found["time"] == pytest.approx(found["closed"], rel=1e-3)
 
 
 def test_a_fall_by_another_power_law_is_seen():
-    disk = SAVED.disks["rolling"]
-    other = type(disk)(
-        times=disk.times,
-        tilts=[tilt**1.5 for tilt in disk.tilts],
-        energies=disk.energies,
-        pivots=disk.pivots,
-    )
-    assert abs(power_law(other)[0] - 2) > 0.2
+    fall = [(row["time"], row["tilt"]) for row in disk("rolling") if row.get("line") == "rolling"]
+    times, tilts = np.array(fall).T
+    assert abs(power_law(times, tilts)["exponent"] - 2) < 0.05
+    assert abs(power_law(times, tilts**1.5)["exponent"] - 2) > 0.2
 
 
 def test_the_share_on_edge_counts_every_ending_there():
-    ends = {"edge, at_rest": 1, "edge, paper": 2, "heads, paper": 7}
-    assert on_edge(ends).value == 0.3
+    first, *endings = on_edge(NICKELS["0"], 60)
+    there = [row["number"] for row in endings if row["ending"].startswith("edge, ")]
+    assert sum(there) == first["edges"] > 0
+    assert sum(row["number"] for row in endings) == first["tosses"] == 60

@@ -76,6 +76,11 @@ def test_a_measure_selects_shares_with_their_intervals():
     assert measured(CELLS, {"share": ["heads", "tosses"], "take": "sum"}) == share_of(850, 3000)
 
 
+def test_numbers_are_added_up_where_rows_are_the_same():
+    said = {"per": ["floor"], "share": ["heads", "tosses"], "key": ["floor"]}
+    assert measured(CELLS, said) == {"smooth": share_of(450, 2000), "rough": share_of(400, 1000)}
+
+
 def test_a_measure_that_selects_nothing_or_too_much_is_refused():
     with pytest.raises(ValueError, match="selects no row"):
         measured(CELLS, {"where": "chi > 1", "value": "width"})
@@ -101,5 +106,18 @@ def test_a_picture_has_a_line_for_each_name_and_a_panel_for_each_of_another_axis
     (axes,) = picture_of(CELLS, said).axes
     assert axes.get_legend_handles_labels()[1] == ["smooth", "rough"]
     assert axes.get_ylim() == (0, 1)
-    assert np.allclose(axes.containers[0].lines[0].get_xydata(), [[0.3, 0.15], [0.6, 0.3]])
+    assert np.allclose(axes.lines[0].get_xydata(), [[0.3, 0.15], [0.6, 0.3]])
     assert len(picture_of(CELLS, {**said, "panels": "floor"}).axes) == 2
+
+
+def test_a_picture_may_name_its_rows_and_have_parts():
+    named = {"names": ["floor", "chi"], "y": ["heads", "tosses"], "lines": ["floor"], "style": "o"}
+    sides, widths = picture_of(CELLS, [named, {"x": "chi", "y": "width", "lines": ["floor"]}]).axes
+    assert [label.get_text() for label in sides.get_yticklabels()] == [
+        "smooth, 0.3",
+        "smooth, 0.6",
+        "rough, 0.3",
+    ]
+    assert np.asarray(sides.lines[0].get_xdata()).tolist() == [0.15, 0.3]
+    # A number without an interval has no bar.
+    assert [len(axes.collections) for axes in (sides, widths)] == [2, 0]

@@ -26,8 +26,16 @@ TAKEN = {
 
 
 def selected(cells: pd.DataFrame, said: Declared) -> pd.DataFrame:
-    """Return the rows that a declaration selects by its `where`, of pandas' query; all without."""
-    return cells.query(said["where"], engine="python") if "where" in said else cells
+    """Return the rows that a declaration selects by its `where`, of pandas' query; all without.
+
+    `per` has columns: the numbers of rows that are the same there are added up.
+    """
+    rows = cells.query(said["where"], engine="python") if "where" in said else cells
+    return (
+        rows.groupby(said["per"], sort=False, as_index=False).sum(numeric_only=True)
+        if "per" in said
+        else rows
+    )
 
 
 def measured(cells: pd.DataFrame, said: Declared) -> Any:
@@ -54,13 +62,12 @@ def measured(cells: pd.DataFrame, said: Declared) -> Any:
         if len(found) != 1:
             raise ValueError(f"{said}: selects {len(found)} rows, and has no key")
         return found[0]
-    names = [_name(tuple(row)) for row in rows[said["key"]].itertuples(index=False)]
-    return dict(zip(names, found, strict=True))
+    return dict(zip(_names(rows, said["key"]), found, strict=True))
 
 
 def _taken(rows: pd.DataFrame, said: Declared) -> Any:
     if "share" in said:
-        part, whole = (int(rows[column].sum()) for column in said["share"])
+        part, whole = (int(np.sum(rows[column])) for column in said["share"])
         return share_of(part, whole, said.get("counted", "tosses"))
     values = rows.eval(said["value"], engine="python").to_numpy(dtype=float)
     return TAKEN[said["take"]](values)
@@ -82,6 +89,10 @@ def _one(row: Mapping[Any, Any], said: Declared) -> Any:
 
 def _shifted(found: Any, said: Declared) -> Any:
     return found - said["less"] if "less" in said else found
+
+
+def _names(rows: pd.DataFrame, columns: list[str]) -> list[str]:
+    return [_name(tuple(row)) for row in rows[columns].itertuples(index=False)]
 
 
 def _name(key: Any) -> str:
@@ -130,32 +141,55 @@ def _cell(found: Any, form: str = "") -> str:
     return format(found, form or ("g" if isinstance(found, float) else ""))
 
 
-def picture_of(cells: pd.DataFrame, said: Declared) -> "Figure":
+def picture_of(cells: pd.DataFrame, said: Declared | Sequence[Declared]) -> "Figure":
     """Draw lines: `y`, an expression or the columns of a share, over `x`, one for each of what is in `lines`.
 
-    `panels` names an axis that has a panel for each name. `levels` are drawn as grey lines; all else is what
-    `Axes.set` takes.
+    In place of `x` there may be `names`, columns that name the rows down the side of the picture. `panels`
+    names an axis that has a panel for each name. `levels` are drawn as grey lines, `style` is of Matplotlib;
+    all else is what `Axes.set` takes. Several declarations are drawn side by side.
     """
     from matplotlib.figure import Figure
 
-    rows = selected(cells, said)
-    panels = list(rows.groupby(said["panels"], sort=False)) if "panels" in said else [("", rows)]
+    panels = [
+        (name, rows, part)
+        for part in ([said] if isinstance(said, Mapping) else said)
+        for name, rows in _panels(selected(cells, part), part)
+    ]
     drawn = Figure(figsize=(7 if len(panels) == 1 else 4.5 * len(panels), 3.8))
-    own = {"where", "x", "y", "lines", "panels", "levels"}
-    for axes, (name, of_panel) in zip(drawn.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
-        for label, line in _lines(of_panel, said):
-            x, (value, low, high) = line
-            axes.errorbar(x, value, [value - low, high - value], fmt="o-", capsize=2, label=label)
-        for level in said.get("levels", ()):
-            axes.axhline(level, color="grey", linewidth=0.8)
-        axes.set(title=str(name), **{key: value for key, value in said.items() if key not in own})
+    for axes, (name, rows, part) in zip(
+        drawn.subplots(1, len(panels), squeeze=False)[0], panels, strict=True
+    ):
+        names = list(dict.fromkeys(_names(rows, part.get("names", []))))
+        for number, (label, line, (value, low, high)) in enumerate(_lines(rows, part)):
+            ends = [value - low, high - value] if np.any(low < high) else None
+            style = {"fmt": part.get("style", "o-"), "capsize": 2, "label": label}
+            if "names" in part:
+                at = [names.index(name) + number / 5 for name in _names(line, part["names"])]
+                axes.errorbar(value, at, xerr=ends, **style)
+            else:
+                axes.errorbar(line.eval(part["x"], engine="python"), value, ends, **style)
+        if "names" in part:
+            axes.set_yticks(range(len(names)), names)
+            axes.invert_yaxis()
+        for level in part.get("levels", ()):
+            (axes.axvline if "names" in part else axes.axhline)(level, color="grey", linewidth=0.8)
+        axes.set(**({"title": name} | {key: one for key, one in part.items() if key not in _OF_PICTURES}))
     drawn.axes[-1].legend(loc="upper left", bbox_to_anchor=(1, 1))
     return drawn
 
 
-def _lines(rows: pd.DataFrame, said: Declared) -> Iterator[tuple[str, Any]]:
+_OF_PICTURES = {"where", "x", "y", "names", "lines", "panels", "levels", "style"}
+
+
+def _panels(rows: pd.DataFrame, said: Declared) -> list[tuple[str, pd.DataFrame]]:
+    if "panels" not in said:
+        return [("", rows)]
+    return [(str(name), of_panel) for name, of_panel in rows.groupby(said["panels"], sort=False)]
+
+
+def _lines(rows: pd.DataFrame, said: Declared) -> Iterator[tuple[str, pd.DataFrame, Any]]:
     measure = {"share": said["y"]} if isinstance(said["y"], list) else {"value": said["y"]}
     for key, line in rows.groupby(said["lines"], sort=False):
         found = [_one(row, measure) for row in _with_value(line, measure).to_dict("records")]
         ends = [one.ends if isinstance(one, Estimate) else (one, one, one) for one in found]
-        yield _name(key), (line.eval(said["x"], engine="python"), np.array(ends, dtype=float).T)
+        yield _name(key), line, np.array(ends, dtype=float).T

@@ -1,18 +1,15 @@
-"""Coins tossed by hand that may end on their edge: their classes, and how many tosses end how."""
+"""Coins tossed by hand that may end on their edge, from thin ones to rods, and a nickel on many floors."""
 
 import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from cointoss import Engine, Hand, Scenario
-from cointoss.study import Array, Plan, code_digest
-from cointoss_reproduction.frame.parts import Part, kept
-from cointoss_reproduction.setups.ends import Ends, by_outcome
+from cointoss import Hand, Scenario, analytic
+from cointoss.study import Answers, Array, rows_from_states
+from cointoss_reproduction.setups.ends import ends_of
 
 SEED = 1993
 DIAMETER, THICKNESS, MASS = 21.21e-3, 1.95e-3, 5e-3
@@ -31,9 +28,24 @@ BASE: dict[str, Any] = {
     "pivoting_friction": 1e-4,
 }
 """The floor where nothing else is said."""
-AIR = {"normal": 0.8, "tangential": 0.2}
-LONGEST = 60.0
-"""Of a toss [s]."""
+AS_SAID, FREE, RESISTING = "as said", "δ = p = 0", "δ = p = 1 mm"
+FACTORS: dict[str, dict[str, Any]] = {
+    AS_SAID: {},
+    "χ = 0.2": {"floor": {"restitution": 0.2}},
+    "χ = 0.8": {"floor": {"restitution": 0.8}},
+    "energetic restitution": {"floor": {"restitution_kind": "energetic"}},
+    "smooth": {"floor": {"contact": "smooth", "friction": 0.0}},
+    "μ = 0.1": {"floor": {"friction": 0.1}},
+    "μ = 0.6": {"floor": {"friction": 0.6}},
+    FREE: {"floor": {"rolling_friction": 0.0, "pivoting_friction": 0.0}},
+    RESISTING: {"floor": {"rolling_friction": 1e-3, "pivoting_friction": 1e-3}},
+    "plastic up to 10 mm/s": {"floor": {"restitution_threshold": 1e-2}},
+    "vacuum": {"air": False},
+    "from 0.3 m": {"hand": {"height": 0.3}},
+    "40 rad/s": {"hand": {"spin": 40.0}},
+    "250 rad/s": {"hand": {"spin": 250.0}},
+}
+"""What is other than χ = 0.5, μ = 0.3, δ = p = 0.1 mm, from 1 m with 120 rad/s, in air."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,10 +68,10 @@ class EdgeClass:
         return Scenario.model_validate(
             {
                 "coin": {"mass": MASS * h / THICKNESS, "radius": DIAMETER / 2, "thickness": h},
-                "air": AIR if self.air else {},
+                "air": {"normal": 0.8, "tangential": 0.2} if self.air else {},
                 "floor": {**BASE, **self.floor},
                 "release": {"position": [0, 0, 10 * DIAMETER]},
-                "ending": {"max_time": LONGEST},
+                "ending": {"max_time": 60.0},
             }
         )
 
@@ -68,87 +80,27 @@ class EdgeClass:
         rng = np.random.default_rng([SEED, zlib.crc32(self.name.encode()), 0])
         return self.hand.states(self.scenario.body, rng, count)
 
+    def tossed(self, count: int) -> Answers:
+        """Toss coins from those states, and return how each ends."""
+        return analytic.toss_rows(rows_from_states(self.scenario, self.starts(count)))
+
+    def ends(self, count: int, engine: str = "analytic") -> dict[str, int]:
+        """Toss coins as `cointoss shares` does, and return how often they have each outcome, as a row."""
+        seed = zlib.crc32(self.name.encode(), SEED)
+        return ends_of(self.scenario, self.hand, count, engine=engine, seed=seed)
+
 
 def hand_of(wobble: str, **other: Any) -> Hand:
     """Return the hand of one of `HANDS`, with either side up."""
     return Hand.people(up="either", **other) if wobble == WOBBLING else Hand(up="either", **other)
 
 
-def ends_of(kind: EdgeClass, count: int, parts: Path, engine: Engine = Engine.ANALYTIC) -> Ends:
-    """Toss the coins of a class as `cointoss shares` does, and count their outcomes.
-
-    Args:
-        kind: the class.
-        count: how many tosses.
-        parts: folder of what an interrupted run had done.
-        engine: that tosses.
-    """
-    plan = Plan(
-        scenario=kind.scenario,
-        name=kind.name,
-        hand=kind.hand,
-        engines=(engine,),
-        seed=zlib.crc32(kind.name.encode(), SEED),
-        tosses=count,
+def nickel(wobble: str, factor: str = AS_SAID) -> EdgeClass:
+    """Return the nickel of one of `HANDS`, with one of `FACTORS`."""
+    other = FACTORS[factor]
+    return EdgeClass(
+        name=f"nickel, {wobble}, {factor}",
+        hand=hand_of(wobble, **other.get("hand", {})),
+        floor=other.get("floor", {}),
+        air=other.get("air", True),
     )
-
-    def compute() -> Part:
-        ends = by_outcome(plan)
-        return {"ends": np.array(list(ends)), "counts": np.array(list(ends.values()))}
-
-    label = zlib.crc32(repr(kind).encode())
-    part = kept(parts, f"{code_digest()}-{engine}-{label:08x}-{count}", compute)
-    return dict(zip(part["ends"].tolist(), part["counts"].tolist(), strict=True))
-
-
-def corner(aspect: float | Array) -> Any:
-    """Return the angle between coin and vertical below which a resting coin falls onto its edge [rad]."""
-    return np.arctan(aspect)
-
-
-def edge_by_angle(aspect: float | Array) -> Any:
-    """Return the part of all turns about a diameter in which C is on the edge's side: (2/π) atan(h/D)."""
-    return 2 / np.pi * corner(aspect)
-
-
-def edge_by_solid_angle(aspect: float | Array) -> Any:
-    """Return the part of all attitudes in which C is on the edge's side: (h/D)/√(1 + (h/D)²)."""
-    return np.sin(corner(aspect))
-
-
-def edge_of_die(aspect: float | Array) -> Any:
-    """Return the share on edge of a planar die with sides h and D (Pender and Uhrin 2014, arXiv 1407.6307).
-
-    It lands on h over on D as (c - D)/(c - h) atan(h/D)/atan(D/h), c its diagonal.
-    """
-    c = np.hypot(1, aspect)
-    edge_over_face = (c - 1) / (c - aspect) * np.arctan(aspect) / np.arctan(1 / aspect)
-    return edge_over_face / (1 + edge_over_face)
-
-
-def three_way(
-    aspects: NDArray[Any], edges: NDArray[Any], counts: NDArray[Any], rng: np.random.Generator, draws: int
-) -> tuple[float, Array]:
-    """Return the h/D at which a third of the tosses end on edge, and draws of it by chance, (draws,).
-
-    The share is taken to be linear in ln(h/D) between two neighbours; NaN where it does not reach a third.
-
-    Args:
-        aspects: h/D of the coins, increasing, (n,).
-        edges: numbers of tosses on edge, (n,).
-        counts: numbers of tosses, (n,).
-        rng: the source of chance.
-        draws: how many samples of the same sizes are drawn.
-    """
-    shares = edges / counts
-    drawn = rng.binomial(counts, shares, (draws, len(counts))) / counts
-    return _crossing(np.log(aspects), shares), np.array([_crossing(np.log(aspects), one) for one in drawn])
-
-
-def _crossing(x: Array, shares: Array) -> float:
-    """Return exp(x) where the shares last rise through a third, NaN where they do not."""
-    rising = np.flatnonzero((shares[:-1] < 1 / 3) & (shares[1:] >= 1 / 3))
-    if not len(rising):
-        return float("nan")
-    i = rising[-1]
-    return float(np.exp(x[i] + (1 / 3 - shares[i]) / (shares[i + 1] - shares[i]) * (x[i + 1] - x[i])))

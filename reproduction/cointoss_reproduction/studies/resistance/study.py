@@ -1,39 +1,36 @@
 """What resistance to rolling and pivoting does: stopping distances, Euler's disk, and a nickel's edge."""
 
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from cointoss import Ending, Outcome, Scenario, States, analytic
 from cointoss.study import (
-    BLUE,
-    GREY,
-    ORANGE,
     Array,
     FloorFriction,
     Mode,
-    Progress,
     energies,
-    in_words,
-    paragraphs,
     quaternion_from_angles,
     sample_piece,
-    stepping,
-    table,
     turned,
 )
-from cointoss_reproduction.frame.recorded import recorded
-from cointoss_reproduction.setups.edge_classes import PUBLISHED, WOBBLING
-from cointoss_reproduction.setups.edge_record import FREE, nickel
-from cointoss_reproduction.setups.edge_touches import endings_of
-from cointoss_reproduction.setups.ends import Ends, ended_as, on_edge
+from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.setups.edge_classes import (
+    AS_SAID,
+    FREE,
+    PUBLISHED,
+    RESISTING,
+    WOBBLING,
+    nickel,
+)
+from cointoss_reproduction.setups.ends import tally
 
-COUNT = 1000
-"""People's tosses of a nickel for each size of the resistance."""
-NICKELS = {"0": FREE, "0.0001": "as said", "0.001": "δ = p = 1 mm"}
-"""δ = p on a nickel's floor [m], and what the edge study calls that floor."""
+NICKELS = {"0": FREE, "0.1": AS_SAID, "1": RESISTING}
+"""δ = p on a nickel's floor [mm], and what the edge study calls that floor."""
+LEAST = PUBLISHED
+"""Of the share of nickels on edge."""
 SPEED, ROLLING = 0.3, 1e-3
 """Of the disc and the hoop that roll upright [m/s], and their δ [m]."""
 SPIN, PIVOTING, SLIDING = 80.0, 1e-3, 0.3
@@ -42,229 +39,125 @@ TILT, SAMPLES, SMALL = 0.3, 300, (2e-4, 1e-2)
 """Euler's disk starts from this tilt [rad]; its fall is sampled so often, and fitted between these tilts."""
 DISKS = {"rolling": (2e-5, 17.8), "pivoting": (1e-4, 3.0)}
 """δ, or p, on the floor of Euler's disk [m], and how long it is followed [s]."""
-_DISC = {"mass": 2e-3, "radius": 1.25e-2, "thickness": 0.0}
-_THICK = {**_DISC, "thickness": 2e-3}
-_UPRIGHT = [0.0, np.pi / 2, 0.0]
+MASS, RADIUS = 2e-3, 1.25e-2
+"""Of all coins but the nickel [kg, m]."""
+Row = dict[str, Any]
 
 
-@dataclass(frozen=True)
-class Stop:
-    """How long a coin took to stop, and how far it came, beside the closed forms."""
-
-    time: float
-    expected_time: float
-    distance: float
-    expected_distance: float
-
-
-@dataclass(frozen=True)
-class EulersDisk:
-    """The fall of Euler's disk under one resistance, in samples over time."""
-
-    times: list[float]
-    """[s]."""
-    tilts: list[float]
-    """[rad]."""
-    energies: list[float]
-    """Over m g r."""
-    pivots: list[float]
-    """ω_z [rad/s]."""
-
-
-@dataclass(frozen=True)
-class ResistanceRecord:
-    """What the study found."""
-
-    stops: dict[str, Stop]
-    disks: dict[str, EulersDisk]
-    nickel: dict[str, Ends]
-    """By δ."""
-
-
-def on_floor(coin: dict, release: dict, floor: dict, ending: dict | None = None) -> Scenario:
-    """Return a scenario on a perfectly rough floor without rebound, in vacuum, with such a resistance."""
-    rough = {"contact": "perfectly_rough", "restitution": 0.0, **floor}
-    parts = {"coin": coin, "floor": rough, "release": release, "ending": ending or {}}
-    return Scenario.model_validate(parts)
-
-
-def rolling_stop(share_of_inertia: float) -> Stop:
-    """Return how a disc, or a hoop, that rolls upright stops.
+def rolling_stop(share_of_inertia: float) -> Row:
+    """Return how a disc, or a hoop, that rolls upright stops, beside the closed forms.
 
     Args:
         share_of_inertia: J_ζ/(m r²).
     """
-    m, r = _DISC["mass"], _DISC["radius"]
-    inertia = np.diag([share_of_inertia / 2, share_of_inertia / 2, share_of_inertia]) * m * r * r
-    motion = {"velocity": [SPEED, 0, 0], "angular_velocity": [0, 0, -SPEED / r]}
-    case, end_time, end = _stopped({**_DISC, "inertia": inertia.tolist()}, motion, ROLLING)
-    slowing = ROLLING * case.gravity / (r * (1 + share_of_inertia))
-    return Stop(end_time, SPEED / slowing, float(end[0]), SPEED**2 / (2 * slowing))
+    inertia = np.diag([share_of_inertia / 2, share_of_inertia / 2, share_of_inertia]) * MASS * RADIUS * RADIUS
+    motion = {"velocity": [SPEED, 0, 0], "angular_velocity": [0, 0, -SPEED / RADIUS]}
+    case, time, end = _stopped({"thickness": 0.0, "inertia": inertia.tolist()}, motion, ROLLING)
+    slowing = ROLLING * case.gravity / (RADIUS * (1 + share_of_inertia))
+    way, closed = float(end[0]), SPEED**2 / (2 * slowing)
+    return {**_beside(time, SPEED / slowing, abs(way / closed - 1)), "way": way, "closed_way": closed}
 
 
-def pivoting_stop(coin: dict) -> Stop:
+def pivoting_stop(thickness: float) -> Row:
     """Return how a coin that pivots upright stops: both rims of a thick one slip, h/2 from the axis."""
-    case, end_time, _ = _stopped(coin, {"angular_velocity": [0, SPIN, 0]}, PIVOTING)
-    lever = PIVOTING + SLIDING * case.body.thickness / 2
-    slowing = lever * case.body.mass * case.gravity / case.body.inertia[1][1]
-    return Stop(end_time, SPIN / slowing, 0.0, 0.0)
+    case, time, _ = _stopped({"thickness": thickness}, {"angular_velocity": [0, SPIN, 0]}, PIVOTING)
+    lever = PIVOTING + SLIDING * thickness / 2
+    return _beside(time, SPIN / (lever * MASS * case.gravity / case.body.inertia[1][1]))
 
 
-def _stopped(coin: dict, motion: dict, size: float) -> tuple[Scenario, float, Array]:
+def _beside(time: float, closed: float, off: float = 0.0) -> Row:
+    """Return a time beside its closed form, and how far both are apart, more than `off`, relative to it."""
+    return {"of": "stop", "time": time, "closed": closed, "off": abs(time / closed - 1) + off}
+
+
+def _stopped(coin: Row, motion: Row, size: float) -> tuple[Scenario, float, Array]:
     """Return the toss of an upright coin that stops, when it does [s], and where its C is then."""
-    release = {"position": [0, 0, _DISC["radius"]], "angles": _UPRIGHT, **motion}
     slips = {"contact": "coulomb", "friction": SLIDING} if coin["thickness"] else {}
-    floor = {"rolling_friction": size, "pivoting_friction": size, **slips}
-    case = on_floor(coin, release, floor, {"test": "lying"})
+    case = _upright(coin, motion, rolling_friction=size, pivoting_friction=size, **slips)
     tossed = analytic.toss(case)
     if tossed.ending != Ending.AT_REST:
         raise RuntimeError(f"a coin that is upright ended {tossed.ending}; expected: at_rest")
     return case, tossed.end_time, tossed.path.sample(np.array([tossed.end_time])).position[0]
 
 
-def eulers_disk(resistance: str) -> EulersDisk:
-    """Return how Euler's disk falls, from a tilt at which it rolls round its mass centre.
+def _upright(coin: Row, motion: Row, **floor: Any) -> Scenario:
+    """Return an upright coin on a perfectly rough floor without rebound, but where said, in vacuum."""
+    described = {
+        "coin": {"mass": MASS, "radius": RADIUS, **coin},
+        "floor": {"contact": "perfectly_rough", "restitution": 0.0, **floor},
+        "release": {"position": [0, 0, RADIUS], "angles": [0.0, np.pi / 2, 0.0], **motion},
+        "ending": {"test": "lying"},
+    }
+    return Scenario.model_validate(described)
 
-    Args:
-        resistance: "rolling" or "pivoting".
-    """
-    r, g = _DISC["radius"], 9.81
+
+STOPS = {
+    "disc rolls": lambda: rolling_stop(0.5),
+    "hoop rolls": lambda: rolling_stop(1.0),
+    "disc pivots": lambda: pivoting_stop(0.0),
+    "thick coin pivots": lambda: pivoting_stop(2e-3),
+}
+
+
+def upright(stop: Callable[[], Row]) -> Row:
+    """Return how an upright coin stops."""
+    return stop()
+
+
+def disk(resistance: str) -> Iterator[Row]:
+    """Return how Euler's disk falls, from a tilt at which it rolls round its mass centre; then samples."""
     size, longest = DISKS[resistance]
     friction = FloorFriction(1e4, *((size, 0.0) if resistance == "rolling" else (0.0, size)))
-    body = on_floor(_DISC, {"position": [0, 0, r]}, {}).body
-    turning = 2 * (g * np.sin(TILT) / r) ** 0.5
-    start = np.array(
-        [0, 0, r * np.sin(TILT), 0, 0, 0, *quaternion_from_angles((0.0, TILT, 0.0)), 0, turning, 0]
-    )
+    body = _upright({"thickness": 0.0}, {}).body
+    place, turning = [0, 0, RADIUS * np.sin(TILT)], 2 * (body.gravity * np.sin(TILT) / RADIUS) ** 0.5
+    start = np.array([*place, 0, 0, 0, *quaternion_from_angles((0.0, TILT, 0.0)), 0, turning, 0])
     times, rows = np.linspace(0.0, longest, SAMPLES), np.empty((SAMPLES, len(start)))
     tolerance = analytic.AnalyticSettings().contact_tolerance
     sample_piece(body, friction, tolerance, Mode.STICKING.value, start, 0.0, times, rows)
-    states = States(
-        time=times,
-        position=rows[:, 0:3],
-        velocity=rows[:, 3:6],
-        quaternion=rows[:, 6:10],
-        angular_velocity=rows[:, 10:13],
+    parts = dict(
+        zip(("position", "velocity", "quaternion"), np.split(rows[:, :10], [3, 6], axis=1), strict=True)
     )
-    tilts = np.arcsin(np.minimum(np.hypot(states.normal[:, 0], states.normal[:, 1]), 1.0))
-    return EulersDisk(
-        times=times.tolist(),
-        tilts=tilts.tolist(),
-        energies=(energies(body, states) / (body.mass * g * r)).tolist(),
-        pivots=turned(states.quaternion, states.angular_velocity)[:, 2].tolist(),
-    )
+    states = States(time=times, **parts, angular_velocity=rows[:, 10:13])
+    tilts = np.arcsin(np.minimum(np.hypot(*states.normal[:, :2].T), 1.0))
+    energy = energies(body, states) / (MASS * body.gravity * RADIUS)
+    pivots = turned(states.quaternion, states.angular_velocity)[:, 2]
+    tenth = SAMPLES // 10
+    early, late = (part[0] - part[-1] for part in (energy[:tenth], energy[-tenth:]))
+    ends = {"energy": energy[0], "left": energy[-1], "pivot": pivots[0], "last_pivot": pivots[-1]}
+    yield {"of": "disk", "seconds": longest, "slowing": late / early, **ends}
+    drawn = {resistance: tilts}
+    if resistance == "rolling":
+        yield {"of": "power law", **power_law(times, tilts)}
+        chosen = tilts > SMALL[0]
+        root = np.polyval(np.polyfit(times[chosen], tilts[chosen] ** 0.5, 1), times)
+        drawn["(t₀ - t)²"] = np.maximum(root, 0) ** 2
+    for line, fall in drawn.items():
+        for time, tilt in zip(times, fall, strict=True):
+            yield {"of": "fall", "line": line, "time": time, "tilt": tilt}
 
 
-def power_law(disk: EulersDisk) -> tuple[float, float]:
+def power_law(times: Array, tilts: Array) -> dict[str, float]:
     """Return n of α ~ (t₀ - t)ⁿ, and -dα/dt over (4/3) √(g/r) (δ/r) √α, at small tilts."""
-    times, tilts = np.array(disk.times), np.array(disk.tilts)
     falls = -np.gradient(tilts, times)
     chosen = (tilts > SMALL[0]) & (tilts < SMALL[1])
     slope = np.polyfit(np.log(tilts[chosen]), np.log(falls[chosen]), 1)[0]
-    r = _DISC["radius"]
-    closed = 4 / 3 * (9.81 / r) ** 0.5 * DISKS["rolling"][0] / r * tilts[chosen] ** 0.5
-    return float(1 / (1 - slope)), float(np.median(falls[chosen] / closed))
+    closed = 4 / 3 * (9.81 / RADIUS) ** 0.5 * DISKS["rolling"][0] / RADIUS * tilts[chosen] ** 0.5
+    return {"exponent": float(1 / (1 - slope)), "rate": float(np.median(falls[chosen] / closed))}
 
 
-def compute(progress: Progress, count: int = COUNT) -> ResistanceRecord:
-    """Roll, pivot, and toss `count` of people's nickels for each of `NICKELS`."""
-    stops = {
-        "disc rolls": rolling_stop(0.5),
-        "hoop rolls": rolling_stop(1.0),
-        "disc pivots": pivoting_stop(_DISC),
-        "thick coin pivots": pivoting_stop(_THICK),
-    }
-    disks = {resistance: eulers_disk(resistance) for resistance in DISKS}
-    step = stepping(progress, len(NICKELS))
-    nickels = {size: step(endings_of(nickel(WOBBLING, factor), count)) for size, factor in NICKELS.items()}
-    return ResistanceRecord(stops, disks, nickels)
+def on_edge(floor: str, count: int = 1000) -> Iterator[Row]:
+    """Toss people's nickels; return how many have each outcome, and how many of each outcome end how."""
+    ended = nickel(WOBBLING, floor).tossed(count)
+    rolls = int(np.sum(ended.ending == Ending.ROLLING))
+    yield {"of": "nickel", "resists": floor != FREE, "still_rolling": rolls, **tally(ended.outcome)}
+    kinds, numbers = np.unique(np.stack([ended.outcome, ended.ending]), axis=1, return_counts=True)
+    for (outcome, ending), number in zip(kinds.T, numbers, strict=True):
+        yield {"of": "ending", "ending": f"{Outcome(outcome)}, {Ending(ending)}", "number": number}
 
 
-def measures(found: ResistanceRecord) -> dict[str, Any]:
-    """Return what the claims name."""
-    exponent, rate = power_law(found.disks["rolling"])
-    energies = found.disks["pivoting"].energies
-    tenth = len(energies) // 10
-    early, late = (part[0] - part[-1] for part in (energies[:tenth], energies[-tenth:]))
-    return {
-        "error": max(
-            abs(stop.time / stop.expected_time - 1)
-            + (abs(stop.distance / stop.expected_distance - 1) if stop.expected_distance else 0.0)
-            for stop in found.stops.values()
-        ),
-        "exponent": exponent - 2,
-        "rate": rate - 1,
-        "left": energies[-1],
-        "slowing": late / early,
-        "undecided": sum(
-            ended_as(ends, outcome)
-            for ends in found.nickel.values()
-            for outcome in (Outcome.UNDECIDED, Outcome.PERPETUAL, Outcome.TRANSIENT)
-        ),
-        "rolling": sum(
-            ends.get(f"edge, {Ending.ROLLING}", 0) for size, ends in found.nickel.items() if size != "0"
-        ),
-        "published": PUBLISHED,
-        "least": min(map(on_edge, found.nickel.values()), key=lambda part: part.value),
-    }
-
-
-def tables(found: ResistanceRecord) -> str:
-    """Return the tables, in Markdown."""
-    stops = [
-        [
-            name,
-            f"{stop.time:.5f}",
-            f"{stop.expected_time:.5f}",
-            *(f"{d:.6f}" if stop.expected_distance else "-" for d in (stop.distance, stop.expected_distance)),
-        ]
-        for name, stop in found.stops.items()
-    ]
-    exponent, rate = power_law(found.disks["rolling"])
-    disks = [
-        [
-            resistance,
-            *(f"{disk.energies[i]:.4f}" for i in (0, -1)),
-            *(f"{disk.pivots[i]:.3f}" for i in (0, -1)),
-            f"{disk.times[-1]:.3f}",
-        ]
-        for resistance, disk in found.disks.items()
-    ]
-    endings = sorted({end for ends in found.nickel.values() for end in ends})
-    nickel = [
-        [
-            f"{1e3 * float(size):g}",
-            *(str(ends.get(end, 0)) for end in endings),
-            in_words(on_edge(ends), ".2f", 100),
-        ]
-        for size, ends in found.nickel.items()
-    ]
-    at = "energy at first [m g r] | at last | ω_z at first [rad/s] | at last | after [s]"
-    return paragraphs(
-        table("a coin upright | stops after [s] | closed form | comes [m] | closed form", stops),
-        table(f"Euler's disk, resistance to | {at}", disks),
-        f"Under resistance to rolling α ~ (t₀ - t)ⁿ with n = {exponent:.4f} between {SMALL[0]:g} and "
-        f"{SMALL[1]:g} rad; -dα/dt is {rate:.4f} of its closed form there.",
-        table(["nickel, δ = p [mm]", *endings, "on edge [%]"], nickel),
-    )
-
-
-def draw(found: ResistanceRecord) -> Figure:
-    """Draw the tilt of Euler's disk under either resistance, and the power law."""
-    picture = Figure(figsize=(7, 3.4))
-    axes = picture.subplots()
-    for (resistance, disk), color in zip(found.disks.items(), (BLUE, ORANGE), strict=True):
-        axes.plot(disk.times, np.degrees(disk.tilts), color=color, label=resistance)
-    disk = found.disks["rolling"]
-    times, tilts = np.array(disk.times), np.array(disk.tilts)
-    chosen = tilts > SMALL[0]
-    line = np.polyval(np.polyfit(times[chosen], tilts[chosen] ** 0.5, 1), times)
-    axes.plot(times, np.degrees(np.maximum(line, 0) ** 2), color=GREY, linestyle="--", label="(t₀ - t)²")
-    axes.set(xlabel="t [s]", ylabel="tilt [deg]")
-    axes.legend(title="resistance to")
-    return picture
-
-
-REPRODUCTION = recorded(
-    __name__, compute, record=ResistanceRecord, measures=measures, tables=tables, draw={"disk": draw}
+REPRODUCTION = study(
+    __name__,
+    Cells(upright, {"stop": STOPS}),
+    Cells(disk, {"resistance": tuple(DISKS)}),
+    Cells(on_edge, {"floor": NICKELS}),
 )

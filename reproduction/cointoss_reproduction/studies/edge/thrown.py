@@ -1,14 +1,14 @@
-"""Three-sided coins that were thrown: the shares quoted of them, and tosses that stand for the throws."""
+"""Three-sided coins that were thrown: the shares quoted of them, and the floor on which tosses give them."""
 
-from collections.abc import Mapping
 from math import erfc
 from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd
 
-from cointoss.study import Estimate, share_of
-from cointoss_reproduction.setups.edge_classes import DIAMETRAL, WOBBLING, EdgeClass, hand_of
-from cointoss_reproduction.setups.ends import Ends, on_edge
+from cointoss.study import Estimate
+from cointoss_reproduction.frame.selection import measured
+from cointoss_reproduction.setups.edge_classes import DIAMETRAL, WOBBLING
 
 QUOTED = {"0.353553": 132, "0.57735": 410}
 """Throws on edge, by h/D: M. Parker, "How thick is a three-sided coin?" (a film of 2018), at second hand.
@@ -16,8 +16,9 @@ QUOTED = {"0.353553": 132, "0.57735": 410}
 The shares, 13.2 % and 41.0 %, stand in README.md of github.com/iaroslav-ai/coin-experiment, the number of
 throws at frankforce.com/?p=5559.
 """
-THROWS = 1000
-"""Of each of the two coins."""
+SHAPES = {f"h/D = {float(aspect):.3f}": aspect for aspect in QUOTED}
+THROWS, AS_QUOTED = 1000, "quoted of 1,000 throws each"
+"""Of each of the two coins, and what the table calls them."""
 CHIS = (0.0, 0.05, 0.1, 0.2, 0.3, 0.5)
 FLOORS: dict[str, tuple[str, dict[str, Any]]] = {
     **{f"χ = {chi:g}": (WOBBLING, {"restitution": chi}) for chi in CHIS},
@@ -39,34 +40,23 @@ class FittedFloor(NamedTuple):
     """The probability by chance of shares that differ from the model's as much, χ being at its best."""
 
 
-def thrown(floor: str, aspect: str) -> EdgeClass:
-    """Return the coin of an h/D, and the hand and floor of one of `FLOORS`."""
-    wobble, other = FLOORS[floor]
-    name = f"thrown, {floor}, h/D = {aspect}"
-    return EdgeClass(name=name, aspect=float(aspect), hand=hand_of(wobble), floor=other)
-
-
-def quoted(aspect: str) -> Estimate:
-    """Return the share on edge that is quoted, with its interval."""
-    return share_of(QUOTED[aspect], THROWS)
-
-
-def fitted_floor(found: Mapping[str, Mapping[str, Ends]]) -> FittedFloor:
+def fitted_floor(cells: pd.DataFrame) -> FittedFloor:
     """Return the one χ of both coins, all else as in `BASE`; a parabola smooths the model's shares over χ.
 
     Args:
-        found: ends by floor and h/D.
+        cells: rows of "thrown", by floor and h/D, with the share on edge as `part`.
     """
     misfit = np.zeros_like(_FINE)
-    for aspect in QUOTED:
-        mine = [on_edge(found[f"χ = {chi:g}"][aspect]) for chi in CHIS]
+    for shape in SHAPES:
+        rows = f"of == 'thrown' and shape == '{shape}'"
+        parts = measured(cells, {"where": rows, "value": "part", "key": ["floor"]})
+        mine = [parts[f"χ = {chi:g}"] for chi in CHIS]
         weights = [1 / _deviation(one) for one in mine]
         curve, covariance = np.polyfit(CHIS, [one.value for one in mine], 2, w=weights, cov="unscaled")
         powers = np.vander(_FINE, 3)
-        variance = ((powers @ covariance) * powers).sum(axis=1) + _deviation(quoted(aspect)) ** 2
-        misfit += (powers @ curve - quoted(aspect).value) ** 2 / variance
-    inside = _FINE[misfit <= misfit.min() + _INSIDE]
-    best = float(_FINE[misfit.argmin()])
+        variance = ((powers @ covariance) * powers).sum(axis=1) + _deviation(parts[AS_QUOTED]) ** 2
+        misfit += (powers @ curve - parts[AS_QUOTED].value) ** 2 / variance
+    inside, best = _FINE[misfit <= misfit.min() + _INSIDE], float(_FINE[misfit.argmin()])
     chi = Estimate(best, float(inside[0]), float(inside[-1]), len(QUOTED) * THROWS, "throws")
     return FittedFloor(chi, erfc((misfit.min() / 2) ** 0.5))
 
