@@ -45,7 +45,6 @@ if TYPE_CHECKING:
     from cointoss.coin_mj.bounces.pair import SPEEDS as SPEEDS
     from cointoss.coin_mj.bounces.recipe import SPRING_STEPS as SPRING_STEPS
     from cointoss.coin_mj.bounces.recipe import recipe_of as recipe_of
-    from cointoss.coin_mj.bounces.rest import Rest as Rest
     from cointoss.coin_mj.bounces.rest import rest_of as rest_of
     from cointoss.coin_mj.entries import forward as forward
     from cointoss.coin_mj.model.machine import machine_of as machine_of
@@ -54,7 +53,6 @@ if TYPE_CHECKING:
     from cointoss.coin_mj.model.settings import ROUGH as ROUGH
     from cointoss.coin_mj.model.settings import rebound_of as rebound_of
     from cointoss.coin_mj.model.state import of_release as of_release
-    from cointoss.coin_mj.toss import run as run_mujoco
     from cointoss.compare.basins.boundary import distance_to_doubt as distance_to_doubt
     from cointoss.compare.basins.fractions import fractions as fractions
     from cointoss.compare.basins.maps import OutcomeCodes as OutcomeCodes
@@ -158,7 +156,6 @@ if TYPE_CHECKING:
     from cointoss.models.records import Array as Array
     from cointoss.models.records import raised_flags as raised_flags
     from cointoss.models.rows import row_of as row_of
-    from cointoss.models.scenario import euler_parameters as euler_parameters
     from cointoss.models.scenario import vector as vector
     from cointoss.models.stages import stage as stage
 

@@ -1,75 +1,69 @@
 """What MJX and Warp are measured by: MuJoCo's own column in closed form, refusals, and missing packages."""
 
-import numpy as np
+import pandas as pd
 import pytest
 
-from cointoss.models.records import UnusableEngineError
+from cointoss import UnusableEngineError
 from cointoss_reproduction.studies.mujoco_backends import backends as mujoco_backends
-from cointoss_reproduction.studies.mujoco_backends.backends import by_mujoco
-from cointoss_reproduction.studies.mujoco_backends.study import (
-    BACKENDS,
-    SETTINGS,
-    SLIP,
-    Backends,
-    Cell,
-    measured,
-    measures,
-    tables,
-)
+from cointoss_reproduction.studies.mujoco_backends.backends import BACKENDS, by_mujoco
+from cointoss_reproduction.studies.mujoco_backends.study import SETTINGS, SLIP, measured
+from saved import missed, result_of
 from tests.helpers.command_line import cointoss
 
-FLAG, AT_REST = '`<flag diagexact="enable"/>`', ("one step, at rest", "spring, at rest")
+AT_REST = ("one step, at rest", "spring, at rest")
+ONE_STEP = [f"{body}, one step" for body in ("box flat", "capsule", "ellipsoid")] + ["one step, implicitfast"]
 
 
-@pytest.mark.parametrize("name", [name for name in SETTINGS if "one step" in name and "rest" not in name])
-def test_one_step_has_e_by_mujoco(name):
-    cell = measured(by_mujoco, name)
-    assert cell.refused == ""
-    # Half of the stiffness's part; contacts at four corners share a softness of 1 - 0.9999.
-    assert cell.numbers == pytest.approx([0.8, 0.8], abs=6e-4)
-    assert np.ptp(cell.numbers) < (1e-9 if "no stiffness" in name else 1e-3)
+def about(value, error):
+    return pytest.approx(value, abs=error)
 
 
-@pytest.mark.parametrize(("name", "depth"), [(AT_REST[0], 3.92e-6), (AT_REST[1], 2.5e-4)])
-def test_a_ball_lies_as_deep_as_the_closed_form_says(name, depth):
-    found, hop = measured(by_mujoco, name).numbers
-    assert found == pytest.approx(depth, rel=0.05)
-    assert hop < 1e-6
-
-
-def test_a_ball_that_slides_is_stopped_by_friction():
-    left, error = measured(by_mujoco, "restitution and friction together").numbers
-    assert abs(left) < 0.05 * SLIP
-    assert error < 6e-4
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        # Half of the stiffness's part; contacts at four corners share a softness of 1 - 0.9999.
+        *((name, {"least": about(0.8, 6e-4), "most": about(0.8, 6e-4)}) for name in ONE_STEP),
+        ("one step, no stiffness", {"least": about(0.8, 1e-9), "most": about(0.8, 1e-9)}),
+        ("one step, at rest", {"depth": about(3.92e-6, 2e-7), "hop": about(0, 1e-6)}),
+        ("spring, at rest", {"depth": about(2.5e-4, 1e-5), "hop": about(0, 1e-6)}),
+        ("restitution and friction together", {"slip": about(0, 0.05 * SLIP), "error": about(0, 6e-4)}),
+    ],
+)
+def test_mujoco_does_as_the_closed_forms_say(name, expected):
+    found = measured(SETTINGS[name], by_mujoco)
+    assert {key: found[key] for key in ("answer", *expected)} == {"answer": "runs", **expected}
 
 
 def test_what_a_backend_raises_is_its_refusal():
     def refusing(*_):
         raise NotImplementedError("diagexact")
 
-    assert measured(refusing, FLAG) == Cell("NotImplementedError", [])
+    assert measured(SETTINGS["flag diagexact"], refusing) == {"answer": "refused: NotImplementedError"}
 
 
 def test_a_ball_that_hops_and_one_that_errs_are_seen():
-    lies, errs = Cell("", [4e-6, 0.0]), Cell("", [0.8, 0.82])
-    cells = {name: dict.fromkeys(BACKENDS, Cell("", [0.8, 0.8])) for name in SETTINGS}
-    cells |= {name: dict.fromkeys(BACKENDS, lies) for name in AT_REST}
-    cells[FLAG] = dict.fromkeys(BACKENDS, Cell("NotImplementedError", []))
-    cells["restitution and friction together"] = dict.fromkeys(BACKENDS, Cell("", [1.0, 1e-4]))
-    good = measures(Backends("", cells))
-    assert (good["refusing"], good["single"], good["hop"], good["depth"]) == (3, 0, 0, 4e-6)
-    cells[AT_REST[1]] = {**cells[AT_REST[1]], "Warp, float32": Cell("", [4e-6, 1e-3])}
-    cells["one step, `implicitfast`"] = {
-        **cells["one step, `implicitfast`"],
-        "MJX, float32": errs,
-    }
-    bad = measures(Backends("", cells))
-    assert (bad["hop"], bad["single"]) == (1e-3, pytest.approx(0.02))
-    shown = tables(Backends("", cells))
-    assert "| 4 µm, hops by 1e+03 µm |" in shown
-    assert "refused: NotImplementedError" in shown
-    assert "0.8000 to 0.8200" in shown
-    assert "slip 1.0000 m/s, e errs by 1e-04" in shown
+    cells = pd.DataFrame(
+        {"package": "mujoco", "version": "3"} if backend is None else {"backend": backend, **row}
+        for backend in (None, *BACKENDS)
+        for row in (
+            {"setting": "flag diagexact", "answer": "runs" if backend == "MuJoCo" else "refused: Error"},
+            {"setting": "one step, implicitfast", "least": 0.8, "most": 0.8, "error": 0.0},
+            {"setting": "restitution and friction together", "slip": 1.0, "error": 1e-4},
+            *({"setting": name, "depth": 4e-6, "hop": 0.0} for name in AT_REST),
+        )
+    )
+    assert missed("mujoco-backends", cells) == ()
+    shown = result_of("mujoco-backends", cells).tables
+    for words in ("refused: Error", "0.8000, 0.8000", "4.00e-06 m, 0e+00 m", "1.0000 m/s, 1e-04"):
+        assert f"| {words} |" in shown
+    of_mjx = cells["backend"] == "MJX, float32"
+    held = "a ball at rest is held by each, in one step and by a spring"
+    for hop in (1e-3, None):
+        worse = cells.assign(hop=cells["hop"].mask(of_mjx & (cells["hop"] == 0), hop))
+        assert missed("mujoco-backends", worse) == (held,)
+    errs = cells.assign(error=cells["error"].mask(of_mjx & (cells["least"] > 0), 0.02))
+    (wrong,) = missed("mujoco-backends", errs)
+    assert wrong.startswith("without it one step has e")
 
 
 def test_a_package_that_is_missing_is_named(monkeypatch, tmp_path):

@@ -1,41 +1,36 @@
-"""The study of many tosses in MuJoCo: its page, and that its check can fail."""
+"""The study of many tosses in MuJoCo: a loop of fixed steps, a small run, and that its check can fail."""
 
-from dataclasses import replace
+import numpy as np
+import pytest
 
-from cointoss_reproduction.frame.saving import read_numbers
-from cointoss_reproduction.setups.mujoco_study import Spread
-from cointoss_reproduction.studies.mujoco_many.study import FixedSteps, TossSpeeds, compute
-from saved import missed, result_of, saved
+from cointoss.coin_mj import MujocoSettings, Realisation
+from cointoss_reproduction.setups.mujoco_impacts import draw_touches
+from cointoss_reproduction.studies.mujoco_many.fixed_steps import restitutions_of_coins
+from cointoss_reproduction.studies.mujoco_many.study import REPRODUCTION
+from saved import missed, result_of, unseen
 
-SAVED = read_numbers(saved("mujoco-many"), TossSpeeds)
+
+@pytest.mark.parametrize(("realisation", "dt"), [("one_step", 1e-4), ("spring", 5e-8)])
+def test_shorter_fixed_steps_make_a_coins_restitution_better(realisation, dt):
+    cases = draw_touches(np.random.default_rng(4), 32, (0.2, 1.0))
+    chi = np.array([case.floor.restitution for case in cases])
+    # A spring so stiff that the coin hardly turns in its contact.
+    settings = MujocoSettings(contact=Realisation(realisation), stiffness=1e13)
+    errors = [np.abs(restitutions_of_coins(cases, settings, dt / part) - chi) for part in (1, 2, 4)]
+    a, b, c = np.mean(errors, axis=1)
+    # A touch falls anywhere within a step: first order.
+    assert [b / a, c / b] == pytest.approx([0.5, 0.5], abs=0.1)
+    assert 1e-4 < np.max(errors) < 0.1
 
 
-def test_a_claim_that_the_numbers_do_not_bear_out_is_told():
-    spring = replace(SAVED.speeds["spring"], restitution=Spread(0.0, 0.02, 1))
-    worse = replace(SAVED, speeds={**SAVED.speeds, "spring": spring})
-    assert missed("mujoco-many", worse) == ("restitution errs by at most 1e-2",)
-    a_fifth = SAVED.speeds["spring"].tosses_per_second / 5
-    fast = replace(SAVED.speeds["spring"], loop_enough=FixedSteps(1e-6, a_fifth))
-    faster = replace(SAVED, speeds={**SAVED.speeds, "spring": fast})
-    assert missed("mujoco-many", faster) == (
+def test_a_small_study_is_made_and_what_it_claims_can_fail():
+    cells = REPRODUCTION.make(unseen, tosses=3, touches=3, seed=1).data
+    assert missed("mujoco-many", cells) == ()
+    assert missed("mujoco-many", cells.assign(restitution_worst=0.02)) == (
+        "restitution errs by at most 1e-2",
+    )
+    assert missed("mujoco-many", cells.assign(enough_times=5.0)) == (
         "no loop of fixed steps whose restitution errs by at most 1e-2 is a tenth as fast",
     )
-
-
-def test_what_no_step_reaches_is_told():
-    spring = replace(
-        SAVED.speeds["spring"], loop=None, loop_enough=FixedSteps(2e-6, 0.5), tosses_per_second=100.0
-    )
-    lines = result_of("mujoco-many", replace(SAVED, speeds={"spring": spring})).tables.splitlines()
-    assert [line for line in lines if line.startswith("| spring, ")] == [
-        "| spring, restitution to 2e-03 | none down to 1e-07 |  |  |",
-        "| spring, restitution to 1e-02 | 2.0e-06 | 0.5 | 200 |",
-    ]
-
-
-def test_a_small_study_is_made_and_read_again():
-    told = []
-    study = compute(lambda done, whole: told.append((done, whole)), 3, 3, 1)
-    assert told == [(1, 2), (2, 2)]
-    assert result_of("mujoco-many", study).data == study
-    assert all(speed.restitution.number == 3 for speed in study.speeds.values())
+    none = cells.assign(own_step=None, own_per_second=0.0, own_times=np.inf, restitution_worst=2e-3)
+    assert "| spring | 2e-03 |  | 0 | inf |" in result_of("mujoco-many", none).tables

@@ -81,6 +81,15 @@ def test_numbers_are_added_up_where_rows_are_the_same():
     assert measured(CELLS, said) == {"smooth": share_of(450, 2000), "rough": share_of(400, 1000)}
 
 
+def test_a_row_without_a_value_is_not_selected_but_an_estimate_of_nothing_is():
+    other = table_of([Cells(lambda: {"heads": 5, "whole": share_of(0, 0)}, {})], unseen, {})
+    both = pd.concat([CELLS, other])
+    assert measured(both, {"value": "width", "take": "max"}) == measured(
+        CELLS, {"value": "width", "take": "max"}
+    )
+    assert np.isnan(measured(both, {"value": "whole"}).value)
+
+
 def test_a_measure_that_selects_nothing_or_too_much_is_refused():
     with pytest.raises(ValueError, match="selects no row"):
         measured(CELLS, {"where": "chi > 1", "value": "width"})
@@ -98,6 +107,14 @@ def test_tables_show_columns_shares_and_one_axis_across():
         "| --- | ---: | ---: |",
         "| smooth | 15.0 % [12.3, 18.1] | 30.0 % [26.4, 33.9] |",
         "| rough | 40.0 % [36.1, 44.0] |  |",
+    ]
+
+
+def test_a_table_shows_words_with_columns_in_them():
+    said = {"says": "Heads:", "where": "chi == 0.3", "columns": [["of", "{heads:,d} of {tosses} ({floor})"]]}
+    assert tables_of(CELLS, [said]).splitlines()[-2:] == [
+        "| 150 of 1000 (smooth) |",
+        "| 400 of 1000 (rough) |",
     ]
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from cointoss.study import Estimate, chance_alike, in_words, paragraphs, percent, share_of, table
-from cointoss_reproduction.frame.cells import estimate
+from cointoss_reproduction.frame.cells import ENDS, estimate
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -44,12 +44,13 @@ def measured(cells: pd.DataFrame, said: Declared) -> Any:
     A measure has `value`, a column or an expression of columns, or `share`, the columns of a part and of its
     whole; of them the number `less` is subtracted, and `take` makes one of `TAKEN` of all rows. `key` has the
     columns that name the rows, by default none where one row is selected. `alike` has columns of counts: the
-    probability by chance that rows of the same `key` differ as they do.
+    probability by chance that rows of the same `key` differ as they do. A row of another cell, which has no
+    such value, is not selected.
 
     Raises:
         ValueError: where nothing is selected.
     """
-    rows = selected(cells, said)
+    rows = _having(selected(cells, said), said)
     if rows.empty:
         raise ValueError(f"{said}: selects no row")
     if "alike" in said:
@@ -57,7 +58,7 @@ def measured(cells: pd.DataFrame, said: Declared) -> Any:
         return {_name(key): chance_alike(each[said["alike"]].to_numpy(dtype=int)) for key, each in groups}
     if "take" in said:
         return _shifted(_taken(rows, said), said)
-    found = [_shifted(_one(row, said), said) for row in _with_value(rows, said).to_dict("records")]
+    found = [_shifted(_one(row, said), said) for row in rows.to_dict("records")]
     if "key" not in said:
         if len(found) != 1:
             raise ValueError(f"{said}: selects {len(found)} rows, and has no key")
@@ -69,8 +70,15 @@ def _taken(rows: pd.DataFrame, said: Declared) -> Any:
     if "share" in said:
         part, whole = (int(np.sum(rows[column])) for column in said["share"])
         return share_of(part, whole, said.get("counted", "tosses"))
-    values = rows.eval(said["value"], engine="python").to_numpy(dtype=float)
-    return TAKEN[said["take"]](values)
+    return TAKEN[said["take"]](rows[said["value"]].to_numpy(dtype=float))
+
+
+def _having(rows: pd.DataFrame, said: Declared) -> pd.DataFrame:
+    """Return the rows that have what a measure takes, with its value as a column; an estimate may be NaN."""
+    valued = _with_value(rows, said)
+    columns = said.get("alike") or said.get("share") or [said["value"]]
+    counted = [one + ENDS[-1] for one in columns if one + ENDS[-1] in valued]
+    return valued.loc[valued[columns].notna().all(axis=1) | valued[counted].notna().any(axis=1)]
 
 
 def _with_value(rows: pd.DataFrame, said: Declared) -> pd.DataFrame:
@@ -105,7 +113,8 @@ def tables_of(cells: pd.DataFrame, declared: Sequence[Declared]) -> str:
     """Return the declared tables in Markdown.
 
     A table has the sentence that it `says`, `where`, and `columns`: each a heading, a column or an expression
-    or a pair whose share is shown, and a format. The last is spread `across` the names on an axis.
+    or a pair whose share is shown, and a format; or a heading and words with columns in them, as in
+    "{median:.0e} ({worst:.0e})". The last is spread `across` the names on an axis.
     """
     return paragraphs(*(block for said in declared for block in (said["says"], _table(cells, said))))
 
@@ -114,13 +123,19 @@ def _table(cells: pd.DataFrame, said: Declared) -> str:
     rows, heads, shown = selected(cells, said), [], []
     for head, what, *form in said["columns"]:
         heads.append(head)
-        measure = {"share": what} if isinstance(what, list) else {"value": what}
-        found = [_one(row, measure) for row in _with_value(rows, measure).to_dict("records")]
-        shown.append([_cell(one, *form) for one in found])
+        shown.append(_column(rows, what, *form))
     body = [list(row) for row in zip(*shown, strict=True)]
     if "across" in said:
         heads, body = _across(heads, body, [_name((one,)) for one in rows[said["across"]]])
     return table(heads, body)
+
+
+def _column(rows: pd.DataFrame, what: str | list[str], form: str = "") -> list[str]:
+    if "{" in what:
+        return [str(what).format(**row) for row in rows.to_dict("records")]
+    measure = {"share": what} if isinstance(what, list) else {"value": what}
+    found = [_one(row, measure) for row in _with_value(rows, measure).to_dict("records")]
+    return [_cell(one, form) for one in found]
 
 
 def _across(heads: list[str], body: list[list[str]], names: list[str]) -> tuple[list[str], list[list[str]]]:
@@ -153,7 +168,7 @@ def picture_of(cells: pd.DataFrame, said: Declared | Sequence[Declared]) -> "Fig
     panels = [
         (name, rows, part)
         for part in ([said] if isinstance(said, Mapping) else said)
-        for name, rows in _panels(selected(cells, part), part)
+        for name, rows in _panels(_having(selected(cells, part), _drawn(part)), part)
     ]
     drawn = Figure(figsize=(7 if len(panels) == 1 else 4.5 * len(panels), 3.8))
     for axes, (name, rows, part) in zip(
@@ -174,7 +189,11 @@ def picture_of(cells: pd.DataFrame, said: Declared | Sequence[Declared]) -> "Fig
         for level in part.get("levels", ()):
             (axes.axvline if "names" in part else axes.axhline)(level, color="grey", linewidth=0.8)
         axes.set(**({"title": name} | {key: one for key, one in part.items() if key not in _OF_PICTURES}))
-    drawn.axes[-1].legend(loc="upper left", bbox_to_anchor=(1, 1))
+    *others, last = drawn.axes
+    last.legend(loc="upper left", bbox_to_anchor=(1, 1))
+    for axes in others:
+        if axes.get_legend_handles_labels()[1] != last.get_legend_handles_labels()[1]:
+            axes.legend()
     return drawn
 
 
@@ -188,8 +207,11 @@ def _panels(rows: pd.DataFrame, said: Declared) -> list[tuple[str, pd.DataFrame]
 
 
 def _lines(rows: pd.DataFrame, said: Declared) -> Iterator[tuple[str, pd.DataFrame, Any]]:
-    measure = {"share": said["y"]} if isinstance(said["y"], list) else {"value": said["y"]}
     for key, line in rows.groupby(said["lines"], sort=False):
-        found = [_one(row, measure) for row in _with_value(line, measure).to_dict("records")]
+        found = [_one(row, _drawn(said)) for row in line.to_dict("records")]
         ends = [one.ends if isinstance(one, Estimate) else (one, one, one) for one in found]
         yield _name(key), line, np.array(ends, dtype=float).T
+
+
+def _drawn(said: Declared) -> Declared:
+    return {"share" if isinstance(said["y"], list) else "value": said["y"]}

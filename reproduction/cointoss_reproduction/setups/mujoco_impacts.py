@@ -5,21 +5,15 @@ from typing import Any
 
 import numpy as np
 
-from cointoss import ContactLaw, EndingCriteria, Floor, Impacts, Release, Scenario, analytic, coin_mj
+from cointoss import ContactLaw, Floor, Impacts, Scenario, analytic, coin_mj
 from cointoss.coin_mj import MujocoSettings
-from cointoss.study import (
-    Array,
-    contact_velocity,
-    euler_parameters,
-    gap,
-    lowest_point,
-    rotation_matrix,
-    vector,
-)
+from cointoss.study import Array, gap, rotation_matrix
 from cointoss_reproduction.setups.general_coins import PAPER_OFFSET
 
 CLEARANCE = 1e-9
 """Height of the lowest rim point at release [m]: nothing happens on the way down."""
+AT_ONCE = 1e-7
+"""A touch comes so soon after the release [s]."""
 ALONE = 1e-4
 """No second rim point may land so soon after the first [s]."""
 SLOWEST = 0.3
@@ -27,38 +21,27 @@ SLOWEST = 0.3
 
 
 def touch(
-    *,
-    attitude: Array,
-    velocity: Array,
-    spin: Array,
+    release: dict[str, Sequence[float]],
+    restitution: float,
     thickness: float = 2e-3,
-    offset: tuple[float, float, float] = (0.0, 0.0, 0.0),
-    restitution: float = 0.8,
+    offset: Sequence[float] = (0, 0, 0),
 ) -> Scenario:
     """Return the toss of the paper's 1 zloty coin that touches a smooth floor at once, for one impact.
 
     Args:
-        attitude: Euler parameters of norm 1, body to space, (4,).
-        velocity: of C, space frame, (3,) [m/s].
-        spin: ω, body frame, (3,) [rad/s].
-        thickness: h [m].
-        offset: C from B, body frame [m].
+        release: attitude, velocity and spin, as a scenario has them.
         restitution: χ.
+        thickness: h [m].
+        offset: C from B, body frame, (3,) [m].
     """
-    high = Release(
-        position=(0.0, 0.0, 1.0),
-        velocity=vector(velocity),
-        quaternion=euler_parameters(attitude),
-        angular_velocity=vector(spin),
-    )
     described: dict[str, Any] = {
         "coin": {"mass": 2e-3, "radius": 1.25e-2, "thickness": thickness, "center_of_mass": offset},
-        "floor": Floor(restitution=restitution, contact=ContactLaw.SMOOTH),
-        "release": high,
-        "ending": EndingCriteria(max_impacts=1),
+        "floor": {"restitution": restitution, "contact": "smooth"},
+        "release": {"position": (0, 0, 1), **release},
+        "ending": {"max_impacts": 1},
     }
     case = Scenario.model_validate(described)
-    z = 1.0 - gap(case.body, 1.0, rotation_matrix(high.attitude)[2]) + CLEARANCE
+    z = 1.0 - gap(case.body, 1.0, rotation_matrix(case.release.attitude)[2]) + CLEARANCE
     return case.replace("release.position.z", z)
 
 
@@ -80,33 +63,23 @@ def draw_touches(
     while len(cases) < count:
         e = rng.normal(size=4)
         thickness = float(rng.choice([0.0, 2e-3]))
-        offset = np.array(PAPER_OFFSET) * float(rng.integers(2))
-        if thickness == 0:
-            offset[2] = 0
-        case = touch(
-            attitude=e / np.linalg.norm(e),
-            velocity=rng.uniform([-0.3, -0.3, -3.0], [0.3, 0.3, -1.0]),
-            spin=rng.uniform(-spin, spin, 3),
-            thickness=thickness,
-            offset=vector(offset),
-            restitution=float(rng.uniform(*restitutions)),
-        )
-        if -velocity_at_touch(case)[2] > SLOWEST and _is_alone(case):
+        offset = np.array(PAPER_OFFSET) * float(rng.integers(2)) * [1, 1, thickness > 0]
+        release = {
+            "quaternion": (e / np.linalg.norm(e)).tolist(),
+            "velocity": rng.uniform([-0.3, -0.3, -3.0], [0.3, 0.3, -1.0]).tolist(),
+            "angular_velocity": rng.uniform(-spin, spin, 3).tolist(),
+        }
+        case = touch(release, float(rng.uniform(*restitutions)), thickness, offset.tolist())
+        if _is_one_touch(case):
             cases.append(case)
     return cases
 
 
-def velocity_at_touch(case: Scenario) -> Array:
-    """Return the velocity of the lowest point at release, space frame, (3,) [m/s]."""
-    release, body = case.release, case.body
-    R = rotation_matrix(release.attitude)
-    point, _ = lowest_point(body, R[2], release.angular_velocity)
-    return np.array(contact_velocity(body, R, release.velocity, release.angular_velocity, point))
-
-
-def _is_alone(case: Scenario) -> bool:
-    times = analytic.toss(case.replace("ending.max_impacts", 2)).impacts.time
-    return bool(np.all(np.diff(times) > ALONE))
+def _is_one_touch(case: Scenario) -> bool:
+    """Return whether the coin touches at once, fast enough, and no second point lands with the first."""
+    found = analytic.toss(case.replace("ending.max_impacts", 2)).impacts
+    at_once = found.time[0] < AT_ONCE and found.contact_velocity_before[0, 2] < -SLOWEST
+    return bool(at_once and np.all(np.diff(found.time) > ALONE))
 
 
 def on_floor(case: Scenario, law: ContactLaw, friction: float) -> Scenario:
@@ -125,7 +98,7 @@ def by_mujoco(cases: Iterable[Scenario], settings: MujocoSettings) -> list[Impac
     return [coin_mj.impacts_of(case, settings=settings) for case in cases]
 
 
-def first(impacts: list[Impacts], column: str) -> Array:
+def first(impacts: Sequence[Impacts], column: str) -> Array:
     """Return a column of the first impact of each, infinite where there is none, (n, ...)."""
     empty = np.full(getattr(impacts[0], column).shape[1:], np.inf)
     return np.array([getattr(one, column)[0] if len(one) else empty for one in impacts])
@@ -140,9 +113,14 @@ def restitution_errors(cases: Sequence[Scenario], settings: MujocoSettings) -> A
     """Return |χ' - χ|, χ' the restitution of MuJoCo's first impacts, (n,)."""
     found = by_mujoco(cases, settings)
     after, before = first(found, "contact_velocity_after"), first(found, "contact_velocity_before")
-    return np.abs(-after[:, 2] / before[:, 2] - np.array([case.floor.restitution for case in cases]))
+    return np.abs(-after[:, 2] / before[:, 2] - [case.floor.restitution for case in cases])
 
 
 def relative_errors(a: Array, b: Array) -> Array:
     """Return |a - b|/|a| for each row, (n,)."""
     return np.linalg.norm(a - b, axis=1) / np.linalg.norm(a, axis=1)
+
+
+def spread(errors: Array) -> dict[str, float]:
+    """Return the median and the worst of errors, (n,)."""
+    return {"median": float(np.median(errors)), "worst": float(errors.max())}

@@ -1,16 +1,19 @@
 """Fig. 17: the six laws of contact, drawn from the impacts that they make of one touch."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from cointoss import ContactLaw, Impacts, Scenario, analytic, coin_mj, load
-from cointoss.coin_mj import Friction, MujocoSettings
-from cointoss.study import BLUE, PALE, ROUGH, VERMILION, Array, Progress, rotation_matrix
-from cointoss_reproduction.frame.declared import Data, Findings, declared
+from cointoss import ContactLaw, Impacts, analytic, coin_mj, load
+from cointoss.coin_mj import FINE, Friction, MujocoSettings
+from cointoss.study import BLUE, PALE, ROUGH, VERMILION, Array, rotation_matrix
+from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.mujoco_impacts import on_floor
 
 MU = load("contact_sliding_friction").floor.friction
@@ -20,123 +23,120 @@ MU = load("contact_sliding_friction").floor.friction
 class LawOfFigure:
     """A contact law of Fig. 17."""
 
-    letter: str
-    claim: str
+    law: ContactLaw
+    conditions: str
     misfit: Callable[[Array, Array, Array], Array]
     """What its conditions leave over, of v_A before and after (τ, ν, z) and of the impulse over the mass."""
-    contact: tuple[float, MujocoSettings] | None
+    contact: tuple[float, MujocoSettings] | None = None
     """Friction and settings of the MuJoCo contact that realises it."""
 
 
-def _kept(before: Array, after: Array, number: int) -> float:
-    return after[number] - before[number]
-
-
 LAWS = {
-    ContactLaw.SHARP_EDGE: LawOfFigure(
-        letter="a",
-        claim="sharp edge: v_Aν' = 0, v_Aτ' = v_Aτ",
-        misfit=lambda v, after, _: np.array([after[1], _kept(v, after, 0)]),
-        contact=None,
+    "a": LawOfFigure(
+        law=ContactLaw.SHARP_EDGE,
+        conditions="sharp edge: v_Aν' = 0, v_Aτ' = v_Aτ",
+        misfit=lambda v, after, _: np.array([after[1], after[0] - v[0]]),
     ),
-    ContactLaw.KNURLED: LawOfFigure(
-        letter="b",
-        claim="knurled: v_Aν' = v_Aν, v_Aτ' = 0",
-        misfit=lambda v, after, _: np.array([after[0], _kept(v, after, 1)]),
-        contact=None,
+    "b": LawOfFigure(
+        law=ContactLaw.KNURLED,
+        conditions="knurled: v_Aν' = v_Aν, v_Aτ' = 0",
+        misfit=lambda v, after, _: np.array([after[0], after[1] - v[1]]),
     ),
-    ContactLaw.PERFECTLY_ROUGH: LawOfFigure(
-        letter="c",
-        claim="perfectly rough: v_Aν' = v_Aτ' = 0",
+    "c": LawOfFigure(
+        law=ContactLaw.PERFECTLY_ROUGH,
+        conditions="perfectly rough: v_Aν' = v_Aτ' = 0",
         misfit=lambda _, after, __: after[:2],
-        contact=(ROUGH, MujocoSettings()),
+        contact=(ROUGH, FINE),
     ),
-    ContactLaw.SLIP_PRESERVING: LawOfFigure(
-        letter="d",
-        claim="smooth (1): v_Aν' = v_Aν, v_Aτ' = v_Aτ",
+    "d": LawOfFigure(
+        law=ContactLaw.SLIP_PRESERVING,
+        conditions="smooth (1): v_Aν' = v_Aν, v_Aτ' = v_Aτ",
         misfit=lambda v, after, _: after[:2] - v[:2],
         contact=(ROUGH, MujocoSettings(friction=Friction.NATIVE, slip_damping=0.0)),
     ),
-    ContactLaw.SMOOTH: LawOfFigure(
-        letter="e",
-        claim="smooth (2): S_τν = 0",
+    "e": LawOfFigure(
+        law=ContactLaw.SMOOTH,
+        conditions="smooth (2): S_τν = 0",
         misfit=lambda _, __, S: S[:2],
-        contact=(0.0, MujocoSettings()),
+        contact=(0.0, FINE),
     ),
-    ContactLaw.SLIDING_FRICTION: LawOfFigure(
-        letter="f",
-        claim="developed friction: S_τν = -μ S_z v_Aτν/v_Aτν",
+    "f": LawOfFigure(
+        law=ContactLaw.SLIDING_FRICTION,
+        conditions="developed friction: S_τν = -μ S_z v_Aτν/v_Aτν",
         misfit=lambda v, _, S: S[:2] + MU * S[2] * v[:2] / np.hypot(v[0], v[1]),
-        contact=(MU, MujocoSettings()),
+        contact=(MU, FINE),
     ),
 }
 
 
-def make(progress: Progress) -> Findings:
-    """Let each law act on the first touch of the scenarios `contact_` and compare MuJoCo's contacts."""
-    data: Data = {}
-    found = Findings(data=data, laws={})
-    for done, (name, law) in enumerate(LAWS.items(), start=1):
-        case = _one_impact(load(f"contact_{name}"))
-        by_law = analytic.toss(case).impacts
-        before, after, S = _in_the_floor(by_law)
-        misfit = max(
-            np.abs(law.misfit(before, after, S / case.coin.mass)).max(),
-            abs(after[2] + case.floor.restitution * before[2]),
-            np.abs(by_law.velocity_after - by_law.velocity_before - by_law.impulse / case.coin.mass).max(),
-        )
-        data |= {f"({law.letter}) before": before, f"({law.letter}) after": after}
-        data |= {f"({law.letter}) impulse": S}
-        shown, errors = "not realisable", {}
-        if law.contact is not None:
-            mu, settings = law.contact
-            by_mujoco = coin_mj.impacts_of(on_floor(case, ContactLaw.COULOMB, mu), settings=settings)
-            _, after_mujoco, S_mujoco = _in_the_floor(by_mujoco)
-            data |= {f"({law.letter}) after, MuJoCo": after_mujoco}
-            data |= {f"({law.letter}) impulse, MuJoCo": S_mujoco}
-            apart = float(np.linalg.norm(S_mujoco - S) / np.linalg.norm(S))
-            shown = f"{_row(after_mujoco, S_mujoco)}; impulse within {apart:.0e}"
-            if name == ContactLaw.SLIDING_FRICTION:
-                shown = f"Coulomb's friction: {shown}"
-            else:
-                errors = {"MuJoCo's error": apart}
-        told = {"conditions": law.claim, "row": _row(after, S), "shown": shown}
-        found.laws[law.letter] = told | {"misfit": misfit, "errors": errors, "lost": -_gained(by_law)}
-        progress(done, len(LAWS))
-    S = data["(d) impulse"]
-    found.horizontal = np.hypot(S[0], S[1])
-    found.over_S_z = found.horizontal / S[2]
-    found.slips = [np.hypot(*data[f"(f) {part}"][:2]) for part in ("before", "after", "after, MuJoCo")]
-    found.lost_by_coulomb = -_gained_by_coulomb()
-    return found
+def touched(law: LawOfFigure) -> dict[str, float]:
+    """Let a law act on the first touch of its scenario `contact_`, and the MuJoCo contact that is alike."""
+    case = load(f"contact_{law.law}").replace("ending.max_impacts", 1)
+    rubbed = [on_floor(case, ContactLaw.COULOMB, mu) for mu in (MU, law.contact[0] if law.contact else 0.0)]
+    impacts = analytic.toss(case).impacts
+    vectors = _in_the_floor(impacts)
+    before, after, S = vectors.values()
+    if law.contact is not None:
+        by_mujoco = _in_the_floor(coin_mj.impacts_of(rubbed[1], settings=law.contact[1]))
+        vectors |= {f"{part} by MuJoCo": vector for part, vector in by_mujoco.items()}
+    misfit = max(
+        np.abs(law.misfit(before, after, S / case.coin.mass)).max(),
+        abs(after[2] + case.floor.restitution * before[2]),
+        np.abs(impacts.velocity_after - impacts.velocity_before - impacts.impulse / case.coin.mass).max(),
+    )
+    return {
+        "misfit": misfit,
+        "lost": _lost(impacts),
+        "lost_by_coulomb": _lost(analytic.toss(rubbed[0]).impacts),
+        **{f"{part} {axis}": x for part, of in vectors.items() for axis, x in zip("τνz", of, strict=True)},
+    }
 
 
-def _gained(impacts: Impacts) -> float:
-    """Return the change of energy in the first impact, relative to the energy before it."""
+def _lost(impacts: Impacts) -> float:
+    """Return the energy that the first impact takes, over the energy before it."""
     change = impacts.energy_change[0]
-    return float(change / (impacts.energy[0] - change))
+    return -float(change / (impacts.energy[0] - change))
 
 
-def _gained_by_coulomb() -> float:
-    case = _one_impact(load("contact_sliding_friction"))
-    return _gained(analytic.toss(on_floor(case, ContactLaw.COULOMB, MU)).impacts)
-
-
-def _one_impact(case: Scenario) -> Scenario:
-    return case.replace("ending.max_impacts", 1)
-
-
-def _in_the_floor(impacts: Impacts) -> tuple[Array, Array, Array]:
+def _in_the_floor(impacts: Impacts) -> dict[str, Array]:
     """Return v_A before and after the first impact, and its impulse: along the edge, across it, and up."""
     xi, eta, _ = impacts.point[0]
     R = np.array(rotation_matrix(tuple(impacts.quaternion[0])))
     tau = R @ [-eta, xi, 0] / np.hypot(xi, eta)
     axes = np.array([tau, [-tau[1], tau[0], 0], [0, 0, 1]])
-    return (
-        axes @ impacts.contact_velocity_before[0],
-        axes @ impacts.contact_velocity_after[0],
-        axes @ impacts.impulse[0],
-    )
+    return {
+        "before": axes @ impacts.contact_velocity_before[0],
+        "after": axes @ impacts.contact_velocity_after[0],
+        "impulse": axes @ impacts.impulse[0],
+    }
+
+
+def _vectors(row: Mapping[str, Any], by: str = "") -> list[Array]:
+    """Return what `_in_the_floor` found, of a row."""
+    return [
+        np.array([row[f"{part}{by} {axis}"] for axis in "τνz"]) for part in ("before", "after", "impulse")
+    ]
+
+
+def found(cells: pd.DataFrame) -> dict[str, Any]:
+    """Return what the claims name."""
+    laws, rows = {}, cells.set_index("law").to_dict("index")
+    for letter, row in rows.items():
+        law, (_, after, S) = LAWS[str(letter)], _vectors(row)
+        shown, errors = "not realisable", {}
+        if law.contact is not None:
+            _, after_mujoco, S_mujoco = _vectors(row, " by MuJoCo")
+            apart = float(np.linalg.norm(S_mujoco - S) / np.linalg.norm(S))
+            shown = f"{_row(after_mujoco, S_mujoco)}; impulse within {apart:.0e}"
+            errors = {"MuJoCo's error": apart}
+        if law.law == ContactLaw.SLIDING_FRICTION:
+            shown, errors = f"Coulomb's friction: {shown}", {}
+        words = {"conditions": law.conditions, "row": _row(after, S), "shown": shown}
+        laws[letter] = {**row, **words, "errors": errors}
+    S, (_, after_mujoco, _) = _vectors(rows["d"])[2], _vectors(rows["f"], " by MuJoCo")
+    slips = [np.hypot(v[0], v[1]) for v in (*_vectors(rows["f"])[:2], after_mujoco)]
+    horizontal = np.hypot(S[0], S[1])
+    return {"laws": laws, "slips": slips, "horizontal": horizontal, "over_S_z": horizontal / S[2]}
 
 
 def _row(after: Array, S: Array) -> str:
@@ -148,19 +148,19 @@ def _triple(x: Array) -> str:
     return "(" + ", ".join(f"{number + 0:.3f}" for number in np.round(x, 3)) + ")"
 
 
-def _draw(data: Data) -> Figure:
+def draw(cells: pd.DataFrame) -> Figure:
+    """Draw each law's velocities and impulse in the floor."""
     picture = Figure(figsize=(9, 5.6))
     panels = picture.subplots(2, 3, sharex=True, sharey=True).flat
-    for axes, (name, law) in zip(panels, LAWS.items(), strict=True):
-        before, after, S = (data[f"({law.letter}) {part}"] for part in ("before", "after", "impulse"))
+    for axes, row in zip(panels, cells.to_dict("records"), strict=True):
+        law, (before, after, S) = LAWS[str(row["law"])], _vectors(row)
         _arrow(axes, before, PALE, 5, "v_A")
         _arrow(axes, after, BLUE, 2, "v_A'")
         _arrow(axes, 1e3 * S, VERMILION, 2, "S [mN s]")
-        if law.contact is not None:
-            for part, color, unit in (("after", BLUE, 1), ("impulse", VERMILION, 1e3)):
-                tip = unit * data[f"({law.letter}) {part}, MuJoCo"]
-                axes.plot(tip[0], tip[1], "o", color=color, markersize=9, fillstyle="none")
-        title = f"({law.letter}) {str(name).replace('_', ' ')}: S_z = {1e3 * S[2]:.2f} mN s"
+        _, after, S_mujoco = _vectors(row, " by MuJoCo")
+        for tip, color in ((after, BLUE), (1e3 * S_mujoco, VERMILION)):
+            axes.plot(tip[0], tip[1], "o", color=color, markersize=9, fillstyle="none")
+        title = f"({row['law']}) {str(law.law).replace('_', ' ')}: S_z = {1e3 * S[2]:.2f} mN s"
         axes.set_title(title, fontsize=9)
     for axes in picture.axes[3:]:
         axes.set_xlabel("τ, along the edge [m/s]")
@@ -175,4 +175,4 @@ def _arrow(axes: Axes, tip: Array, color: str, width: float, label: str) -> None
     axes.plot(tip[0], tip[1], "o", color=color, markersize=4)
 
 
-REPRODUCTION = declared(__name__, make, draw={"figure": _draw})
+REPRODUCTION = study(__name__, Cells(touched, {"law": LAWS}), found=found, draw={"figure": draw})

@@ -11,6 +11,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
+from mujoco import rollout
 
 from cointoss import UnusableEngineError
 from cointoss.study import Array
@@ -22,8 +23,8 @@ Stepped = Callable[[Any, Array, Array, int], Array]
 """Returns qpos and qvel after each step, (steps, n, nq + nv), of a model, n states of both, and steps."""
 
 
-def require_backends() -> str:
-    """Return the versions of all that steps models here.
+def require_backends() -> dict[str, str]:
+    """Return the versions of all that steps models here, by package.
 
     Raises:
         UnusableEngineError: naming a package that is not installed, and what installs it.
@@ -32,19 +33,14 @@ def require_backends() -> str:
         if find_spec(module) is None:
             accepted = "pip install mujoco-mjx mujoco-warp"
             raise UnusableEngineError(f"{package}: not installed; accepted: it is, by {accepted}")
-    return ", ".join(f"{package} {version(package)}" for package in ("mujoco", *PACKAGES.values()))
+    return {package: version(package) for package in ("mujoco", *PACKAGES.values())}
 
 
 def by_mujoco(model: Any, qpos: Array, qvel: Array, steps: int) -> Array:
     """Step by MuJoCo."""
-    found = np.empty((steps, len(qpos), model.nq + model.nv))
-    for number, (q, v) in enumerate(zip(qpos, qvel, strict=True)):
-        data = mujoco.MjData(model)
-        data.qpos[:], data.qvel[:] = q, v
-        for step in range(steps):
-            mujoco.mj_step(model, data)
-            found[step, number] = [*data.qpos, *data.qvel]
-    return found
+    start = np.hstack([np.zeros((len(qpos), 1)), qpos, qvel])
+    states: Any = rollout.rollout(model, mujoco.MjData(model), start, nstep=steps)[0]
+    return np.swapaxes(states[:, :, 1:], 0, 1)
 
 
 def by_mjx(model: Any, qpos: Array, qvel: Array, steps: int, *, double: bool = False) -> Array:

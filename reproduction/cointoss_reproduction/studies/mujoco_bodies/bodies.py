@@ -10,10 +10,10 @@ import mujoco
 import numpy as np
 
 from cointoss.study import GRAVITY, LONGEST, PHASES, SPEED, Array, ContactSettings
+from cointoss_reproduction.setups.mujoco_models import model_of
 
 SIZE = 0.1
 """Of the bodies [m]."""
-_OFFSET = '<inertial pos="{x} {y} {z}" mass="{mass}" diaginertia="{moment} {moment} {moment}"/>'
 BODY = 1
 """Number of the body and of its geom; the world and its plane come first."""
 
@@ -74,42 +74,34 @@ def rebounds(shape: Shape, touch: Touch) -> BodyRebounds:
 
 def resting_depth(touch: Touch) -> float:
     """Return how deep a ball lies in the floor under its weight [m]."""
-    model = mujoco.MjModel.from_xml_string(_described(SHAPES["ball"], touch))
+    model = _model(SHAPES["ball"], touch)
     model.opt.gravity[2] = -GRAVITY
     data = mujoco.MjData(model)
     data.qpos[2] = SIZE
-    for _ in range(20 * LONGEST):
-        mujoco.mj_step(model, data)
+    mujoco.mj_step(model, data, nstep=20 * LONGEST)
     return float(SIZE - data.qpos[2])
 
 
-def _described(shape: Shape, touch: Touch) -> str:
-    x, y, z = shape.center
-    off = any(shape.center)
-    inertial = (
-        _OFFSET.format(x=x, y=y, z=z, mass=touch.mass, moment=0.4 * touch.mass * SIZE**2) if off else ""
+def _model(shape: Shape, touch: Touch) -> mujoco.MjModel:
+    inertial = ""
+    if any(shape.center):
+        moment, (x, y, z) = 0.4 * touch.mass * SIZE**2, shape.center
+        moments = f'mass="{touch.mass}" diaginertia="{moment} {moment} {moment}"'
+        inertial = f'<inertial pos="{x} {y} {z}" {moments}/>'
+    model = model_of(
+        touch,
+        f'<geom type="plane" size="0 0 1" condim="1" {touch.plane}/>'
+        f'<body euler="{shape.tilt}"><freejoint/>{inertial}'
+        f'<geom {shape.geom} mass="{touch.mass}" condim="1" {touch.geom} {touch.body}/></body>',
+        'gravity="0 0 0"',
     )
-    mass = "" if off else f'mass="{touch.mass!r}"'
-    flags = {"diagexact": touch.exact, "speculative": touch.speculative}
-    flag = " ".join(f'{name}="{"enable" if on else "disable"}"' for name, on in flags.items())
-    return f"""<mujoco>
-  <option timestep="{touch.timestep!r}" integrator="{touch.integrator}" gravity="0 0 0">
-    <flag {flag}/>
-  </option>
-  <worldbody>
-    <geom type="plane" size="0 0 1" condim="1" {touch.plane}/>
-    <body euler="{shape.tilt}">
-      <freejoint/>
-      {inertial}
-      <geom {shape.geom} {mass} condim="1" {touch.geom} {touch.body}/>
-    </body>
-  </worldbody>
-</mujoco>"""
+    model.opt.enableflags |= touch.speculative * int(mujoco.mjtEnableBit.mjENBL_SPECULATIVE)
+    return model
 
 
 def _drop(shape: Shape, touch: Touch, phase: float) -> tuple[Array, float]:
     """Return the restitution of each point that touches first, and the greatest depth [m]."""
-    model = mujoco.MjModel.from_xml_string(_described(shape, touch))
+    model = _model(shape, touch)
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     data.qpos[2] = -_corners(model, data)[:, 2].min() + SPEED * touch.timestep * (2 + phase)

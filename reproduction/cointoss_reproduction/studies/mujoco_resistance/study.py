@@ -3,29 +3,17 @@
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
 
-from dataclasses import dataclass, replace
-from itertools import pairwise
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from typing import Any
 
 import mujoco
 import numpy as np
-from matplotlib.figure import Figure
 
 from cointoss import Scenario, coin_mj
-from cointoss.study import (
-    BLUE,
-    DEFAULT,
-    GREEN,
-    GREY,
-    HARDEST,
-    INK,
-    ORANGE,
-    VERMILION,
-    Progress,
-    paragraphs,
-    table,
-)
-from cointoss_reproduction.frame.recorded import recorded
+from cointoss.study import DEFAULT, HARDEST, Array
+from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.study import study
 
 MASS, RADIUS, GRAVITY = 2e-3, 1.25e-2, 9.81
 """Of all bodies [kg], [m], and on them [m/s²]."""
@@ -57,6 +45,17 @@ class Start:
     spin: float
     """About the vertical [rad/s]."""
 
+    @property
+    def motions(self) -> list[str]:
+        """What the body does."""
+        return [name for name, speed in (("rolls", self.speed), ("turns", self.spin)) if speed]
+
+    @property
+    def slowing(self) -> tuple[float, float]:
+        """How much of either a second takes by moments -δ N against the roll and -p N against the turning."""
+        across, axial = INERTIA[self.body]
+        return SIZE * GRAVITY / (RADIUS * (1 + axial)), SIZE * GRAVITY / (across * RADIUS**2)
+
 
 STARTS = {
     "hoop rolls": Start("hoop", SPEED, 0.0),
@@ -65,76 +64,40 @@ STARTS = {
     "ball turns": Start("ball", 0.0, SPIN),
     "ball does both": Start("ball", SPEED, SPIN),
 }
-
-
-@dataclass(frozen=True)
-class NativeFriction:
-    """Settings of MuJoCo's own friction."""
-
-    cone: str
-    solimp: str = DEFAULT
-    impratio: float = 1.0
-
-
+BALL = STARTS["ball rolls"]
 CONTACTS = {
-    "MuJoCo's default: pyramidal": NativeFriction("pyramidal"),
-    "pyramidal, solimp 0.9999": NativeFriction("pyramidal", HARDEST),
-    "elliptic": NativeFriction("elliptic"),
-    "elliptic, impratio 100": NativeFriction("elliptic", DEFAULT, 100.0),
-    "elliptic, solimp 0.9999": NativeFriction("elliptic", HARDEST),
+    "pyramidal, by default": ("pyramidal", DEFAULT, 1.0),
+    "pyramidal, solimp 0.9999": ("pyramidal", HARDEST, 1.0),
+    "elliptic": ("elliptic", DEFAULT, 1.0),
+    "elliptic, impratio 100": ("elliptic", DEFAULT, 100.0),
+    "elliptic, solimp 0.9999": ("elliptic", HARDEST, 1.0),
 }
+"""Cone, solimp and impratio of MuJoCo's own friction."""
 
 
-@dataclass(frozen=True)
-class Stopped:
-    """How a body stopped; what it did not do is 0."""
+def ends(start: Start, motion: Array) -> dict[str, float]:
+    """Return how far a body rolls [m] and how long it turns [s], until `LEFT` of either is left, and its hop.
 
-    distance: float
-    """That it rolled [m]."""
-    duration: float
-    """Of its turning about the vertical [s]."""
-    hop: float = 0.0
-    """Greatest height above the floor on its way [m]."""
-
-
-@dataclass(frozen=True)
-class Run:
-    """A body's motion over time, with its end."""
-
-    times: list[float]
-    """[s]."""
-    rolling: list[float]
-    """Speed of rolling, r times the level part of ω [m/s]."""
-    stopped: Stopped
-
-
-@dataclass(frozen=True)
-class NativeResistance:
-    """What the study found, by contact and by start; "explicit" for coins alone."""
-
-    closed: dict[str, Stopped]
-    explicit: dict[str, Stopped]
-    native: dict[str, dict[str, Stopped]]
-    by_step: dict[str, list[float]]
-    """Distance of the ball that rolls for each of `STEPS` [m], by contact."""
-    balls: dict[str, Run]
-    """The ball that rolls, by contact."""
-
-
-def closed_form(start: Start) -> Stopped:
-    """Return how moments -δ N against the roll and -p N against the turning stop a body.
-
-    v falls by δ g/(r (1 + J/(m r²))) a second and ω_z by p m g/J; `LEFT` of either is left.
+    Args:
+        start: how the body was set going.
+        motion: its time [s], r times the level part of ω [m/s], ω about the vertical [rad/s], way [m] and
+            height above the floor [m], (5, n).
     """
-    across, axial = INERTIA[start.body]
-    slowing = SIZE * GRAVITY / (RADIUS * (1 + axial))
-    return Stopped(
-        distance=start.speed**2 / (2 * slowing) * (1 - LEFT**2),
-        duration=start.spin * across * RADIUS**2 / (SIZE * GRAVITY) * (1 - LEFT),
-    )
+    times, rolling, turning, way, height = motion
+    after, late = np.argmax(rolling < LEFT * start.speed), np.argmax(turning < LEFT * start.spin)
+    return {"rolls": float(way[after]), "turns": float(times[late]), "hop": max(float(height.max()), 0.0)}
 
 
-def explicit(start: Start) -> Stopped:
+def closed_form(start: Start) -> dict[str, float]:
+    """Return how far a body rolls [m] and how long it turns [s], until `LEFT` of either is left."""
+    rolling, turning = start.slowing
+    return {
+        "rolls": start.speed**2 / (2 * rolling) * (1 - LEFT**2),
+        "turns": start.spin / turning * (1 - LEFT),
+    }
+
+
+def explicit(start: Start) -> dict[str, float]:
     """Return how the moments of `coin_mj` stop a disc or a hoop."""
     across, axial = INERTIA[start.body]
     inertia = np.diag([across, across, axial]) * MASS * RADIUS**2
@@ -158,23 +121,14 @@ def explicit(start: Start) -> Stopped:
     )
     tossed = coin_mj.toss(case)
     states = tossed.sample(np.linspace(0, tossed.end_time, 4001))
-    rolling, turning = np.abs(states.angular_velocity[:, 2]), np.abs(states.angular_velocity[:, 1])
-    return _stopped(start, states.time, rolling * RADIUS, turning, states.position[:, 0])
+    _, turning, rolling = np.abs(states.angular_velocity).T
+    x, _, z = states.position.T
+    return ends(start, np.array([states.time, rolling * RADIUS, turning, x, z - RADIUS]))
 
 
-def _stopped(start: Start, times, rolling, turning, way) -> Stopped:
-    """Return where a body stopped, from samples of its motion."""
-    distance = duration = 0.0
-    if start.speed > 0:
-        distance = float(way[int(np.argmax(rolling < LEFT * start.speed))])
-    if start.spin > 0:
-        duration = float(times[int(np.argmax(turning < LEFT * start.spin))])
-    return Stopped(distance, duration)
-
-
-def native(start: Start, contact: NativeFriction, step: float = STEP) -> Run:
-    """Return how MuJoCo's own friction stops a body, stepped by `mj_step`."""
-    model = mujoco.MjModel.from_xml_string(described(start.body, contact, step))
+def native(start: Start, cone: str, solimp: str, impratio: float, step: float = STEP) -> Array:
+    """Return the motion of a body that MuJoCo's own friction stops, stepped by `mj_step`, see `ends`."""
+    model = mujoco.MjModel.from_xml_string(_described(start.body, cone, solimp, impratio, step))
     data = mujoco.MjData(model)
     while data.time < SETTLING:
         mujoco.mj_step(model, data)
@@ -192,12 +146,10 @@ def native(start: Start, contact: NativeFriction, step: float = STEP) -> Run:
             break
         mujoco.mj_step(model, data)
         mujoco.mj_kinematics(model, data)
-    times, rolling, turning, way, height = np.array(rows).T
-    stopped = replace(_stopped(start, times, rolling, turning, way), hop=max(float(height.max()), 0.0))
-    return Run(times[::SAMPLED].tolist(), rolling[::SAMPLED].tolist(), stopped)
+    return np.array(rows).T
 
 
-def described(body: str, contact: NativeFriction, step: float) -> str:
+def _described(body: str, cone: str, solimp: str, impratio: float, step: float) -> str:
     """Return the model of a body on a plane, upright, as XML."""
     across, axial = INERTIA[body]
     inertia = " ".join(repr(part * MASS * RADIUS**2) for part in (across, across, axial))
@@ -205,110 +157,59 @@ def described(body: str, contact: NativeFriction, step: float) -> str:
         f'type="sphere" size="{RADIUS}"' if body == "ball" else f'type="cylinder" size="{RADIUS} {THIN / 2}"'
     )
     return f"""<mujoco>
-  <option timestep="{step}" integrator="implicitfast" cone="{contact.cone}" impratio="{contact.impratio}"/>
+  <option timestep="{step}" integrator="implicitfast" cone="{cone}" impratio="{impratio}"/>
   <worldbody>
     <geom type="plane" size="0 0 1"/>
     <body name="body" pos="0 0 {RADIUS}" euler="90 0 0">
       <freejoint/>
       <inertial pos="0 0 0" mass="{MASS}" diaginertia="{inertia}"/>
-      <geom {shape} condim="6" friction="1 {SIZE} {SIZE}" priority="1" solimp="{contact.solimp}"/>
+      <geom {shape} condim="6" friction="1 {SIZE} {SIZE}" priority="1" solimp="{solimp}"/>
     </body>
   </worldbody>
 </mujoco>"""
 
 
-def compute(progress: Progress) -> NativeResistance:
-    """Let every body stop by every contact."""
-    found, balls = {}, {}
-    for done, (name, contact) in enumerate(CONTACTS.items(), start=1):
-        runs = {label: native(start, contact) for label, start in STARTS.items()}
-        found[name], balls[name] = {label: run.stopped for label, run in runs.items()}, runs["ball rolls"]
-        progress(done, len(CONTACTS) + 1)
-    rolls = STARTS["ball rolls"]
-    by_step = {
-        name: [native(rolls, contact, step).stopped.distance for step in STEPS]
+BY: dict[str, Callable[[Start], dict[str, float]]] = {
+    "closed form": closed_form,
+    "explicit moments": explicit,
+    **{
+        name: lambda start, contact=contact: ends(start, native(start, *contact))
         for name, contact in CONTACTS.items()
-    }
-    progress(len(CONTACTS) + 1, len(CONTACTS) + 1)
-    return NativeResistance(
-        closed={label: closed_form(start) for label, start in STARTS.items()},
-        explicit={label: explicit(start) for label, start in STARTS.items() if start.body != "ball"},
-        native=found,
-        by_step=by_step,
-        balls=balls,
-    )
+    },
+}
 
 
-def errors(found: NativeResistance, stopped: dict[str, Stopped]) -> dict[str, tuple[float, float]]:
-    """Return the relative errors of distance and duration by start; 0 for what a body did not do."""
-
-    def off(value: float, expected: float) -> float:
-        return value / expected - 1 if expected else 0.0
-
-    return {
-        label: (
-            off(each.distance, found.closed[label].distance),
-            off(each.duration, found.closed[label].duration),
-        )
-        for label, each in stopped.items()
-    }
+def stopped(start: Start, by: Callable[[Start], dict[str, float]]) -> Iterator[dict[str, Any]]:
+    """Let a body stop; explicit moments stop coins alone."""
+    if by is explicit and start.body == "ball":
+        return
+    found, expected = by(start), closed_form(start)
+    for motion in start.motions:
+        error = found[motion] / expected[motion] - 1
+        yield {"motion": motion, "until": found[motion], "error": error, "hop": found.get("hop")}
 
 
-def measures(found: NativeResistance) -> dict[str, Any]:
-    """Return what the claims name."""
-    by_contact = {name: errors(found, each) for name, each in found.native.items()}
-    hard, default = by_contact["elliptic, solimp 0.9999"], by_contact["MuJoCo's default: pyramidal"]
-    return {
-        "explicit": max(abs(part) for pair in errors(found, found.explicit).values() for part in pair),
-        "alone": max(abs(part) for label, pair in hard.items() if label != "ball does both" for part in pair),
-        "further": 1 + default["ball rolls"][0],
-        "longer": 1 + hard["ball does both"][1],
-        "change": max(
-            abs(fine / coarse - 1) for runs in found.by_step.values() for coarse, fine in pairwise(runs)
-        ),
-    }
+def stepped(stepped: tuple[str, str, float]) -> Iterator[dict[str, float | None]]:
+    """Let a ball roll in longer and shorter steps, each with its change from the one before."""
+    before = None
+    for step in STEPS:
+        way = ends(BALL, native(BALL, *stepped, step))["rolls"]
+        yield {"step": step, "way": way, "change": way / before - 1 if before else None}
+        before = way
 
 
-def tables(found: NativeResistance) -> str:
-    """Return the tables, in Markdown."""
-
-    def row(name: str, stopped: dict[str, Stopped]) -> list[str]:
-        cells = []
-        for label, start in STARTS.items():
-            each = stopped.get(label, Stopped(0.0, 0.0))
-            parts = [each.distance] * (start.speed > 0) + [each.duration] * (start.spin > 0)
-            cells.append(", ".join(f"{part:.4f}" for part in parts) if label in stopped else "-")
-        return [name, *cells, f"{1e6 * max(each.hop for each in stopped.values()):.0f}"]
-
-    stopped = {"closed form": found.closed, "explicit moments": found.explicit, **found.native}
-    steps = [[name, *(f"{way:.4f}" for way in ways)] for name, ways in found.by_step.items()]
-    return paragraphs(
-        f"A body of {1e3 * MASS:g} g and r = {1e3 * RADIUS:g} mm, upright on a floor with μ = 1 and "
-        f"δ = p = {1e3 * SIZE:g} mm, that rolls at {SPEED:g} m/s or turns about the vertical at "
-        f"{SPIN:g} rad/s, until {LEFT:.0%} of that is left; `mj_step` with implicitfast and steps of "
-        f"{1e3 * STEP:g} ms:",
-        table(
-            " | hoop rolls [m] | ball rolls [m] | disc turns [s] | ball turns [s] | ball does both [m, s] | "
-            "highest hop [µm]",
-            [row(name, each) for name, each in stopped.items()],
-        ),
-        table(["the ball that rolls comes [m], steps of", *(f"{1e3 * step:g} ms" for step in STEPS)], steps),
-    )
+def drawn(drawn: tuple[str, str, float] | None) -> Iterator[dict[str, float]]:
+    """Let a ball roll, and look at its speed from time to time; by the closed form at both ends."""
+    times, speeds = np.array([0, BALL.speed / BALL.slowing[0]]), np.array([BALL.speed, 0])
+    if drawn is not None:
+        times, speeds, *_ = native(BALL, *drawn)[:, ::SAMPLED]
+    for time, speed in zip(times.tolist(), speeds.tolist(), strict=True):
+        yield {"time": time, "speed": speed}
 
 
-def draw(found: NativeResistance) -> Figure:
-    """Draw the speed of the ball that rolls."""
-    picture = Figure(figsize=(7, 3.4))
-    axes = picture.subplots()
-    for (name, run), color in zip(found.balls.items(), (VERMILION, ORANGE, BLUE, GREEN, GREY), strict=True):
-        axes.plot(run.times, run.rolling, color=color, label=name)
-    slowing = SIZE * GRAVITY / (RADIUS * (1 + INERTIA["ball"][1]))
-    axes.plot([0, SPEED / slowing], [SPEED, 0], color=INK, linestyle=":", label="closed form")
-    axes.set(xlabel="t [s]", ylabel="speed of the ball [m/s]")
-    axes.legend()
-    return picture
-
-
-REPRODUCTION = recorded(
-    __name__, compute, record=NativeResistance, measures=measures, tables=tables, draw={"ball": draw}
+REPRODUCTION = study(
+    __name__,
+    Cells(stopped, {"start": STARTS, "by": BY}),
+    Cells(stepped, {"stepped": CONTACTS}),
+    Cells(drawn, {"drawn": {**CONTACTS, "closed form": None}}),
 )

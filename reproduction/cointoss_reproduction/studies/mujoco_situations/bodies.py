@@ -7,22 +7,12 @@ import mujoco
 import numpy as np
 
 from cointoss.study import PHASES, SPEED, Array, ContactSettings
+from cointoss_reproduction.setups.mujoco_models import RECIPE, model_of, sliding_ball
 
 STACK = (0.1, 0.1, 0.1, 0.1, 10.0)
 """Masses of boxes, from below [kg]."""
 RADIUS = 0.1
 """Of the balls [m]."""
-RECIPE = 'cone="elliptic" impratio="1e-6" noslip_iterations="20"'
-"""Options with which a ball has restitution and Coulomb friction together."""
-
-
-def _model(contact: ContactSettings, bodies: str, option: str = "", more: str = "") -> mujoco.MjModel:
-    exact = "enable" if contact.exact else "disable"
-    return mujoco.MjModel.from_xml_string(
-        f'<mujoco><option timestep="{contact.timestep!r}" integrator="{contact.integrator}" {option}>'
-        f'<flag diagexact="{exact}" energy="enable"/></option>'
-        f"<worldbody>{bodies}</worldbody>{more}</mujoco>"
-    )
 
 
 def stack(contact: ContactSettings, condim: int) -> tuple[float, float]:
@@ -40,10 +30,7 @@ def stack(contact: ContactSettings, condim: int) -> tuple[float, float]:
         f'<geom type="box" size="0.05 0.05 0.05" mass="{mass}" {contact.pasted(condim)}/></body>'
         for number, mass in enumerate(STACK)
     )
-    floor = f'<geom type="plane" size="0 0 1" {contact.pasted(condim)}/>'
-    model = mujoco.MjModel.from_xml_string(
-        f"<mujoco>{contact.option}<worldbody>{floor}{boxes}</worldbody></mujoco>"
-    )
+    model = model_of(contact, f'<geom type="plane" size="0 0 1" {contact.pasted(condim)}/>{boxes}')
     data, heights = mujoco.MjData(model), []
     for duration in (30, 10):
         mujoco.mj_step(model, data, nstep=round(duration / contact.timestep))
@@ -59,15 +46,6 @@ def ball(place: float, contact: ContactSettings) -> str:
     )
 
 
-def hits(contact: ContactSettings, bodies: str) -> Array:
-    """Return the velocities of bodies, the first of which came at 1 m/s, when no more of them touch."""
-    model = _model(contact, bodies, 'gravity="0 0 0"')
-    data = mujoco.MjData(model)
-    data.qvel[0] = 1.0
-    mujoco.mj_step(model, data, nstep=round(1 / contact.timestep))
-    return data.qvel.copy()
-
-
 def rod(contact: ContactSettings) -> str:
     """Return a rod of 10 kg, 1 m long, hinged at one end, that a ball may hit at the other."""
     return (
@@ -77,7 +55,18 @@ def rod(contact: ContactSettings) -> str:
     )
 
 
-def sliding(contact: ContactSettings, friction: float, slip: float, option: str) -> tuple[float, float]:
+def hits(contact: ContactSettings, bodies: str) -> Array:
+    """Return the velocities of bodies, the first of which came at 1 m/s, when no more of them touch."""
+    model = model_of(contact, bodies, 'gravity="0 0 0"')
+    data = mujoco.MjData(model)
+    data.qvel[0] = 1.0
+    mujoco.mj_step(model, data, nstep=round(1 / contact.timestep))
+    return data.qvel.copy()
+
+
+def sliding(
+    contact: ContactSettings, friction: float, slip: float, option: str = RECIPE
+) -> tuple[float, float]:
     """Return the errors of the restitution and of the slip of a ball that slides.
 
     A ball of 10 cm comes down at `SPEED` on a `<pair>` with Coulomb friction: the slip of a solid ball ends
@@ -86,17 +75,8 @@ def sliding(contact: ContactSettings, friction: float, slip: float, option: str)
     Returns:
         Largest |e' - e|, and largest error of the slip over `SPEED`, over 16 phases of a step.
     """
-    e = 0.8
-    pair = (
-        f'<contact><pair geom1="floor" geom2="ball" condim="3" friction="{friction} {friction} 0 0 0" '
-        f'{contact.geom} solreffriction="0 {-1 / contact.timestep!r}"/></contact>'
-    )
-    bodies = (
-        '<geom name="floor" type="plane" size="0 0 1"/>'
-        f'<body><freejoint/><geom name="ball" size="{RADIUS}" mass="1"/></body>'
-    )
-    model = _model(contact, bodies, f'gravity="0 0 0" {option}', pair)
-    errors = []
+    e, errors = 0.8, []
+    model = sliding_ball(contact, RADIUS, friction, option)
     for number in range(PHASES):
         data = mujoco.MjData(model)
         data.qpos[2] = RADIUS + SPEED * contact.timestep * (2 + (number + 0.5) / PHASES)
@@ -118,14 +98,11 @@ def falling_balls(contact: ContactSettings, duration: float = 10.0) -> float:
         for i in range(7)
         for j in range(7)
     )
-    model = _model(contact, f'<geom type="plane" size="0 0 1" condim="1"/>{balls}')
-    data = mujoco.MjData(model)
-    lowest = 49 * 10 * 9.81 * 0.5
-
-    def energy() -> float:
+    model = model_of(contact, f'<geom type="plane" size="0 0 1" condim="1"/>{balls}')
+    model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_ENERGY)
+    data, energies = mujoco.MjData(model), []
+    for steps in (0, round(duration / contact.timestep)):
+        mujoco.mj_step(model, data, nstep=steps)
         mujoco.mj_forward(model, data)
-        return float(data.energy.sum()) - lowest
-
-    before = energy()
-    mujoco.mj_step(model, data, nstep=round(duration / contact.timestep))
-    return energy() / before - 1
+        energies.append(float(data.energy.sum()) - 49 * 10 * 9.81 * 0.5)
+    return energies[1] / energies[0] - 1
