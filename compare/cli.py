@@ -55,23 +55,20 @@ class _Commands(click.Group):
             refuse(f"{error.format_message().rstrip('.')} (see {command} --help)")
         except click.Abort:  # KeyboardInterrupt
             refuse("interrupted", status=130)
-        except (MemoryError, RuntimeError) as error:
-            if not _lacks_memory(error):
-                raise
-            refuse(NO_MEMORY, status=1)
-        except ImportError as error:
+        except (ImportError, MemoryError, OSError, RuntimeError) as error:
             if _lacks_memory(error):
                 refuse(NO_MEMORY, status=1)
-            if error.name is not None:  # of a module that is missing or broken
-                raise
-            refuse(str(error))
-        except OSError as error:
-            if _lacks_memory(error):
-                refuse(NO_MEMORY, status=1)
-            if error.errno is None:  # not of a file, as where a connection is lost
+            if isinstance(error, OSError) and error.errno is not None:
+                # What standard output could not take is lost, or Python would report it again at its end.
+                os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+                refuse(
+                    f"{error.filename or 'standard output'}: can't be written ({error.strerror})", status=1
+                )
+            if isinstance(error, OSError):  # not of a file, as where a connection is lost
                 refuse(str(error) or type(error).__name__, status=1)
-            _lose_stdout()
-            refuse(f"{error.filename or 'standard output'}: can't be written ({error.strerror})", status=1)
+            if isinstance(error, ImportError) and error.name is None:  # of a library, not of a module
+                refuse(str(error))
+            raise
         sys.exit(status)
 
     @cached_property
@@ -153,11 +150,6 @@ def _lacks_memory(error: BaseException) -> bool:
             return True
         behind = behind.__context__
     return False
-
-
-def _lose_stdout() -> None:
-    """Discard what standard output could not take, or Python would report it again at its end."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
 
 
 if __name__ == "__main__":

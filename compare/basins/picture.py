@@ -174,12 +174,6 @@ def draw_margin_panel(axes: Axes, margins: MapMargins, *, x: MapAxis, y: MapAxis
     return [_patch(_NO_MARGIN, f"none found up to {most:g} {unit}")] if found.size < sizes.size else []
 
 
-def legend_below(axes: Axes, patches: list[Patch]) -> None:
-    """Draw a legend below `axes`."""
-    if patches:
-        axes.legend(handles=patches, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, frameon=False)
-
-
 def draw_comparison(
     analytic: ArrayLike,
     mujoco: ArrayLike,

@@ -5,11 +5,11 @@ from dataclasses import replace
 
 import click
 
-from cointoss.compare.commands.common import SCENARIO_HELP, plain_errors, say
+from cointoss.compare.commands.common import SCENARIO_HELP, say
 from cointoss.compare.commands.names import axes, scenario_argument
 from cointoss.compare.commands.options import one_of, only_with, options_of, without, words_of
-from cointoss.compare.commands.settings import described, set_option, settings_words
-from cointoss.compare.sweep.asked import Job
+from cointoss.compare.commands.settings import set_option, settings_words, with_scenario
+from cointoss.compare.sweep.asked import Job, Source
 
 
 @click.command(epilog=SCENARIO_HELP)
@@ -27,21 +27,20 @@ from cointoss.compare.sweep.asked import Job
     *(only_with(name, "png", "report") for name in ("palette", "boundaries", "size", "dpi")),
     completed={"x": axes, "y": axes},
 )
-def basin(scenario: str, settings: tuple[str, ...], asked: Job) -> None:
+@with_scenario
+def basin(source: Source, asked: Job) -> None:
     """Map the outcome over two fields of a scenario.
 
     Each pixel is one toss. FIELD is a dotted path into the scenario, with components by name:
     release.position.z, release.angular_velocity.xi, floor.restitution. START and STOP are in SI or carry
     a unit; both are included.
     """
-    with plain_errors(scenario):
-        from cointoss.models.stages import stage
+    from cointoss.models.stages import stage
 
-        with stage("getting ready"):  # what is imported takes long on a busy machine
-            from cointoss.compare.sweep.job import Source, make
+    with stage("getting ready"):  # what is imported takes long on a busy machine
+        from cointoss.compare.sweep.job import make
 
-        source = Source(scenario, *described(scenario, settings))
-        again = replace(asked, resume=True, overwrite=False, png=None, scheduler=None)
-        words = ["cointoss", "basin", scenario, *settings_words(settings), *words_of(again)]
-        for result in make(asked, source, shlex.join(words), say):
-            click.echo(result)
+    again = replace(asked, resume=True, overwrite=False, png=None, scheduler=None)
+    words = ["cointoss", "basin", source.name, *settings_words(source.settings), *words_of(again)]
+    for result in make(asked, source, shlex.join(words), say):
+        click.echo(result)

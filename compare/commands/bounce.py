@@ -23,11 +23,10 @@ def bounce(model: Path, one: str, two: str, png: Path | None, as_json: bool) -> 
     """
     with plain_errors(str(model)):
         from cointoss.compare.film.back_end import require_mujoco
-        from cointoss.compare.output.files import require_file, written_whole
+        from cointoss.compare.output.files import require_file, write_bytes
 
         require_mujoco()
-        if png is not None:
-            require_file(png, ".png", str(model))
+        require_file(png, ".png", str(model))
         from cointoss import coin_mj
         from cointoss.models.errors import FieldError
 
@@ -37,10 +36,10 @@ def bounce(model: Path, one: str, two: str, png: Path | None, as_json: bool) -> 
             field = "" if error.field == "model" else f" {error.field} {error.value}:"
             refuse(f"{model}:{field} accepted: {error.accepted}")
         from cointoss.compare.output.bounce_plot import bounce_table, draw_bounce
+        from cointoss.compare.output.plots import picture_bytes
 
         if png is not None:
-            with written_whole(png) as aside:
-                draw_bounce(found).savefig(aside, dpi=150, format="png")
+            write_bytes(png, picture_bytes(draw_bounce(found)))
         if as_json:
             print_json(asdict(found), "mujoco")
             return

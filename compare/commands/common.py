@@ -1,9 +1,8 @@
 """What several commands share: options, kinds of values, and failures of one line."""
 
-import math
 import sys
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +11,7 @@ from typing import Any, NoReturn
 import click
 
 from cointoss.compare.output.language import in_options
+from cointoss.compare.output.plain import json_text
 
 SCENARIO_HELP = (
     "SCENARIO is a TOML file, or the name of a scenario that comes with the package, such as fig24a. "
@@ -68,29 +68,35 @@ class Given:
         return self.text
 
 
-class QuantityType(click.ParamType):
-    """A number in SI, or with its unit."""
+class TextType(click.ParamType):
+    """A text that a function reads, which raises ValueError with what is accepted."""
 
-    name = "quantity"
+    def __init__(self, name: str, read: Callable[[str], Any]) -> None:
+        """Keep the name of what is read, as help shows it, and what reads it."""
+        self.name, self._read = name, read
 
-    def __init__(self, unit: str) -> None:
-        """Keep the unit of the values, in pint's spelling."""
-        self.unit = unit
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Given:
-        """Return the number, or refuse the value with what is accepted."""
-        from cointoss.models.units import in_si
-
-        if isinstance(value, Given):
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return what the text says, or refuse it with what is accepted."""
+        if not isinstance(value, str):
             return value
         try:
-            return Given(value, float(value))
-        except ValueError:
-            pass
-        try:
-            return Given(value, in_si(value, self.unit))
+            return self._read(value)
         except ValueError as error:
             self.fail(f"{value}; accepted: {error}", param, ctx)
+
+
+def quantity(unit: str) -> TextType:
+    """Return the type of a number in SI, or with its unit; `unit` is that of the values, as pint has it."""
+
+    def read(text: str) -> Given:
+        from cointoss.models.units import in_si
+
+        try:
+            return Given(text, float(text))
+        except ValueError:
+            return Given(text, in_si(text, unit))
+
+    return TextType("quantity", read)
 
 
 @contextmanager
@@ -162,25 +168,12 @@ def print_json(found: Mapping[str, Any], *engines: str) -> None:
         found: the answer; null stands for what is infinite or NaN, which JSON has not.
         engines: by which it was made.
     """
-    import json
-
     from cointoss.compare.engines import Engine
 
     versions: dict[str, str] = {}
     for engine in engines:
         versions |= Engine(engine).versions
-    click.echo(json.dumps(_plain({**found, "versions": versions}), indent=1, allow_nan=False))
-
-
-def _plain(value: Any) -> Any:
-    """Return tables, lists and arrays of numbers as JSON has them."""
-    if hasattr(value, "tolist"):  # an array, or a number of numpy
-        value = value.tolist()
-    if isinstance(value, dict):
-        return {name: _plain(each) for name, each in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(each) for each in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
+    click.echo(json_text({**found, "versions": versions}))
 
 
 def refuse(message: str, status: int = 2) -> NoReturn:

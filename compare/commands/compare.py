@@ -5,10 +5,11 @@ from pathlib import Path
 
 import click
 
-from cointoss.compare.commands.common import SCENARIO_HELP, plain_errors
+from cointoss.compare.commands.common import SCENARIO_HELP
 from cointoss.compare.commands.names import scenario_argument
 from cointoss.compare.commands.options import options_of
-from cointoss.compare.commands.settings import described, set_option
+from cointoss.compare.commands.settings import set_option, with_scenario
+from cointoss.compare.sweep.asked import Source
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,26 +26,24 @@ class Report:
 @scenario_argument
 @set_option
 @options_of(Report)
-def compare(scenario: str, settings: tuple[str, ...], asked: Report) -> None:
+@with_scenario
+def compare(source: Source, asked: Report) -> None:
     """Toss one coin by both engines and write a report.
 
     The report shows both tosses side by side, with a video. The page is there before the video is drawn.
     """
-    with plain_errors(scenario):
-        from cointoss.compare.report.contents import NOT_ASKED, require_folder
-        from cointoss.models.stages import stage
+    from cointoss.compare.report.contents import NOT_ASKED, require_folder
+    from cointoss.models.stages import stage
 
-        coin, text = described(scenario, settings)
-        name = Path(scenario).stem
-        folder = asked.out or Path(f"{name}-report")
-        require_folder(folder, scenario)
+    folder = asked.out or Path(f"{source.stem}-report")
+    require_folder(folder, source.name)
 
-        with stage("getting ready"):  # what is imported takes long on a busy machine
-            from cointoss.compare.film.back_end import drawing_problem
+    with stage("getting ready"):  # what is imported takes long on a busy machine
+        from cointoss.compare.film.back_end import drawing_problem
 
-            problem = NOT_ASKED if asked.no_video else drawing_problem()
+        problem = NOT_ASKED if asked.no_video else drawing_problem()
 
-            from cointoss.compare.report.comparison import compared
-            from cointoss.compare.report.folder import write_report
+        from cointoss.compare.report.comparison import compared
+        from cointoss.compare.report.folder import write_report
 
-        click.echo(write_report(compared(coin, text, name), folder, problem))
+    click.echo(write_report(compared(source.scenario, source.text, source.stem), folder, problem))

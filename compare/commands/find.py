@@ -7,11 +7,12 @@ from typing import Annotated, Literal
 
 import click
 
-from cointoss.compare.commands.common import SCENARIO_HELP, plain_errors, print_json
+from cointoss.compare.commands.common import SCENARIO_HELP, print_json
 from cointoss.compare.commands.names import scenario_argument, varied, varying
 from cointoss.compare.commands.options import options_of
-from cointoss.compare.commands.settings import described, set_option
+from cointoss.compare.commands.settings import set_option, with_scenario
 from cointoss.compare.output.accepted import Form, Within
+from cointoss.compare.sweep.asked import Source
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,7 +39,8 @@ class SoughtToss:
 @scenario_argument
 @set_option
 @options_of(SoughtToss, completed={"vary": varying})
-def find(scenario: str, settings: tuple[str, ...], asked: SoughtToss) -> None:
+@with_scenario
+def find(source: Source, asked: SoughtToss) -> None:
     """Find a toss that shows a sequence of faces, or ends on its edge.
 
     The fields of --vary may have any value between START and STOP, in SI or with a unit; all else is as the
@@ -53,29 +55,26 @@ def find(scenario: str, settings: tuple[str, ...], asked: SoughtToss) -> None:
     each field may change alone. What is printed is a scenario file that both engines toss, with what was
     found in its comments. The exit status is 1 where no toss shows it.
     """
-    with plain_errors(scenario):
-        from cointoss.compare.find import find as finding
-        from cointoss.compare.output.files import require_file, write_text
+    from cointoss.compare.find import find as finding
+    from cointoss.compare.output.files import require_file, write_text
 
-        if not (asked.sequence or asked.outcome):
-            raise click.UsageError("--sequence, --outcome: none; accepted: one of them, or both")
-        coin, _ = described(scenario, settings)
-        if asked.out is not None:
-            require_file(asked.out, ".toml", scenario)
-        found = finding.find(
-            coin,
-            varied(asked.vary),
-            sequence=asked.sequence,
-            outcome=asked.outcome,
-            tosses=asked.tosses,
-            seed=asked.seed,
-        )
-        if asked.out is not None and found:
-            write_text(asked.out, found.to_toml())
-        if asked.json:
-            print_json({"scenario": scenario, "seed": asked.seed, **found.as_json()}, "analytic")
-        elif found and asked.out is None:
-            click.echo(found.to_toml(), nl=False)
-        else:
-            click.echo("\n".join([*found.lines, *([f"scenario: {asked.out}"] if found else [])]))
+    if not (asked.sequence or asked.outcome):
+        raise click.UsageError("--sequence, --outcome: none; accepted: one of them, or both")
+    require_file(asked.out, ".toml", source.name)
+    found = finding.find(
+        source.scenario,
+        varied(asked.vary),
+        sequence=asked.sequence,
+        outcome=asked.outcome,
+        tosses=asked.tosses,
+        seed=asked.seed,
+    )
+    if asked.out is not None and found:
+        write_text(asked.out, found.to_toml())
+    if asked.json:
+        print_json({"scenario": source.name, "seed": asked.seed, **found.as_json()}, "analytic")
+    elif found and asked.out is None:
+        click.echo(found.to_toml(), nl=False)
+    else:
+        click.echo("\n".join([*found.lines, *([f"scenario: {asked.out}"] if found else [])]))
     sys.exit(0 if found else 1)

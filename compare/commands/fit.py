@@ -16,8 +16,9 @@ from cointoss.compare.commands.common import (
 )
 from cointoss.compare.commands.names import fitted, scenario_argument, varied
 from cointoss.compare.commands.options import options_of
-from cointoss.compare.commands.settings import described, set_option
+from cointoss.compare.commands.settings import set_option, with_scenario
 from cointoss.compare.output.accepted import Form, Within
+from cointoss.compare.sweep.asked import Source
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,7 +54,8 @@ class SoughtValues:
 @scenario_argument
 @set_option
 @options_of(SoughtValues, completed={"vary": fitted})
-def fit(observed: Path, scenario: str, settings: tuple[str, ...], asked: SoughtValues) -> None:
+@with_scenario
+def fit(observed: Path, source: Source, asked: SoughtValues) -> None:
     """Find the values of a scenario's fields that explain what was seen of a coin, or that none do.
 
     Seen are the times of its touches, as a microphone hears them, faces up, or heights and attitudes, as a
@@ -66,37 +68,34 @@ def fit(observed: Path, scenario: str, settings: tuple[str, ...], asked: SoughtV
     values that would explain it too, and each touch. Where it cannot, there are no intervals, and the exit
     status is 1.
     """
-    with plain_errors(scenario):
-        from cointoss.compare.fitting.table import read_observed
-        from cointoss.compare.output.files import require_file, write_text, written_whole
-        from cointoss.models.stages import stage
+    from cointoss.compare.fitting.table import read_observed
+    from cointoss.compare.output.files import require_file, write_bytes, write_text
+    from cointoss.models.stages import stage
 
-        coin, _ = described(scenario, settings)
-        for path, suffix in ((asked.out, ".toml"), (asked.png, ".png")):
+    require_file(asked.out, ".toml", source.name, observed)
+    require_file(asked.png, ".png", source.name, observed)
+    sd = {"time": asked.sd_time, "height": asked.sd_height, "attitude": asked.sd_attitude}
+    given = {name: text for name, text in sd.items() if text is not None}
+    options = {f"sd.{name}": (f"--sd-{name}", text) for name, text in given.items()}
+    with plain_errors(str(observed)), naming_options(options):
+        seen = read_observed(observed, given)
+    with stage("getting ready"):  # what is imported takes long on a busy machine
+        from cointoss.compare.fitting import fit as fitting
+        from cointoss.compare.fitting.answer import as_lines
+
+    found = fitting.fit(seen, source.scenario, varied(asked.vary), starts=asked.starts, seed=asked.seed)
+    if asked.out is not None:
+        write_text(asked.out, found.scenario.to_toml())
+    if asked.png is not None:
+        from cointoss.compare.fitting.picture import draw_fit
+        from cointoss.compare.output.plots import picture_bytes
+
+        write_bytes(asked.png, picture_bytes(draw_fit(found)))
+    if asked.json:
+        print_json({**found.as_dict(), "seed": asked.seed, "starts": asked.starts}, "analytic")
+    else:
+        click.echo(as_lines(found))
+        for name, path in (("scenario", asked.out), ("picture", asked.png)):
             if path is not None:
-                require_file(path, suffix, scenario, observed)
-        sd = {"time": asked.sd_time, "height": asked.sd_height, "attitude": asked.sd_attitude}
-        given = {name: text for name, text in sd.items() if text is not None}
-        options = {f"sd.{name}": (f"--sd-{name}", text) for name, text in given.items()}
-        with plain_errors(str(observed)), naming_options(options):
-            seen = read_observed(observed, given)
-        with stage("getting ready"):  # what is imported takes long on a busy machine
-            from cointoss.compare.fitting import fit as fitting
-            from cointoss.compare.fitting.answer import as_lines
-
-        found = fitting.fit(seen, coin, varied(asked.vary), starts=asked.starts, seed=asked.seed)
-        if asked.out is not None:
-            write_text(asked.out, found.scenario.to_toml())
-        if asked.png is not None:
-            from cointoss.compare.fitting.picture import draw_fit
-
-            with written_whole(asked.png) as aside:
-                draw_fit(found).savefig(aside, dpi=150, format="png")
-        if asked.json:
-            print_json({**found.as_dict(), "seed": asked.seed, "starts": asked.starts}, "analytic")
-        else:
-            click.echo(as_lines(found))
-            for name, path in (("scenario", asked.out), ("picture", asked.png)):
-                if path is not None:
-                    click.echo(f"\n{name:11} {path}")
+                click.echo(f"\n{name:11} {path}")
     sys.exit(0 if found.is_possible else 1)

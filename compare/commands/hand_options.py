@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from cointoss.compare.commands.common import CountType, Given, Place, QuantityType, naming_options, refuse
+from cointoss.compare.commands.common import CountType, Given, Place, naming_options, quantity, refuse
 
 if TYPE_CHECKING:
     from cointoss.models.hand import Hand
@@ -22,32 +22,32 @@ _OPTIONS = (
     ),
     click.option(
         "--height",
-        type=QuantityType("m"),
+        type=quantity("m"),
         show_default="1 m",
         help="Height of the mass centre at the release.",
     ),
-    click.option("--speed", type=QuantityType("m/s"), show_default="2 m/s", help="Speed upwards."),
+    click.option("--speed", type=quantity("m/s"), show_default="2 m/s", help="Speed upwards."),
     click.option(
         "--spin",
-        type=QuantityType("rad/s"),
+        type=quantity("rad/s"),
         show_default="120 rad/s",
         help="Rate at which the coin's normal goes round the angular momentum.",
     ),
     click.option(
         "--psi",
-        type=QuantityType("rad"),
+        type=quantity("rad"),
         show_default="90 deg",
         help="Angle between normal and angular momentum; less than 90 deg: the coin wobbles.",
     ),
     click.option(
         "--psi-scatter",
-        type=QuantityType("rad"),
+        type=quantity("rad"),
         show_default="10 deg, as of people; 0 deg with --hand, --psi or --spun",
         help="Its standard deviation.",
     ),
     click.option(
         "--scatter",
-        type=QuantityType(""),
+        type=quantity(""),
         show_default="10 %",
         help="Standard deviation of height, speed and spin.",
     ),
@@ -66,7 +66,7 @@ _OPTIONS = (
     ),
     click.option(
         "--caught",
-        type=QuantityType("m"),
+        type=quantity("m"),
         help="Height at which a hand catches the coin; by default the scenario's [ending] caught, if it has "
         "one.",
     ),

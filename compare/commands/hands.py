@@ -9,12 +9,12 @@ from cointoss.compare.commands.common import (
     SCENARIO_HELP,
     CountType,
     engine_option,
-    plain_errors,
     print_json,
 )
 from cointoss.compare.commands.hand_options import chosen_hand, hand_options
 from cointoss.compare.commands.names import scenario_argument
-from cointoss.compare.commands.settings import described, set_option
+from cointoss.compare.commands.settings import set_option, with_scenario
+from cointoss.compare.sweep.asked import Source
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -36,9 +36,9 @@ Counts = dict[str, tuple[int, int]]
 @click.option("--tosses", type=CountType(1, 10_000_000), default=1000, show_default=True, help="How many.")
 @engine_option
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
+@with_scenario
 def hands(
-    scenario: str,
-    settings: tuple[str, ...],
+    source: Source,
     tosses: int,
     seed: int,
     engine: str,
@@ -52,27 +52,24 @@ def hands(
     that is spun all ends are counted; a coin that the hand does not catch is left out. Intervals are of 99 %.
     Ctrl-C prints what is counted until then.
     """
-    with plain_errors(scenario):
-        from cointoss.compare.engines import Engine
-        from cointoss.compare.film.back_end import require_mujoco
-        from cointoss.compare.metrics.estimates import share_of  # where Ctrl-C comes there is no time for it
-        from cointoss.compare.output.interruption import Interruption, undoing
-        from cointoss.compare.shares.plan import Plan, check
+    from cointoss.compare.engines import Engine
+    from cointoss.compare.film.back_end import require_mujoco
+    from cointoss.compare.metrics.estimates import share_of  # where Ctrl-C comes there is no time for it
+    from cointoss.compare.output.interruption import saying, undoing
+    from cointoss.compare.shares.plan import Plan, check
 
-        hand, coin = chosen_hand(given, described(scenario, settings)[0])
-        if engine == Engine.MUJOCO:
-            require_mujoco()
-        plan = Plan(scenario=coin, name="", hand=hand, engines=(Engine(engine),), seed=seed, tosses=tosses)
-        check(plan)
-        counted = Counted()
-        told = {"hand": asdict(hand), "caught": coin.ending.caught, "seed": seed, "engine": engine}
-        with undoing(lambda: _answer(counted, told, share_of, as_json=as_json)):
-            try:
-                for counted.tosses, counted.counts in (spins if hand.spun else first_sides)(plan):
-                    pass
-            except Interruption as interruption:
-                interruption.message += f": {counted.tosses:,d} tosses are counted"
-                raise
+    hand, coin = chosen_hand(given, source.scenario)
+    require_mujoco(engine)
+    plan = Plan(scenario=coin, name="", hand=hand, engines=(Engine(engine),), seed=seed, tosses=tosses)
+    check(plan)
+    counted = Counted()
+    told = {"hand": asdict(hand), "caught": coin.ending.caught, "seed": seed, "engine": engine}
+    with (
+        undoing(lambda: _answer(counted, told, share_of, as_json=as_json)),
+        saying(lambda said: f"{said}: {counted.tosses:,d} tosses are counted"),
+    ):
+        for counted.tosses, counted.counts in (spins if hand.spun else first_sides)(plan):
+            pass
 
 
 @dataclass

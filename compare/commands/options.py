@@ -4,7 +4,7 @@ import inspect
 import types
 import typing
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import MISSING, fields, is_dataclass
+from dataclasses import MISSING, fields
 from enum import StrEnum
 from functools import wraps
 from pathlib import Path
@@ -13,7 +13,6 @@ from typing import (
     Any,
     Literal,
     NamedTuple,
-    TypeGuard,
     get_args,
     get_origin,
     get_type_hints,
@@ -21,7 +20,7 @@ from typing import (
 
 import click
 
-from cointoss.compare.commands.common import CountType, Place
+from cointoss.compare.commands.common import CountType, Place, TextType
 from cointoss.compare.commands.names import completing
 from cointoss.compare.output.accepted import Form, Within
 from cointoss.compare.output.language import option_of
@@ -83,7 +82,7 @@ def options_of(
     A field's type is `bool` for a flag, a `Literal`, a `StrEnum`, `Path` or `str`; an `int` is annotated with
     its bounds, `Annotated[int, Within(1, 9)]`, a text of a form with a `Form`, and a value of another kind
     with a type of click. A tuple of any length may be given several times. A field without a default is
-    required; the text below a field is its help. Fields that are records are taken apart.
+    required; the text below a field is its help. Those of a record that it extends come last.
 
     Args:
         record: a frozen dataclass.
@@ -102,7 +101,7 @@ def options_of(
             for rule in rules:
                 if fault := rule(given):
                     raise click.UsageError(fault)
-            return command(*arguments, asked=_filled(record, asked), **values)
+            return command(*arguments, asked=record(**asked), **values)
 
         for option in reversed(options.values()):
             called = option(called)
@@ -114,14 +113,10 @@ def options_of(
 def words_of(asked: Any) -> list[str]:
     """Return the words of the command line that fill a record, without those of its defaults."""
     words: list[str] = []
-    for one, value in zip(_fields(type(asked)), _values(asked), strict=True):
-        if value == one.default:
-            continue
-        if value is True:
-            words.append(option_of(one.name))
-            continue
-        for each in value if one.is_many else [value]:
-            words += [option_of(one.name), str(each)]
+    for one in _fields(type(asked)):
+        value = getattr(asked, one.name)
+        for each in value if one.is_many else [] if value == one.default else [value]:
+            words += [option_of(one.name)] if each is True else [option_of(one.name), str(each)]
     return words
 
 
@@ -141,37 +136,16 @@ class _Field(NamedTuple):
 
 def _fields(record: type) -> Iterator[_Field]:
     hints = get_type_hints(record, include_extras=True)
-    for each in fields(record):
-        hint = hints[each.name]
-        if _is_record(hint):
-            yield from _fields(hint)
-            continue
+    defaults = {each.name: each.default for each in fields(record)}
+    places = [(name, owner) for owner in record.__mro__ for name in vars(owner).get("__annotations__", ())]
+    for name, owner in places:
+        hint = hints[name]
         kind, *marks = get_args(hint) if get_origin(hint) is Annotated else (hint,)
         if get_origin(kind) in (typing.Union, types.UnionType):
             (kind,) = (one for one in get_args(kind) if one is not types.NoneType)
         is_many = get_origin(kind) is tuple and get_args(kind)[1:] == (Ellipsis,)
         kind = get_args(kind)[0] if is_many else kind
-        yield _Field(each.name, kind, is_many, tuple(marks), each.default, record)
-
-
-def _values(asked: Any) -> Iterator[Any]:
-    for each in fields(asked):
-        value = getattr(asked, each.name)
-        if is_dataclass(value):
-            yield from _values(value)
-        else:
-            yield value
-
-
-def _filled(record: type, asked: Typed) -> Any:
-    """Return the record of values, by field, those of its parts among them."""
-    hints = get_type_hints(record, include_extras=True)
-    return record(
-        **{
-            each.name: _filled(hint, asked) if _is_record(hint := hints[each.name]) else asked[each.name]
-            for each in fields(record)
-        }
-    )
+        yield _Field(name, kind, is_many, tuple(marks), defaults[name], owner)
 
 
 def _option(one: _Field, names: Callable[[], Iterable[str]] | None) -> Callable[..., Any]:
@@ -211,10 +185,6 @@ class _Option(click.Option):
     help = property(_meaning, _keep_nothing)  # pyright: ignore[reportAssignmentType]
 
 
-def _is_record(hint: Any) -> TypeGuard[type]:
-    return isinstance(hint, type) and is_dataclass(hint)
-
-
 def _is_worded(kind: Any) -> bool:
     return inspect.isclass(kind) and issubclass(kind, StrEnum)
 
@@ -228,7 +198,7 @@ def _type(one: _Field) -> click.ParamType:
             case Within(least, most):
                 return CountType(least, most)
             case Form(shown, read) if read is not None:
-                return _Read(shown, read)
+                return TextType(shown, read)
             case _:
                 pass
     if get_origin(one.kind) is Literal:
@@ -236,22 +206,6 @@ def _type(one: _Field) -> click.ParamType:
     if _is_worded(one.kind):
         return click.Choice([str(member) for member in one.kind])
     return {Path: Place(), str: click.STRING}[one.kind]
-
-
-class _Read(click.ParamType):
-    """A text of a form, read by a function."""
-
-    def __init__(self, shown: str, read: Callable[[str], Any]) -> None:
-        self.name, self._read = shown, read
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return what the text says, or refuse it with what is accepted."""
-        if not isinstance(value, str):
-            return value
-        try:
-            return self._read(value)
-        except ValueError as error:
-            self.fail(f"{value}; accepted: {error}", param, ctx)
 
 
 def _is_given(condition: str, given: Typed) -> bool:

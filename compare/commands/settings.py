@@ -1,11 +1,14 @@
 """The option `--set`: other values of fields of the scenario."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import wraps
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from cointoss.compare.commands.common import TextType, plain_errors
 from cointoss.compare.commands.names import completing, settable
+from cointoss.compare.sweep.asked import Source
 
 if TYPE_CHECKING:
     from cointoss.models.scenario import Scenario
@@ -13,23 +16,18 @@ if TYPE_CHECKING:
 FORM = "FIELD=VALUE, such as restitution=0.5, contact=coulomb or 'height=40 cm'"
 
 
-class _Setting(click.ParamType):
-    """A field and its value."""
-
-    name = "setting"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the text, or refuse one that is no setting."""
-        field, equals, given = value.partition("=")
-        if not (equals and field.strip() and given.strip()):
-            self.fail(f"{value}; accepted: {FORM}", param, ctx)
-        return value
+def _setting(text: str) -> str:
+    """Return a setting as it was typed."""
+    field, equals, given = text.partition("=")
+    if not (equals and field.strip() and given.strip()):
+        raise ValueError(FORM)
+    return text
 
 
 set_option = click.option(
     "--set",
     "settings",
-    type=_Setting(),
+    type=TextType("setting", _setting),
     multiple=True,
     metavar="FIELD=VALUE",
     help="Another value of a field of the scenario, as its file would have it: restitution=0.5, "
@@ -69,6 +67,21 @@ def described(source: str, settings: Sequence[str] = ()) -> "tuple[Scenario, str
         text = scenario.to_toml()
     warn_of_unused_fields(scenario.floor, scenario.air)
     return scenario, text
+
+
+def with_scenario(command: Callable[..., None]) -> Callable[..., None]:
+    """Return a command that takes a scenario and its settings, which it has as `source`.
+
+    What is wrong with it, or with the scenario, is said in one line.
+    """
+
+    @wraps(command)
+    def called(*arguments: Any, scenario: str, settings: tuple[str, ...], **asked: Any) -> None:
+        with plain_errors(scenario):
+            source = Source(scenario, *described(scenario, settings), settings)
+            command(*arguments, source=source, **asked)
+
+    return called
 
 
 def settings_words(settings: Sequence[str]) -> list[str]:

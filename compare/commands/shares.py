@@ -4,7 +4,6 @@ import shutil
 import sys
 import threading
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from functools import partial
 from itertools import islice
 from pathlib import Path
@@ -17,16 +16,16 @@ from cointoss.compare.commands.common import (
     CountType,
     Given,
     Place,
-    QuantityType,
     engine_option,
     naming_options,
-    plain_errors,
     print_json,
+    quantity,
     say,
 )
 from cointoss.compare.commands.hand_options import chosen_hand, hand_options
 from cointoss.compare.commands.names import ranges_option, scenario_argument, varied
-from cointoss.compare.commands.settings import described, set_option
+from cointoss.compare.commands.settings import set_option, with_scenario
+from cointoss.compare.sweep.asked import Source
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -34,6 +33,7 @@ if TYPE_CHECKING:
     from cointoss.compare.engines import Engine
     from cointoss.compare.shares.counting import Block, Counts, Part, Tosser
     from cointoss.compare.shares.plan import Plan
+    from cointoss.compare.sweep.cluster import Workers
 
 PICTURES = (".png", ".svg", ".pdf")
 IN_A_PART = 8
@@ -54,7 +54,7 @@ WHOLE = 1000
 )
 @click.option(
     "--to",
-    type=QuantityType(""),
+    type=quantity(""),
     metavar="PART",
     help="Toss each setting until its widest interval is at most this to either side, such as 0.5%.",
 )
@@ -70,10 +70,10 @@ WHOLE = 1000
 )
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
 @click.pass_context
+@with_scenario
 def shares(
     ctx: click.Context,
-    scenario: str,
-    settings: tuple[str, ...],
+    source: Source,
     vary: tuple[str, ...],
     seed: int,
     tosses: int | None,
@@ -104,47 +104,46 @@ def shares(
     explicit = ctx.get_parameter_source("engine") == click.core.ParameterSource.COMMANDLINE
     if both and explicit:
         raise click.UsageError("--engine and --compare: accepted: one of them")
-    with plain_errors(scenario):
-        from cointoss.models.stages import stage
+    from cointoss.models.stages import stage
 
-        with stage("getting ready"):
-            from cointoss.compare.engines import Engine
-            from cointoss.compare.film.back_end import require_mujoco
-            from cointoss.compare.output.files import require_file
-            from cointoss.compare.shares import plan as plans
+    with stage("getting ready"):
+        from cointoss.compare.engines import Engine
+        from cointoss.compare.film.back_end import require_mujoco
+        from cointoss.compare.output.files import require_file
+        from cointoss.compare.shares import plan as plans
 
-        read = [given["hand_file"]] if given["hand_file"] is not None else []
-        hand, _ = chosen_hand(given, coin := described(scenario, settings)[0])
-        engines = tuple(Engine) if both else (Engine(engine),)
-        with naming_options({"to": ("--to", to)}):
-            plan = plans.plan_of(
-                varied(vary),
-                coin,
-                name=Path(scenario).stem,
-                hand=hand,
-                engines=engines,
-                seed=seed,
-                tosses=tosses,
-                to=to and to.value,
-            )
-        for path in out:
-            require_file(path, (".csv", *PICTURES), scenario, *read)
-        if any(path.suffix.lower() in PICTURES for path in out):
-            from cointoss.compare.shares.picture import require_drawable
+    read = [given["hand_file"]] if given["hand_file"] is not None else []
+    hand, _ = chosen_hand(given, source.scenario)
+    engines = tuple(Engine) if both else (Engine(engine),)
+    with naming_options({"to": ("--to", to)}):
+        plan = plans.plan_of(
+            varied(vary),
+            source.scenario,
+            name=source.stem,
+            hand=hand,
+            engines=engines,
+            seed=seed,
+            tosses=tosses,
+            to=to and to.value,
+        )
+    for path in out:
+        require_file(path, (".csv", *PICTURES), source.name, *read)
+    if any(path.suffix.lower() in PICTURES for path in out):
+        from cointoss.compare.shares.picture import require_drawable
 
-            require_drawable(plan.shape)
-        if Engine.MUJOCO in engines:
-            require_mujoco()
-        plans.check(plan)
-        _count(plan, scenario, scheduler, out, as_json)
+        require_drawable(plan.shape)
+    require_mujoco(*engines)
+    plans.check(plan)
+    _count(plan, source.name, scheduler, out, as_json)
 
 
 def _count(plan: "Plan", scenario: str, scheduler: str | None, out: Sequence[Path], as_json: bool) -> None:
     """Count, print the result and write it; where a signal or a lost cluster ends it, what there is."""
-    from cointoss.compare.output.files import write_text, written_whole
-    from cointoss.compare.output.interruption import Interruption, undoing
+    from cointoss.compare.output.files import write_bytes, write_text
+    from cointoss.compare.output.interruption import saying, undoing
     from cointoss.compare.shares import counting, show
     from cointoss.compare.shares.shares import dataset_of, no_counts
+    from cointoss.compare.sweep.cluster import cluster
 
     counts: Counts = no_counts(plan)
     is_complete = False
@@ -162,41 +161,35 @@ def _count(plan: "Plan", scenario: str, scheduler: str | None, out: Sequence[Pat
                     if path.suffix.lower() == ".csv":
                         write_text(path, show.csv(found))
 
-    try:
-        with undoing(answer), _tosser(scheduler) as tosser:
-            for so_far in counting.counting(plan, tosser):
-                counts = so_far
-            is_complete = True
-    except Interruption as interruption:
-        interruption.message += f": {int(counts.sum()):,d} tosses are counted"
-        raise
+    with (
+        undoing(answer),
+        saying(lambda said: f"{said}: {int(counts.sum()):,d} tosses are counted"),
+        cluster(scheduler, say, "what was counted is printed") as workers,
+    ):
+        for so_far in counting.counting(plan, _tosser(workers)):
+            counts = so_far
+        is_complete = True
     for path in out:
         if (suffix := path.suffix.lower()) in PICTURES:
             from cointoss.compare.shares.picture import picture_of
 
-            drawn = picture_of(dataset_of(plan, counts, is_complete=True), suffix)
-            with written_whole(path) as aside:
-                aside.write_bytes(drawn)
+            write_bytes(path, picture_of(dataset_of(plan, counts, is_complete=True), suffix))
 
 
-@contextmanager
-def _tosser(scheduler: str | None) -> "Iterator[Tosser]":
+def _tosser(workers: "Workers | None") -> "Tosser":
+    """Return what tosses blocks: this machine, or the workers of a cluster."""
     from cointoss.compare.shares.counting import toss_blocks, toss_here
 
-    if scheduler is None:
-        yield toss_here
-        return
-    from cointoss.compare.sweep.cluster import cluster
+    if workers is None:
+        return toss_here
 
-    with cluster(scheduler, say, "what was counted is printed") as workers:
+    def toss_there(
+        plan: "Plan", engine: "Engine", blocks: "Iterator[Block]"
+    ) -> "Iterator[tuple[Part, Counts]]":
+        parts = iter(lambda: tuple(islice(blocks, IN_A_PART)), ())
+        return workers(partial(toss_blocks, plan, engine), parts, engine)
 
-        def toss_there(
-            plan: "Plan", engine: "Engine", blocks: "Iterator[Block]"
-        ) -> "Iterator[tuple[Part, Counts]]":
-            parts = iter(lambda: tuple(islice(blocks, IN_A_PART)), ())
-            return workers(partial(toss_blocks, plan, engine), parts, engine)
-
-        yield toss_there
+    return toss_there
 
 
 def _print(found: "xr.Dataset", plan: "Plan", scenario: str, as_json: bool) -> None:

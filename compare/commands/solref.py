@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import click
 
-from cointoss.compare.commands.common import Given, QuantityType, naming_options, plain_errors, print_json
+from cointoss.compare.commands.common import Given, naming_options, plain_errors, print_json, quantity
 from cointoss.compare.commands.options import one_of, only_with, options_of
 from cointoss.compare.output.accepted import Form, Within
 
@@ -23,11 +23,11 @@ FAILS = 0.2
 class Wanted:
     """The bounce whose settings are asked for, or the settings whose bounce is."""
 
-    restitution: Annotated[Given | None, QuantityType(""), Form("E")] = None
+    restitution: Annotated[Given | None, quantity(""), Form("E")] = None
     """From 0 to 1: print settings for it."""
     of: Annotated[str | None, Form("SOLREF")] = None
     """Print the restitution of these settings, such as "0.01 0.37"."""
-    dt: Annotated[Given, QuantityType("s"), Form("DT")]
+    dt: Annotated[Given, quantity("s"), Form("DT")]
     """The model's timestep, such as 0.002 or 2ms."""
     spring: bool = False
     """By a spring that lasts several steps, instead of in one."""

@@ -6,11 +6,12 @@ from typing import Annotated, Literal
 
 import click
 
-from cointoss.compare.commands.common import SCENARIO_HELP, plain_errors, print_json
+from cointoss.compare.commands.common import SCENARIO_HELP, print_json
 from cointoss.compare.commands.names import scenario_argument
 from cointoss.compare.commands.options import only_with, options_of, without
-from cointoss.compare.commands.settings import described, set_option
+from cointoss.compare.commands.settings import set_option, with_scenario
 from cointoss.compare.output.accepted import Within
+from cointoss.compare.sweep.asked import Source
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,58 +47,55 @@ class Answer:
     only_with("contact", "engine=mujoco"),
     only_with("flight_steps", "engine=mujoco"),
 )
-def toss(scenario: str, settings: tuple[str, ...], asked: Answer) -> None:
+@with_scenario
+def toss(source: Source, asked: Answer) -> None:
     """Toss one coin and print its impacts."""
-    with plain_errors(scenario):
-        from cointoss.models.stages import stage
+    from cointoss.models.stages import stage
 
-        with stage("getting ready"):  # what is imported takes long on a busy machine
-            from cointoss.compare.engines import Engine
-            from cointoss.compare.film.back_end import require_mujoco
-            from cointoss.compare.output import answer
-            from cointoss.compare.output.files import is_stream, require_file, write_text
+    with stage("getting ready"):  # what is imported takes long on a busy machine
+        from cointoss.compare.engines import Engine
+        from cointoss.compare.film.back_end import require_mujoco
+        from cointoss.compare.output import answer
+        from cointoss.compare.output.files import is_stream, require_file, write_text
 
-            coin, _ = described(scenario, settings)
-            if asked.engine == Engine.MUJOCO:
-                require_mujoco()
-            package = Engine(asked.engine).package
-        if asked.trajectory is not None and not is_stream(asked.trajectory):
-            require_file(asked.trajectory, ".csv", scenario)
-        if asked.max_impacts is not None:
-            coin = coin.replace("ending.max_impacts", asked.max_impacts)
-        given = {name: getattr(asked, name) for name in ("contact", "contact_steps", "flight_steps")}
-        chosen = {name: value for name, value in given.items() if value is not None}
-        fine = replace(package.FINE, **chosen)
-        result = package.toss(coin, settings=fine)
-        if asked.trajectory is not None:
-            times = answer.path_times(result)
-            write_text(asked.trajectory, answer.path_csv(result.sample(times), coin))
-        extra, unproved = [], ""
-        if asked.margin:
-            from cointoss.compare.metrics.margin import is_planar, margins, offered_proofs
+        require_mujoco(asked.engine)
+        package = Engine(asked.engine).package
+    if asked.trajectory is not None and not is_stream(asked.trajectory):
+        require_file(asked.trajectory, ".csv", source.name)
+    coin = source.scenario
+    if asked.max_impacts is not None:
+        coin = coin.replace("ending.max_impacts", asked.max_impacts)
+    given = {name: getattr(asked, name) for name in ("contact", "contact_steps", "flight_steps")}
+    chosen = {name: value for name, value in given.items() if value is not None}
+    fine = replace(package.FINE, **chosen)
+    result = package.toss(coin, settings=fine)
+    if asked.trajectory is not None:
+        times = answer.path_times(result)
+        write_text(asked.trajectory, answer.path_csv(result.sample(times), coin))
+    extra, unproved = [], ""
+    if asked.margin:
+        from cointoss.compare.metrics.margin import is_planar, margins, offered_proofs
 
-            proofs = offered_proofs() if is_planar(coin) else None
-            if proofs is not None:
-                unproved = proofs.refusal(coin)
-                if asked.contact_steps is not None:
-                    unproved = f"--contact-steps: {asked.contact_steps}, accepted: none"
-            elif is_planar(coin):
-                unproved = "want of a package with proofs, an entry point cointoss.proofs"
-            extra = margins(coin, None if unproved else proofs, settings=fine)
-        if asked.json:
-            told = {
-                item.quantity.name: {"change": item.finite, "proved": item.proved, "unit": item.quantity.unit}
-                for item in extra
-            }
-            made = {
-                "scenario": coin.as_tables(),
-                "settings": fine.as_dict(),
-            }
-            print_json(
-                {**answer.as_json(result), **made, **({"margin": told} if asked.margin else {})}, asked.engine
-            )
-        else:
-            why = [f"proved    none, for {unproved}"] if unproved else []
-            click.echo(
-                "\n".join([answer.as_lines(result, whole=asked.all), *(one.line for one in extra), *why])
-            )
+        proofs = offered_proofs() if is_planar(coin) else None
+        if proofs is not None:
+            unproved = proofs.refusal(coin)
+            if asked.contact_steps is not None:
+                unproved = f"--contact-steps: {asked.contact_steps}, accepted: none"
+        elif is_planar(coin):
+            unproved = "want of a package with proofs, an entry point cointoss.proofs"
+        extra = margins(coin, None if unproved else proofs, settings=fine)
+    if asked.json:
+        told = {
+            item.quantity.name: {"change": item.finite, "proved": item.proved, "unit": item.quantity.unit}
+            for item in extra
+        }
+        made = {
+            "scenario": coin.as_tables(),
+            "settings": fine.as_dict(),
+        }
+        print_json(
+            {**answer.as_json(result), **made, **({"margin": told} if asked.margin else {})}, asked.engine
+        )
+    else:
+        why = [f"proved    none, for {unproved}"] if unproved else []
+        click.echo("\n".join([answer.as_lines(result, whole=asked.all), *(one.line for one in extra), *why]))

@@ -6,10 +6,11 @@ from typing import Literal
 
 import click
 
-from cointoss.compare.commands.common import SCENARIO_HELP, plain_errors, refuse
+from cointoss.compare.commands.common import SCENARIO_HELP, refuse
 from cointoss.compare.commands.names import scenario_argument
 from cointoss.compare.commands.options import options_of
-from cointoss.compare.commands.settings import described, set_option
+from cointoss.compare.commands.settings import set_option, with_scenario
+from cointoss.compare.sweep.asked import Source
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,41 +31,39 @@ class Film:
 @scenario_argument
 @set_option
 @options_of(Film)
-def video(scenario: str, settings: tuple[str, ...], asked: Film) -> None:
+@with_scenario
+def video(source: Source, asked: Film) -> None:
     """Film one toss, drawn by MuJoCo, until the coin lies still.
 
     The film slows down around the impacts.
     """
-    with plain_errors(scenario):
-        from cointoss.compare.film.encodings import ENCODINGS
-        from cointoss.compare.output.files import require_file, written_whole
-        from cointoss.models.stages import stage
+    from cointoss.compare.film.encodings import ENCODINGS
+    from cointoss.compare.output.files import require_file, written_whole
+    from cointoss.models.stages import stage
 
-        coin, _ = described(scenario, settings)
-        require_file(asked.out, tuple(ENCODINGS), scenario)
-        if asked.poster is not None:
-            require_file(asked.poster, ".png", scenario)
+    require_file(asked.out, tuple(ENCODINGS), source.name)
+    require_file(asked.poster, ".png", source.name)
 
-        from cointoss.compare.film.back_end import drawing_problem
+    from cointoss.compare.film.back_end import drawing_problem
 
-        problem = drawing_problem()
-        if problem is not None:
-            refuse(problem)
+    problem = drawing_problem()
+    if problem is not None:
+        refuse(problem)
 
-        with stage("getting ready"):  # what is imported takes long on a busy machine
-            from PIL import Image
+    with stage("getting ready"):  # what is imported takes long on a busy machine
+        from PIL import Image
 
-            from cointoss.compare.engines import Engine
-            from cointoss.compare.film.drawing import Camera
-            from cointoss.compare.film.filmed import followed
-            from cointoss.compare.film.video import write_video
+        from cointoss.compare.engines import Engine
+        from cointoss.compare.film.drawing import Camera
+        from cointoss.compare.film.filmed import followed
+        from cointoss.compare.film.video import write_video
 
-        engines = list(Engine) if asked.engine == "both" else [Engine(asked.engine)]
-        shown = [followed(each.package.toss(coin)) for each in engines]
-        form = ENCODINGS[asked.out.suffix.lower()].form
-        with written_whole(asked.out) as aside, stage("drawing the film", "frames") as progress:
-            picture = write_video(shown, Camera(asked.camera), form, aside, progress)
-        if asked.poster is not None:
-            with written_whole(asked.poster) as aside:
-                Image.fromarray(picture).save(aside, format="png")
-        click.echo(asked.out)
+    engines = list(Engine) if asked.engine == "both" else [Engine(asked.engine)]
+    shown = [followed(each.package.toss(source.scenario)) for each in engines]
+    form = ENCODINGS[asked.out.suffix.lower()].form
+    with written_whole(asked.out) as aside, stage("drawing the film", "frames") as progress:
+        picture = write_video(shown, Camera(asked.camera), form, aside, progress)
+    if asked.poster is not None:
+        with written_whole(asked.poster) as aside:
+            Image.fromarray(picture).save(aside, format="png")
+    click.echo(asked.out)

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.layers import NOT_TOSSED
 from cointoss.compare.sweep.tossed_map import TossedMap
 from cointoss.compare.web.playable import shown_outcomes
@@ -28,7 +27,10 @@ def page_map(found: TossedMap) -> dict[str, Any]:
         "after": sweep.after,
         "stride": found.stride,
         "tossed": float(np.mean(found.outcome != NOT_TOSSED)),
-        "axes": {name: _axis(axis) for name, axis in (("x", sweep.x), ("y", sweep.y))},
+        "axes": {
+            name: asdict(axis) | {"word": axis.word, "unit": axis.printed_unit}
+            for name, axis in (("x", sweep.x), ("y", sweep.y))
+        },
         "outcomes": shown_outcomes(),
         "margin": margin and {"along": margin.name, "unit": margin.unit},
         "arrays": {
@@ -37,7 +39,3 @@ def page_map(found: TossedMap) -> dict[str, Any]:
             if name in _KINDS
         },
     }
-
-
-def _axis(axis: Axis) -> dict[str, Any]:
-    return asdict(axis) | {"word": axis.word, "unit": axis.printed_unit}

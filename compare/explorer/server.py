@@ -119,7 +119,7 @@ class Request(BaseHTTPRequestHandler):
     def do_GET(self) -> None:
         """Answer."""
         path, mark, query = self.path.partition("?")
-        answers: dict[str, Callable[[Query], Any]] = {
+        answers: dict[str, Callable[[str], Any]] = {
             "/map": self._map,
             "/toss": self._toss,
             "/tile": self._tile,
@@ -128,7 +128,7 @@ class Request(BaseHTTPRequestHandler):
         try:
             if path in answers:
                 with in_turn(self.server.turns[path], self._client):
-                    answer = answers[path](_query(query))
+                    answer = answers[path](query)
                 body = answer if isinstance(answer, bytes) else json.dumps(answer, allow_nan=False).encode()
                 kind = "application/octet-stream" if isinstance(answer, bytes) else "application/json"
                 self._send(200, kind, body)
@@ -139,24 +139,23 @@ class Request(BaseHTTPRequestHandler):
         except (SweepError, ScenarioError, UnsupportedError) as error:
             self._refuse(400, str(error))
 
-    def _map(self, query: Query) -> Any:
-        _require_names(query)
+    def _map(self, query: str) -> Any:
+        _query(query)
         return page_map(tossed_map_at(self.server.path, most=MOST_SHOWN))
 
-    def _toss(self, query: Query) -> Any:
-        _require_names(query, "x", "y", also="engine")
-        x, y = map(float, _read(query, ("x", "y"), _NUMBER, "a number"))
+    def _toss(self, query: str) -> Any:
+        given = _query(query, "x", "y", also="engine")
+        x, y = map(float, _read(given, ("x", "y"), _NUMBER, "a number"))
         require_inside(self.server.sweep, x, y)
-        chosen = query.get("engine")
+        chosen = given.get("engine")
         if chosen is not None and chosen not in list(Engine):
             raise SweepError(f"engine: accepted: {' or '.join(Engine)}")
         engines = list(Engine) if chosen is None else [Engine(chosen)]
         return [toss_pixel(self.server.sweep, x, y, engine) for engine in engines]
 
-    def _tile(self, query: Query) -> bytes:
+    def _tile(self, query: str) -> bytes:
         names = ("level", "column", "row")
-        _require_names(query, *names)
-        level, column, row = map(int, _read(query, names, _COUNT, "a whole number"))
+        level, column, row = map(int, _read(_query(query, *names), names, _COUNT, "a whole number"))
         return toss_tile(self.server.sweep, level, column, row).tobytes()
 
     def _refuse(self, status: int, message: str) -> None:
@@ -184,19 +183,18 @@ class Request(BaseHTTPRequestHandler):
         """Log nothing: the terminal is the user's."""
 
 
-def _query(text: str) -> Query:
+def _query(text: str, *names: str, also: str = "") -> Query:
+    """Return what a query says, which has each of these names once, and perhaps one more."""
     try:
         pairs = parse_qsl(text, keep_blank_values=True, strict_parsing=bool(text), max_num_fields=8)
     except ValueError:
         raise SweepError("accepted: NAME=VALUE&NAME=VALUE") from None
-    if len(dict(pairs)) < len(pairs):
+    query = dict(pairs)
+    if len(query) < len(pairs):
         raise SweepError("accepted: each name once")
-    return dict(pairs)
-
-
-def _require_names(query: Query, *names: str, also: str = "") -> None:
     if not set(names) <= set(query) <= {*names, also}:
         raise SweepError(f"accepted: {', '.join(names) or 'no query'}")
+    return query
 
 
 def _read(query: Query, names: Sequence[str], form: re.Pattern[str], accepted: str) -> list[str]:

@@ -43,8 +43,7 @@ def toss_pixel(
     followed = scenario.replace("ending.max_impacts", min(most, scenario.rules.max_impacts))
     with warnings.catch_warnings(record=True, action="always", category=ApproximationWarning) as raised:
         try:
-            if engine == Engine.MUJOCO:
-                require_mujoco()
+            require_mujoco(engine)
             toss = engine.package.toss(followed, settings=_settings(sweep, engine))
             played = playable(toss, samples, most_symbols)
         except (UnsupportedError, UnusableEngineError, BackEndError, FloatingPointError) as error:

@@ -39,12 +39,17 @@ class BackEndError(RuntimeError):
     """MuJoCo's back end for drawing keeps it from being imported; the message says what is accepted."""
 
 
-def require_mujoco() -> None:
+def require_mujoco(*engines: str) -> None:
     """Import MuJoCo to compute with.
+
+    Args:
+        engines: those that compute; without MuJoCo among them nothing is done. By default it does.
 
     Raises:
         BackEndError: where MUJOCO_GL names a back end that there is none of, or not here.
     """
+    if engines and "mujoco" not in engines:
+        return
     try:
         import_module("mujoco")
     # Each back end fails in its own way, from ImportError to AttributeError.

@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 
 from cointoss.compare.film.play import Play
-from cointoss.compare.film.shadow import add_shadow
+from cointoss.compare.film.shadow import add_geom, add_shadow
 from cointoss.compare.film.visual_model import build_visual_model
 from cointoss.models.records import Array, Ending
 
@@ -150,20 +150,21 @@ class Drawer:
 
     def _add_hand(self, i: int) -> None:
         """Add the hand to which a caught coin comes down, under the coin as it is caught."""
-        play, r, scene = self._play, self._play.toss.scenario.coin.radius, self._renderer.scene
+        play, r = self._play, self._play.toss.scenario.coin.radius
         if play.toss.ending != Ending.CAUGHT:
             return
         before, fades_in = HAND_COMES
         alpha = min(1.0, (play.times[i] - play.toss.end_time + before) / fades_in)
         comes_down = np.all(play.states.position[i:, 2] >= play.states.position[-1, 2])
-        if alpha > 0 and comes_down and scene.ngeom < scene.maxgeom:
+        if alpha > 0 and comes_down:
             below = play.lowest_point(len(play.times) - 1)[2] - HAND_SIZE[1] * r
-            place = np.array([*play.states.position[-1, :2], below])
-            size = r * np.array([HAND_SIZE[0], HAND_SIZE[1], 0.0])
-            rgba = np.array([*HAND_COLOR, alpha], np.float32)
-            kind = mujoco.mjtGeom.mjGEOM_CYLINDER
-            mujoco.mjv_initGeom(scene.geoms[scene.ngeom], kind, size, place, np.eye(3).ravel(), rgba)
-            scene.ngeom += 1
+            add_geom(
+                self._renderer.scene,
+                mujoco.mjtGeom.mjGEOM_CYLINDER,
+                (*HAND_COLOR, alpha),
+                size=(r * HAND_SIZE[0], r * HAND_SIZE[1], 0.0),
+                at=(*play.states.position[-1, :2], below),
+            )
 
     def _add_arrows(self, i: int) -> None:
         play = self._play
@@ -193,13 +194,9 @@ class Drawer:
     def _add(
         self, kind: mujoco.mjtGeom, thickness: float, start: Array, end: Array, color: Color, alpha: float
     ) -> None:
-        scene = self._renderer.scene
-        if scene.ngeom < scene.maxgeom:
-            geom = scene.geoms[scene.ngeom]
-            rgba = np.array([*color, alpha], np.float32)
-            mujoco.mjv_initGeom(geom, kind, np.zeros(3), np.zeros(3), np.eye(3).ravel(), rgba)
+        geom = add_geom(self._renderer.scene, kind, (*color, alpha))
+        if geom is not None:
             mujoco.mjv_connector(geom, kind, thickness, start, end)
-            scene.ngeom += 1
 
 
 def _aimed(camera: Camera, box: Box, r: float, aspect: float) -> tuple[mujoco.MjvCamera, float]:

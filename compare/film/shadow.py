@@ -4,9 +4,11 @@
 # pyright: reportAttributeAccessIssue=false
 
 import math
+from collections.abc import Sequence
 
 import mujoco
 import numpy as np
+from numpy.typing import ArrayLike
 
 from cointoss.models.parts import Coin
 
@@ -17,7 +19,7 @@ DARKNESS = 0.2
 
 
 def add_shadow(scene: mujoco.MjvScene, data: mujoco.MjData, coin: Coin) -> None:
-    """Add the shadow of a coin to a scene that has room for it.
+    """Add the shadow of a coin to a scene.
 
     It is drawn as an ellipse, which takes a fiftieth of the time of a renderer's map of shadows.
     """
@@ -27,8 +29,34 @@ def add_shadow(scene: mujoco.MjvScene, data: mujoco.MjData, coin: Coin) -> None:
     along = coin.radius * abs(n_z) + coin.thickness / 2 * level
     c, s = (n_x / level, n_y / level) if level > 0 else (1.0, 0.0)
     axes = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+    geom = add_geom(scene, mujoco.mjtGeom.mjGEOM_CYLINDER, (0, 0, 0, DARKNESS), at=(x, y, 0), axes=axes)
+    if geom is not None:
+        geom.size[:] = along, coin.radius, THICKNESS * coin.radius
+
+
+def add_geom(
+    scene: mujoco.MjvScene,
+    kind: mujoco.mjtGeom,
+    color: Sequence[float],
+    *,
+    size: ArrayLike = (0, 0, 0),
+    at: ArrayLike = (0, 0, 0),
+    axes: ArrayLike = ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
+) -> mujoco.MjvGeom | None:
+    """Add a geom to a scene, and return it; None where there is no room.
+
+    Args:
+        scene: what is drawn.
+        kind: of the geom.
+        color: red, green, blue and opacity, each from 0 to 1.
+        size: as MuJoCo takes it of this kind, (3,) [m].
+        at: its place, (3,) [m].
+        axes: its axes as columns, (3, 3).
+    """
+    if scene.ngeom >= scene.maxgeom:
+        return None
     geom = scene.geoms[scene.ngeom]
-    kind, rgba = mujoco.mjtGeom.mjGEOM_CYLINDER, np.array([0, 0, 0, DARKNESS], np.float32)
-    mujoco.mjv_initGeom(geom, kind, np.zeros(3), np.array([x, y, 0]), axes.ravel(), rgba)
-    geom.size[:] = along, coin.radius, THICKNESS * coin.radius
     scene.ngeom += 1
+    numbers = (np.array(one, float).ravel() for one in (size, at, axes))
+    mujoco.mjv_initGeom(geom, kind, *numbers, np.array(color, np.float32))
+    return geom

@@ -165,12 +165,12 @@ def find(
     window = window_of(vary, described)
     searched = search(window, target, tosses, seed)
     if searched.longest < 0:
-        window.scenario_at(np.full(len(window.spans), 0.5))  # says why
+        window.scenario_of(window.values(np.full(len(window.spans), 0.5)))  # says why
         raise ScenarioError(
             "no point of the window makes a scenario; accepted: spans in which the coin is free"
         )
     for hit in searched.hits:
-        own = window.scenario_at(hit.point)
+        own = window.scenario_of(window.values(hit.point))
         touches = () if outcome is not None else ("ending.max_impacts", len(sequence))
         toss = analytic.toss(own.replace("gravity", own.gravity, *touches))
         if toss.sequence.startswith(sequence) and target.outcome in (None, toss.outcome):

@@ -5,7 +5,6 @@ the search goes on around those that show most of it, in ever smaller boxes, eac
 much.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +13,7 @@ from scipy.stats import qmc
 
 from cointoss.compare.find.window import Target, Window
 from cointoss.compare.metrics.margin import FINE, MANY, SearchResolution, changes_both_ways
-from cointoss.compare.output.interruption import Interruption
+from cointoss.compare.output.interruption import saying
 from cointoss.models.records import Array
 from cointoss.models.stages import stage
 
@@ -82,23 +81,21 @@ def search(window: Window, target: Target, tosses: int, seed: int) -> Searched:
     points, shown = np.empty((0, len(window.spans))), np.empty(0, dtype=np.int64)
     tried = refused = hits = 0
 
-    def found() -> str:
-        return f"{hits or 'none'} shows it"
-
-    try:
-        with stage("searching the window", "tosses", total=tosses, detail=found) as progress:
-            while tried < tosses and hits < ENOUGH:
-                block = sampler.random(BLOCK)[: tosses - tried]
-                of_block = target.shown(window, block)
-                points, shown = np.concatenate([points, block]), np.concatenate([shown, of_block])
-                best = np.argsort(-shown, kind="stable")[:ENOUGH]
-                points, shown, tried = points[best], shown[best], tried + len(block)
-                refused += int(np.sum(of_block < 0))
-                hits += int(np.sum(of_block == target.steps))
-                progress(tried, tosses)
-    except Interruption as interruption:
-        interruption.message += f": {hits or 'none'} of {tried - refused:,d} tosses shows it"
-        raise
+    with (
+        saying(lambda said: f"{said}: {hits or 'none'} of {tried - refused:,d} tosses shows it"),
+        stage(
+            "searching the window", "tosses", total=tosses, detail=lambda: f"{hits or 'none'} shows it"
+        ) as progress,
+    ):
+        while tried < tosses and hits < ENOUGH:
+            block = sampler.random(BLOCK)[: tosses - tried]
+            of_block = target.shown(window, block)
+            points, shown = np.concatenate([points, block]), np.concatenate([shown, of_block])
+            best = np.argsort(-shown, kind="stable")[:ENOUGH]
+            points, shown, tried = points[best], shown[best], tried + len(block)
+            refused += int(np.sum(of_block < 0))
+            hits += int(np.sum(of_block == target.steps))
+            progress(tried, tosses)
     made = tried - refused
     longest = int(shown.max())
     if 0 < longest < target.steps:
@@ -130,38 +127,21 @@ def _in_boxes(window: Window, target: Target, points: Array, shown: int, seed: i
         shown: how many.
         seed: of the points.
     """
-    points, rng = points[:BEAM], np.random.default_rng([seed, 1])
+    points, rng, tries = points[:BEAM], np.random.default_rng([seed, 1]), 0
     with stage("searching smaller boxes", "steps", total=target.steps, done=shown) as progress:
-        return _narrowed(window, target, points, shown, rng, progress)
-
-
-def _narrowed(
-    window: Window,
-    target: Target,
-    points: Array,
-    shown: int,
-    rng: np.random.Generator,
-    progress: Callable[[int, int], None],
-) -> tuple[Array, int]:
-    """Return what `_in_boxes` does."""
-    tries, number = 0, IN_A_BOX
-    while shown < target.steps and tries < TRIES:
-        margins = np.minimum(_margins(window, target, points, shown), 1.0)
-        found = []
-        for point, (down, up) in zip(points, margins.transpose(0, 2, 1), strict=True):
-            low, high = np.maximum(point - 2 * down, 0.0), np.minimum(point + 2 * up, 1.0)
-            drawn = low + (high - low) * qmc.Sobol(len(point), rng=rng).random(number)
-            found.append(drawn)
-        drawn = np.concatenate(found)
-        now = target.shown(window, drawn)
-        if now.max() > shown:
-            tries, number, shown = 0, IN_A_BOX, int(now.max())
-            # The first of each box, then others: from different parts of the window.
-            met = np.flatnonzero(now == shown)
-            points = drawn[met[np.linspace(0, len(met) - 1, min(BEAM, len(met))).astype(int)]]
-            progress(shown, target.steps)
-        else:
-            tries, number = tries + 1, 2 * number
+        while shown < target.steps and tries < TRIES:
+            down, up = np.minimum(_margins(window, target, points, shown), 1.0).transpose(2, 0, 1)
+            low, high = np.maximum(points - 2 * down, 0.0), np.minimum(points + 2 * up, 1.0)
+            inside = [qmc.Sobol(points.shape[1], rng=rng).random(IN_A_BOX << tries) for _ in points]
+            drawn = np.concatenate(low[:, None] + (high - low)[:, None] * np.array(inside))
+            now = target.shown(window, drawn)
+            tries += 1
+            if now.max() > shown:
+                tries, shown = 0, int(now.max())
+                # The first of each box, then others: from different parts of the window.
+                met = np.flatnonzero(now == shown)
+                points = drawn[met[np.linspace(0, len(met) - 1, min(BEAM, len(met))).astype(int)]]
+                progress(shown, target.steps)
     return points, shown
 
 

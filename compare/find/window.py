@@ -1,4 +1,4 @@
-"""A window of a scenario: fields that vary between two values each, and the tosses of points in it."""
+"""What a search looks for, and where: the window of fields that vary, and what the tosses in it show."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -9,11 +9,9 @@ from numpy.typing import NDArray
 
 from cointoss import analytic
 from cointoss.compare.find.faces import faces_shown
-from cointoss.compare.sweep.axes import NUMBERS, Span, spans_of
-from cointoss.compare.sweep.batch import TOSS, Batch, Varied
+from cointoss.compare.sweep.axes import NUMBERS, spans_of
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.models.batch import refused
-from cointoss.models.parts import LARGEST
+from cointoss.compare.sweep.window import Window
 from cointoss.models.records import Array, Face, Outcome
 from cointoss.models.scenario import Scenario
 
@@ -25,37 +23,6 @@ FIELDS = {
 """What may vary, and its unit: not a number of impacts, and no component of what has norm 1."""
 AT_FIRST = 4
 """Touches that are looked at of every toss; then of those that agree so far twice as many, and so on."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Window:
-    """A scenario, and the spans of the fields that vary; a point has each between 0 and 1."""
-
-    scenario: Scenario
-    spans: tuple[Span, ...]
-
-    def values(self, points: Array) -> Array:
-        """Return the fields' values at points, (n, fields); none beyond what a scenario can have."""
-        starts, stops = (np.array([getattr(one, end) for one in self.spans]) for end in ("start", "stop"))
-        return np.clip(starts + points * (stops - starts), -LARGEST, LARGEST)
-
-    def scenario_at(self, point: Array) -> Scenario:
-        """Return the scenario at a point, (fields,).
-
-        Raises:
-            ScenarioError: for values that make no valid scenario.
-        """
-        values = self.values(point).tolist()
-        pairs = [part for span, value in zip(self.spans, values, strict=True) for part in (span.field, value)]
-        return self.scenario.replace(*pairs[:2], *pairs[2:])
-
-    def rows(self, points: Array) -> tuple[Array, NDArray[np.bool_]]:
-        """Return the tosses at points, (n, fields), as rows, (n, 46), and which are scenarios, (n,)."""
-        columns = zip(self.spans, self.values(points).T, strict=True)
-        varied = tuple(Varied(field=span.field, dims=(TOSS,), values=values) for span, values in columns)
-        batch = Batch(scenario=self.scenario, varied=varied, sizes={TOSS: len(points)})
-        rows = batch.rows(np.arange(len(points)))
-        return rows, ~refused(rows, batch.fields)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,7 +63,7 @@ class Target:
             steps: to be looked at; by default all.
         """
         steps = self.steps if steps is None else steps
-        rows, is_tossed = window.rows(points)
+        rows, is_tossed = window.rows(window.values(points))
         shown, left = np.where(is_tossed, 0, -1), np.flatnonzero(is_tossed)
         touches, most = 0, min(steps, len(self.sequence))
         while touches < most and len(left):

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import compress
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,8 @@ from cointoss.analytic.sightings import sightings
 from cointoss.analytic.toss import state_at_release
 from cointoss.compare.fitting.observed import Observed
 from cointoss.compare.sweep.axes import Span
-from cointoss.models.batch import PLACE, refused, rows_of
+from cointoss.compare.sweep.window import Window
+from cointoss.models.batch import PLACE
 from cointoss.models.interruptible import interruptible
 from cointoss.models.laws import EndingTest
 from cointoss.models.records import Array, Face
@@ -93,8 +95,7 @@ class Misfit:
 
     def scenario_of(self, values: Array) -> Scenario:
         """Return the scenario with these values, (k,); raise `ScenarioError` for what is none."""
-        pairs = [x for field, i in self._columns.items() for x in (field, float(values[i]))]
-        return self.scenario.replace(*pairs) if pairs else self.scenario  # pyright: ignore[reportArgumentType]
+        return self._window.scenario_of(values[self._is_field])
 
     def residuals(self, values: Array, until: float = np.inf) -> Array:
         """Return the residuals of many tosses, (p, n); `IMPOSSIBLE` for values that make no scenario.
@@ -103,13 +104,15 @@ class Misfit:
             values: of the fields, a row for each toss, (p, k).
             until: what was seen later may have any residuals, which spares most of the work [s].
         """
-        found, is_toss = np.full((len(values), len(self.times)), IMPOSSIBLE), self.accepts(values)
-        rows, clock = self._rows(values[is_toss]), self.clock_of(values[is_toss])
+        rows, is_toss = self._window.rows(values[:, self._is_field])
+        found = np.full((len(values), len(self.times)), IMPOSSIBLE)
+        rows, clock = rows[is_toss], self.clock_of(values[is_toss])
         film = np.sort(self.observed.times)
         film, is_awaited = film[film <= until], self.observed.touch_times <= until
         touches = int(self.observed.touch_numbers[is_awaited].max(initial=0))
         rows[:, PLACE["ending.max_impacts"]] = self.most_impacts if len(film) else touches
         rows[:, PLACE["ending.max_time"]] = self._ends(clock, until)
+        rows[:, PLACE["ending.test"]] = EndingTest.LYING.value
         shown = sightings(rows, film - clock[:, None], most=self._most)
         states = np.pad(shown.states, ((0, 0), (0, len(self.observed.times) - len(film)), (0, 0)))
         found[is_toss] = np.hstack([self._missed_touches(shown, clock), self._missed_frames(states)])
@@ -121,35 +124,27 @@ class Misfit:
 
         Without a film the clock shifts the touches, and nothing else.
         """
-        of_clock = [i for i, span in enumerate(self.spans) if span.field == CLOCK]
         late = np.append(-1.0 / self.observed.touch_sd, np.zeros(len(self._faces)))
-        return dict.fromkeys(of_clock, late) if not len(self.observed.times) else {}
+        of_clock = np.flatnonzero(~self._is_field).tolist() if not len(self.observed.times) else []
+        return dict.fromkeys(of_clock, late)
 
     def accepts(self, values: Array) -> NDArray[np.bool_]:
         """Return which values make a scenario, (p,), from values of the fields, (p, k)."""
-        return ~refused(self._rows(values), self._columns)
+        return self._window.rows(values[:, self._is_field])[1]
 
     @cached_property
-    def _columns(self) -> dict[str, int]:
-        """Where each field of the scenario stands among the values."""
-        return {span.field: i for i, span in enumerate(self.spans) if span.field != CLOCK}
+    def _is_field(self) -> NDArray[np.bool_]:
+        """Which values are those of fields of the scenario, not of the clock, (k,)."""
+        return np.array([span.field != CLOCK for span in self.spans])
 
     @cached_property
-    def _row(self) -> Array:
-        """A row of the scenario, followed until the coin lies, with any values of the fields, (1, 46)."""
-        changed = {field: self.spans[i].start for field, i in self._columns.items()}
-        return rows_of(self.scenario, 1, {**changed, "ending.test": EndingTest.LYING.value})
-
-    def _rows(self, values: Array) -> Array:
-        """Return the rows of the scenarios with these values, (p, 46); not all need be scenarios."""
-        rows = np.repeat(self._row, len(values), axis=0)
-        rows[:, [PLACE[field] for field in self._columns]] = values[:, list(self._columns.values())]
-        return rows
+    def _window(self) -> Window:
+        """Where the fields of the scenario are looked for."""
+        return Window(scenario=self.scenario, spans=tuple(compress(self.spans, self._is_field)))
 
     def clock_of(self, values: Array) -> Array:
         """Return the time of the observer's clock at each release, (p,) [s], from values, (p, k)."""
-        of_clock = [i for i, span in enumerate(self.spans) if span.field == CLOCK]
-        return values[:, of_clock[0]] if of_clock else np.zeros(len(values))
+        return values[:, ~self._is_field].sum(axis=1)
 
     def _ends(self, clock: Array, until: float = np.inf) -> Array:
         """Return when tosses end whose release was at `clock` [s]: after all that was seen, or `until`."""

@@ -1,13 +1,12 @@
 """A toss as an answer: JSON, CSV, and lines to read."""
 
-import csv
-import io
 from dataclasses import fields
 from typing import Any
 
 import numpy as np
 
 from cointoss.compare.output.language import in_options
+from cointoss.compare.output.tables import sheet
 from cointoss.models import certificate
 from cointoss.models.notebook import shortened, with_bar
 from cointoss.models.records import (
@@ -92,14 +91,11 @@ def path_csv(states: States, scenario: Scenario) -> str:
 
     The last three columns are the coin's lowest point A in space: the point of contact where it touches.
     """
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([*(name for names in PATH_COLUMNS.values() for name in names), *POINT_COLUMNS])
     rows = np.column_stack(
         [*(getattr(states, field) for field in PATH_COLUMNS), states.lowest_points(scenario)]
     )
-    writer.writerows([[repr(float(number)) for number in row] for row in rows])
-    return text.getvalue()
+    head = [*(name for names in PATH_COLUMNS.values() for name in names), *POINT_COLUMNS]
+    return sheet(head, [[repr(number) for number in row] for row in rows.tolist()])
 
 
 def counted(number: int, thing: str) -> str:

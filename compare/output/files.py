@@ -17,11 +17,11 @@ class UnwritableError(OSError):
     """A place that can't be written; the message names it and says why."""
 
 
-def require_file(path: Path, suffix: str | tuple[str, ...], source: str, *read: str | Path) -> None:
+def require_file(path: Path | None, suffix: str | tuple[str, ...], source: str, *read: str | Path) -> None:
     """Check that a file can be written at `path`, in a folder that exists, and that nothing else is lost.
 
     Args:
-        path: where to write; a link stands for what it points to.
+        path: where to write; a link stands for what it points to. None where nothing is written.
         suffix: what its name must end in, or several of which it must be one.
         source: the scenario, which must be another file.
         read: what else is read, which must be others, too.
@@ -29,6 +29,8 @@ def require_file(path: Path, suffix: str | tuple[str, ...], source: str, *read: 
     Raises:
         UnwritableError: naming the file and why.
     """
+    if path is None:
+        return
     suffixes = (suffix,) if isinstance(suffix, str) else suffix
     if path.suffix.lower() not in suffixes:
         raise UnwritableError(
@@ -116,6 +118,16 @@ def write_text(path: Path, text: str) -> None:
             sys.stdout.flush()
         else:
             path.write_text(text, encoding="utf-8")
+
+
+def write_bytes(path: Path, content: bytes) -> None:
+    """Write a file whole or not at all.
+
+    Raises:
+        UnwritableError: naming the file and why.
+    """
+    with written_whole(path) as aside:
+        aside.write_bytes(content)
 
 
 @contextmanager

@@ -48,6 +48,16 @@ def undoing(undo: Callable[[], None]) -> Iterator[None]:
         _pending.remove(undo)
 
 
+@contextmanager
+def saying(say: Callable[[str], str]) -> Iterator[None]:
+    """Let an interruption within the `with` statement say what `say` returns of its message."""
+    try:
+        yield
+    except Interruption as interruption:
+        interruption.message = say(interruption.message)
+        raise
+
+
 def raise_interruption_behind(error: BaseException) -> None:
     """Raise the interruption that an error arose from; return where there is none.
 

@@ -1,9 +1,11 @@
 """Plots of tosses, in axes of one's own or new ones."""
 
+import io
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from cointoss.models.palette import COLORS
 from cointoss.models.records import Face, Toss
@@ -19,6 +21,13 @@ def axes_or_new(ax: Axes | None) -> Axes:
     from matplotlib import pyplot
 
     return pyplot.subplots(layout="constrained")[1]
+
+
+def picture_bytes(figure: Figure, suffix: str = ".png", dpi: float = 150) -> bytes:
+    """Return the content of a picture's file, of a suffix as in ".png"; that of .svg names no date."""
+    drawn = io.BytesIO()
+    figure.savefig(drawn, format=suffix[1:], dpi=dpi, metadata={"Date": None} if suffix == ".svg" else None)
+    return drawn.getvalue()
 
 
 def plot_toss(toss: Toss, ax: Axes | None = None, **line: Any) -> Axes:

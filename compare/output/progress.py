@@ -6,7 +6,6 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
-from functools import partial
 from itertools import count
 from typing import Any
 
@@ -68,8 +67,13 @@ class Display:
                 return
             visible = [opened[0], *(each for each in opened[1:] if each.seconds > INNER)]
             subject = visible[-1] if opened[0].total is None else opened[0]
-            self._show(subject, opened[0].seconds, partial(self._working, visible))
-            self._drawn_stage = opened[0] if self._drawn else None
+            if not self._rewrites:
+                if self._clock() - self._last_line > (EVERY if subject is self._named else FIRST):
+                    self._named, self._last_line = subject, self._clock()
+                    self._write(f"cointoss: {'; '.join(map(_phrase, visible))}\n")
+            elif opened[0].seconds > AFTER or self._drawn:
+                self._draw(self._bar(visible))
+                self._drawn_stage = opened[0]
 
     def ended(self, stage: Stage) -> None:
         """Leave the bar of a stage whose parts were counted."""
@@ -84,18 +88,6 @@ class Display:
         with self._lock:
             self._draw("")
 
-    def _show(self, subject: Any, seconds: float, text: Callable[[], str]) -> None:
-        """Show something, if it is due, that has run for so long [s]."""
-        if self._rewrites:
-            if seconds > AFTER or self._drawn:
-                self._draw(text())
-        elif self._clock() - self._last_line > (EVERY if subject is self._named else FIRST):
-            self._named = subject
-            self._line(text())
-
-    def _working(self, visible: list[Stage]) -> str:
-        return self._bar(visible) if self._rewrites else "; ".join(map(_phrase, visible))
-
     def _bar(self, visible: list[Stage]) -> str:
         """Return the bar of the innermost stage that is counted, those around it before it, others after."""
         counted = max((i for i, each in enumerate(visible) if each.total is not None), default=None)
@@ -105,26 +97,15 @@ class Display:
         name = ", ".join([*(f"{each.name}{_counted(each)}" for each in before), own.name])
         rate = "" if own.rate is None else f", {own.rate:.3g} {own.unit}/s"
         also = rate + "".join(f"; {_phrase(each)}" for each in after)
-        return self._meter(name, own.done, own.total or 0, own.unit, own.seconds, own.seconds_left, also)
-
-    def _meter(
-        self,
-        name: str,
-        done: int,
-        total: int,
-        unit: str,
-        elapsed: float,
-        left: float | None,
-        also: str = "",
-    ) -> str:
         from tqdm import tqdm  # takes longer to import than the command line
 
-        clocks = f"{tqdm.format_interval(elapsed)}<{'?' if left is None else tqdm.format_interval(left)}"
-        counts = f"{done:,}/{total:,} {unit} [{clocks}{also}]"
+        left = "?" if own.seconds_left is None else tqdm.format_interval(own.seconds_left)
+        clocks = f"{tqdm.format_interval(own.seconds)}<{left}"
+        counts = f"{own.done:,}/{own.total or 0:,} {own.unit} [{clocks}{also}]"
         return tqdm.format_meter(
-            done,
-            total,
-            elapsed,
+            own.done,
+            own.total or 0,
+            own.seconds,
             ncols=_width(self._stream) - 1,
             prefix=name,
             bar_format="{l_bar}{bar}| " + counts.replace("{", "{{").replace("}", "}}"),
@@ -136,10 +117,6 @@ class Display:
             text = text[: _width(self._stream) - 1]
             self._write("\r" + text.ljust(len(self._drawn)) + ("" if text else "\r"))
             self._drawn = text
-
-    def _line(self, text: str) -> None:
-        self._write(f"cointoss: {text}\n")
-        self._last_line = self._clock()
 
     def _write(self, text: str) -> None:
         with suppress(OSError, ValueError):  # nobody reads it any more, which stops no work

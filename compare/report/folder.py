@@ -1,7 +1,6 @@
 """Write a report's folder: the page, the video, the numbers and the paths."""
 
 import io
-import json
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -10,11 +9,11 @@ import numpy as np
 
 from cointoss.compare.output import answer
 from cointoss.compare.output.files import written_together
+from cointoss.compare.output.plain import json_text
 from cointoss.compare.report.compared_tosses import ComparedTosses
 from cointoss.compare.report.contents import FILES, OF_THE_FILM
 from cointoss.compare.report.map_section import MapSection
 from cointoss.compare.report.page import render, versions
-from cointoss.models.records import Array
 from cointoss.models.stages import stage
 
 BEING_DRAWN = (
@@ -50,7 +49,7 @@ def write_report(
     """
     with written_together(folder, FILES) as aside, stage("making the report"):
         numbers = _numbers(comparison) | ({"map": maps.numbers} if maps else {})
-        (aside / "numbers.json").write_text(json.dumps(numbers, indent=1, allow_nan=False), encoding="utf-8")
+        (aside / "numbers.json").write_text(json_text(numbers), encoding="utf-8")
         for toss in comparison.tosses:
             states = toss.sample(answer.path_times(toss))
             (aside / f"path-{toss.engine}.csv").write_text(
@@ -91,11 +90,11 @@ def _numbers(comparison: ComparedTosses) -> dict[str, Any]:
         "comparison": {
             "common_prefix": comparison.common_prefix,
             "horizon": comparison.horizon,
-            "impulse_error": _finite(comparison.errors),
+            "impulse_error": comparison.errors,
             "parting_time": together.parting_time,
-            "time_difference": _finite(comparison.differences.time),
-            "impulse_difference": _finite(comparison.differences.impulse),
-            "angular_velocity_difference": _finite(comparison.differences.angular_velocity),
+            "time_difference": comparison.differences.time,
+            "impulse_difference": comparison.differences.impulse,
+            "angular_velocity_difference": comparison.differences.angular_velocity,
         },
     }
 
@@ -107,8 +106,3 @@ def _jpeg(picture: np.ndarray) -> bytes:
     written = io.BytesIO()
     Image.fromarray(picture).save(written, format="jpeg", quality=80)
     return written.getvalue()
-
-
-def _finite(numbers: Array) -> list[float | None]:
-    """Return numbers for JSON, with null for those that are not finite."""
-    return [float(number) if np.isfinite(number) else None for number in numbers]

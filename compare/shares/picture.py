@@ -1,6 +1,5 @@
 """Shares of outcomes drawn over a field, a panel for each value of a second."""
 
-import io
 import math
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from cointoss.compare.engines import Engine
-from cointoss.compare.output.plots import axes_or_new
+from cointoss.compare.output.plots import axes_or_new, picture_bytes
 from cointoss.compare.output.style import GREY, OUTCOMES, STYLE
 from cointoss.compare.shares.show import fields_of, labelled, outcomes_of, over_engines
 from cointoss.compare.sweep.axes import word_of
@@ -24,7 +23,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 MOST_PANELS, IN_A_ROW = 30, 3
-DPI = 150
 OF_THE_HAND = "release.position.z"
 """What a title tells of a scenario's own release, and is not so of a hand's."""
 _LINES: dict[Engine, Any] = {
@@ -72,10 +70,7 @@ def picture_of(shares: "xr.Dataset", suffix: str) -> bytes:
         scenario = parse(shares.attrs["scenario"], "attribute scenario")
         title = title_of_toss(scenario, shares.attrs["name"], varied=[*fields, OF_THE_HAND])
         figure.suptitle(title, parse_math=False)
-        drawn = io.BytesIO()
-        metadata = {"Date": None} if suffix == ".svg" else None
-        figure.savefig(drawn, format=suffix[1:], dpi=DPI, metadata=metadata)
-        return drawn.getvalue()
+        return picture_bytes(figure, suffix)
 
 
 def require_drawable(shape: tuple[int, ...]) -> None:

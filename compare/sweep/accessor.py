@@ -1,6 +1,6 @@
 """What a dataset of tosses can be asked: `ds.cointoss`, an accessor of xarray."""
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Mapping
 from importlib import import_module
 from os import PathLike
 from pathlib import Path
@@ -49,42 +49,41 @@ def codes_of(name: str, words: NDArray[Any]) -> NDArray[np.int8]:
 
 
 def in_words(dataset: xr.Dataset) -> xr.Dataset:
-    """Return a dataset whose codes are words."""
-    return _mapped(dataset, words_of, flagged=False)
+    """Return a dataset whose codes are words, those of coordinates too."""
+    new: dict[Hashable, Any] = {
+        name: (dataset[name].dims, words_of(name, dataset[name].values), _named(COLUMNS[name].attributes))
+        for name in WORDED
+        if name in dataset
+    }
+    if (certain := dataset.get("outcome_certain")) is not None:
+        new["outcome_certain"] = certain.copy(data=certain.values == 1)
+    for name, one in dataset.coords.items():
+        if "flag_values" in one.attrs and one.dtype.kind in "iuf":
+            known = dict(zip(one.attrs["flag_values"], one.attrs["flag_meanings"].split(), strict=True))
+            words = np.array([known[int(code)] for code in one.values.ravel()]).reshape(one.shape)
+            new[name] = (one.dims, words, _named(one.attrs))
+    return dataset.assign(new)
 
 
 def in_codes(dataset: xr.Dataset) -> xr.Dataset:
     """Return a dataset whose words are codes of int8, which CF's attributes `flag_values` explain."""
-    return _mapped(dataset, codes_of, flagged=True)
+    return dataset.assign(
+        {
+            name: (dataset[name].dims, codes_of(name, dataset[name].values), COLUMNS[name].attributes)
+            for name in WORDED
+            if name in dataset
+        }
+    )
+
+
+def _named(attributes: Mapping[Any, Any]) -> dict[str, Any]:
+    """Return the attributes of words, whose codes are told no more."""
+    return {"long_name": attributes["long_name"]}
 
 
 def opened(path: Path) -> xr.Dataset:
     """Return the dataset of a store, which is read as it is asked for; its words are codes."""
     return xr.open_zarr(path, chunks=None)
-
-
-def _mapped(dataset: xr.Dataset, change: Any, *, flagged: bool) -> xr.Dataset:
-    new = {}
-    for name in WORDED:
-        if name in dataset:
-            attributes = COLUMNS[name].attributes
-            kept = attributes if flagged else {key: attributes[key] for key in ("long_name",)}
-            new[name] = (dataset[name].dims, change(name, dataset[name].values), kept)
-    if (certain := dataset.get("outcome_certain")) is not None and not flagged:
-        new["outcome_certain"] = certain.copy(data=certain.values == 1)
-    made = dataset.assign(new)
-    return made if flagged else made.assign_coords(_worded_coordinates(dataset))
-
-
-def _worded_coordinates(dataset: xr.Dataset) -> dict[Hashable, Any]:
-    """Return the coordinates that are codes, as words."""
-    found: dict[Hashable, Any] = {}
-    for name, one in dataset.coords.items():
-        if "flag_values" in one.attrs and one.dtype.kind in "iuf":
-            known = dict(zip(one.attrs["flag_values"], one.attrs["flag_meanings"].split(), strict=True))
-            words = np.array([known[int(code)] for code in one.values.ravel()]).reshape(one.shape)
-            found[name] = (one.dims, words, {"long_name": one.attrs["long_name"]})
-    return found
 
 
 @xr.register_dataset_accessor("cointoss")

@@ -1,16 +1,36 @@
 """What `cointoss basin` is asked for."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 from cointoss.compare.basins.picture_style import PictureStyle
 from cointoss.compare.output.accepted import Form, Within
 
+if TYPE_CHECKING:
+    from cointoss.models.scenario import Scenario
+
+
+class Source(NamedTuple):
+    """The scenario that is asked for."""
+
+    name: str
+    """Its name, or its file's, in messages."""
+    scenario: "Scenario"
+    text: str
+    """Its TOML."""
+    settings: tuple[str, ...]
+    """FIELD=VALUE each, with which it was changed."""
+
+    @property
+    def stem(self) -> str:
+        """What a report, a map or a table calls it."""
+        return Path(self.name).stem
+
 
 @dataclass(frozen=True, kw_only=True)
-class Job:
-    """A map of a scenario, or one by each engine, with what is drawn and told of them."""
+class Job(PictureStyle):
+    """A map of a scenario, or one by each engine, with what is told of them and how they are drawn."""
 
     x: Annotated[str, Form("FIELD=START:STOP:N")]
     """The field that varies along x, and its N values."""
@@ -39,8 +59,6 @@ class Job:
     """Address of a Dask scheduler on whose workers to toss."""
     png: Path | None = None
     """Also draw the map to this .png file."""
-    style: PictureStyle = field(default_factory=PictureStyle)
-    """How it is drawn."""
     report: Path | None = None
     """Folder of a report as by `cointoss compare`, with both maps; requires --compare."""
     no_video: bool = False

@@ -24,7 +24,6 @@ NUMBERS = {**UNITS, SPIN: "rad/s"}
 """The SI units of all fields of a scenario that are numbers, in pint's spelling."""
 _WORDS = {**WORDS, SPIN: "spin", **{f"hand.{name}": word for name, (word, _) in QUANTITIES.items()}}
 FORM = "FIELD=START:STOP:N, such as release.position.z=0.2:0.6:400"
-SPAN_FORM = "FIELD=START:STOP, such as release.position.z=0.2:0.6"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,11 +35,6 @@ class Span:
     """SI, in pint's spelling."""
     start: float
     stop: float
-
-    @property
-    def is_of_release(self) -> bool:
-        """Whether its field is of the release, which may differ between the tosses of one coin."""
-        return self.field.startswith("release.")
 
     @property
     def word(self) -> str:
@@ -64,37 +58,39 @@ class Axis(Span):
         """The field's values, (count,) [unit]."""
         return np.linspace(self.start, self.stop, self.count)
 
-    @property
-    def texts(self) -> list[str]:
-        """The values in few digits, but so many that no two are alike."""
-        written = ([f"{value:.{digits}g}" for value in self.values.tolist()] for digits in range(6, 18))
-        return next(texts for texts in written if len(set(texts)) == self.count)
-
 
 def word_of(field: str) -> str:
     """Return what a person calls a field."""
     return _WORDS.get(field, field)
 
 
-def parse_axis(text: str, scenario: Scenario, units: Mapping[str, str] = NUMBERS) -> Axis:
+def parse_axis(text: str, scenario: Scenario) -> Axis:
     """Read an axis from FIELD=START:STOP:N; numbers are SI, or carry a unit: "coin.mass=2 g:5 g:100".
 
     Args:
         text: the axis.
         scenario: whose field it is.
-        units: of the fields that are accepted, SI in pint's spelling.
 
     Raises:
         SweepError: naming what is wrong and what is accepted.
     """
-    field, ends = split_span(text, 3, FORM)
-    return axis_of(field, ends, scenario, units)
+    field, equals, span = text.partition("=")
+    ends = span.split(":")
+    if not equals or len(ends) != 3:
+        raise SweepError(f"{text}: accepted: {FORM}")
+    return axis_of(field.strip(), ends, scenario)
 
 
 def axis_of(
     name: object, ends: Sequence[Any], scenario: Scenario, units: Mapping[str, str] = NUMBERS
 ) -> Axis:
-    """Return an axis; the arguments are those of `parse_axis`, but for its field and START, STOP and N.
+    """Return an axis of a field, from START, STOP and N.
+
+    Args:
+        name: of the field.
+        ends: the three, numbers in SI or texts, which may carry a unit.
+        scenario: whose field it is.
+        units: of the fields that are accepted, SI in pint's spelling.
 
     Raises:
         SweepError: naming what is wrong and what is accepted.
@@ -178,19 +174,6 @@ def spans_of(
     return tuple(found.values())
 
 
-def split_span(text: str, parts: int, form: str) -> tuple[str, list[str]]:
-    """Return the field of FIELD=START:STOP and what follows it, in `parts` parts.
-
-    Raises:
-        SweepError: for another form, naming `form`.
-    """
-    field, equals, span = text.partition("=")
-    found = span.split(":")
-    if not equals or len(found) != parts:
-        raise SweepError(f"{text}: accepted: {form}")
-    return field.strip(), found
-
-
 def span_of(
     name: object, ends: Sequence[Any], scenario: Scenario, units: Mapping[str, str] = NUMBERS
 ) -> Span:
@@ -215,7 +198,7 @@ def require_ends(span: Span, scenario: Scenario) -> None:
     Raises:
         SweepError: naming the span, and what the scenario accepts.
     """
-    for end in (span.start, span.stop) if not span.is_of_release else ():
+    for end in (span.start, span.stop) if not span.field.startswith("release.") else ():
         try:
             scenario.replace(span.field, end)
         except ScenarioError as error:
@@ -250,10 +233,8 @@ def number(field: str, given: object, unit: str) -> float:
         SweepError: naming the field, what was given and what is accepted.
     """
     try:
-        found = float(given) if not isinstance(given, bool) else None  # pyright: ignore[reportArgumentType]
+        found = float("" if isinstance(given, bool) else given)  # pyright: ignore[reportArgumentType]
     except (ValueError, TypeError):
-        found = None
-    if found is None:
         try:
             found = in_si(str(given), unit)
         except ValueError as error:

@@ -8,17 +8,16 @@ import numpy as np
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.axes import FORM, Axis, axis_given, parse_axis
-from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.errors import SweepError, require_whole
 from cointoss.compare.sweep.grid import Sweep
-from cointoss.compare.sweep.layers import NOT_TOSSED, layers_of
-from cointoss.compare.sweep.pieces import warn_of_interruption, whole
+from cointoss.compare.sweep.layers import layers_of
+from cointoss.compare.sweep.pieces import gather, whole
 from cointoss.compare.sweep.pixels import check
-from cointoss.compare.sweep.reading import MOST_READ, is_whole
+from cointoss.compare.sweep.reading import MOST_READ
 from cointoss.compare.sweep.run import toss_here
 from cointoss.compare.sweep.tossed_map import TossedMap
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.scenario import Scenario
-from cointoss.models.stages import stage
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -71,8 +70,8 @@ def basin(
     if not isinstance(trust, bool):
         raise SweepError(f"trust: {trust!r}, accepted: True or False")
     described, tosser = scenario_of(scenario), Engine(engine)
-    if after is not None and not (is_whole(after) and 0 <= after <= MOST_AFTER):
-        raise SweepError(f"after: {after!r}, accepted: a whole number from 0 to {MOST_AFTER}")
+    if after is not None:
+        require_whole("after", after, 0, MOST_AFTER)
     sweep = Sweep(
         scenario=described,
         engine=tosser,
@@ -91,19 +90,9 @@ def basin(
             "cointoss basin makes larger maps on disk"
         )
     check(sweep)
-    layers = {
-        name: np.full(ny * nx, layer.fill_value, layer.kind) for name, layer in layers_of(sweep).items()
-    }
-    name, done = "map" if isinstance(scenario, Scenario) else f"map of {scenario}", 0
-    with stage(name, "tosses", total=ny * nx) as progress:
-        try:
-            for numbers, found in toss_here(sweep)(whole(ny * nx)):
-                for layer, array in layers.items():
-                    array[numbers] = found[layer]
-                done += len(numbers)
-                progress(done, ny * nx)
-        except KeyboardInterrupt:
-            warn_of_interruption(int(np.sum(layers["outcome"] != NOT_TOSSED)), ny * nx)
+    layers = {name: np.full(ny * nx, layer.missing, layer.kind) for name, layer in layers_of(sweep).items()}
+    name = "map" if isinstance(scenario, Scenario) else f"map of {scenario}"
+    gather(layers, toss_here(sweep)(whole(ny * nx)), name)
     arrays = {layer: array.reshape(sweep.shape) for layer, array in layers.items()}
     return TossedMap(name=name, sweep=sweep, layers=arrays).dataset()
 

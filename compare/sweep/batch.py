@@ -201,41 +201,39 @@ def batch_of(scenario: ScenarioSource, vary: Mapping[str, Any] | None = None) ->
 
 
 def _batch(described: Scenario, given: Mapping[str, Any]) -> Batch:
+    arrays = {
+        field: _numbers(field, value, described)
+        for field, value in given.items()
+        if not _is_range(field, value) and not hasattr(value, "dims")
+    }
+    together = _together(arrays)
     varied: list[Varied] = []
     labels: dict[str, Any] = {}
-    arrays: dict[str, NDArray[Any]] = {}
+    sizes: dict[str, int] = {}
     for field, value in given.items():
-        if _is_range(field, value):
-            values = axis_of(field, ends_of(field, value, 3, _RANGE), described).values
-            varied.append(Varied(field=field, dims=(field,), values=values))
-        elif hasattr(value, "dims"):
-            dims = tuple(map(str, value.dims))
+        if field in arrays:
+            one = _named_by(field, arrays[field], together)
+            sizes |= {dim: size for dim, size in together.items() if dim not in sizes}
+        elif _is_range(field, value):
+            axis = axis_of(field, ends_of(field, value, 3, _RANGE), described)
+            one = Varied(field=field, dims=(field,), values=axis.values)
+        else:
             numbers = _numbers(field, value.values, described) * _factor(field, value.attrs, described)
-            varied.append(Varied(field=field, dims=dims, values=numbers))
-            _require_free(field, dims)
+            one = Varied(field=field, dims=tuple(map(str, value.dims)), values=numbers)
+            if taken := set(one.dims) & set(COLUMNS):
+                raise SweepError(f"{field}: along {min(taken)}, accepted: a dimension of another name")
             for dim, index in value.indexes.items():
                 if not labels.setdefault(str(dim), index).equals(index):
                     raise SweepError(f"{field}: other labels along {dim} than the others have")
-        else:
-            arrays[field] = _numbers(field, value, described)
-            varied.append(Varied(field=field, dims=(), values=arrays[field]))
-    together = _together(arrays)
-    varied = [_named_by(one, together) if one.field in arrays else one for one in varied]
-    sizes: dict[str, int] = {}
-    for one in varied:
-        if one.field in arrays:
-            sizes |= {dim: size for dim, size in together.items() if dim not in sizes}
         for dim, size in zip(one.dims, one.values.shape, strict=True):
             if sizes.setdefault(dim, size) != size:
-                raise SweepError(
-                    f"{one.field}: {size} along {dim}, accepted: {sizes[dim]}, as the others have"
-                )
+                raise SweepError(f"{field}: {size} along {dim}, accepted: {sizes[dim]}, as the others have")
             if not size:
-                raise SweepError(f"{one.field}: empty, accepted: one value or more")
+                raise SweepError(f"{field}: empty, accepted: one value or more")
+        one.values.setflags(write=False)
+        varied.append(one)
     if math.prod(sizes.values()) > MOST_ROWS:
         raise SweepError(f"vary: {math.prod(sizes.values()):g} tosses, accepted: at most {MOST_ROWS:g}")
-    for one in varied:
-        one.values.setflags(write=False)
     return Batch(scenario=described, varied=tuple(varied), sizes=sizes)
 
 
@@ -309,12 +307,6 @@ def _numbers(field: str, value: Any, described: Scenario) -> NDArray[Any]:
     return np.array(array, dtype=float)
 
 
-def _require_free(field: str, dims: tuple[str, ...]) -> None:
-    """Refuse dimensions that have the name of an answer."""
-    if taken := set(dims) & set(COLUMNS):
-        raise SweepError(f"{field}: along {min(taken)}, accepted: a dimension of another name")
-
-
 def _factor(field: str, attributes: Mapping[str, Any], described: Scenario) -> float:
     """Return how many SI units the unit is that a DataArray says it has."""
     unit = attributes.get("units")
@@ -335,12 +327,11 @@ def _together(arrays: Mapping[str, NDArray[Any]]) -> dict[str, int]:
     return {TOSS: shape[0]} if len(shape) == 1 else {f"dim_{i}": size for i, size in enumerate(shape)}
 
 
-def _named_by(one: Varied, together: dict[str, int]) -> Varied:
+def _named_by(field: str, array: NDArray[Any], together: dict[str, int]) -> Varied:
     """Return an array with the names of its dimensions, without those along which it is broadcast."""
-    own = list(together.items())[len(together) - one.values.ndim :]
-    kept = [i for i, (_, size) in enumerate(own) if one.values.shape[i] == size]
-    values = one.values.reshape([one.values.shape[i] for i in kept])
-    return Varied(field=one.field, dims=tuple(own[i][0] for i in kept), values=values)
+    own = zip(list(together.items())[len(together) - array.ndim :], array.shape, strict=True)
+    kept = {dim: size for (dim, size), given in own if given == size}
+    return Varied(field=field, dims=tuple(kept), values=array.reshape(tuple(kept.values())))
 
 
 def _in_a_row(one: Varied, described: Scenario) -> Iterator[Varied]:

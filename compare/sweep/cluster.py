@@ -30,14 +30,14 @@ class Workers(Protocol):
 
 
 @contextmanager
-def cluster(address: str, say: Callable[[str], None], way_on: str) -> Iterator[Workers]:
-    """Give what has the workers of a cluster toss.
+def cluster(address: str | None, say: Callable[[str], None], way_on: str) -> Iterator[Workers | None]:
+    """Give what has the workers of a cluster toss; None without an address.
 
     The workers keep nothing: a part lost with its worker is tossed again by another. A worker tosses on all
     its cores, so one thread for each is enough.
 
     Args:
-        address: of the Dask scheduler, such as tcp://10.0.0.1:8786.
+        address: of the Dask scheduler, such as tcp://10.0.0.1:8786; None to toss here.
         say: called with what is waited for.
         way_on: what to do where the cluster is lost.
 
@@ -45,6 +45,9 @@ def cluster(address: str, say: Callable[[str], None], way_on: str) -> Iterator[W
         SweepError: if dask.distributed is not installed, or the cluster can't be reached or has no worker;
             while tossing, if the cluster is lost, or a worker has other versions of what makes a toss.
     """
+    if address is None:
+        yield None
+        return
     try:
         import distributed
     except ImportError:

@@ -23,6 +23,8 @@ FORMAT = 1
 """Of a map, under the attribute `cointoss_map`."""
 TOSSES_FORMAT = 2
 """Of a store of tosses, under the attribute `cointoss_tosses`; in 1 its certainties were bools."""
+_MAP, _TOSSES = "cointoss_map", "cointoss_tosses"
+_FORMATS = {_MAP: FORMAT, _TOSSES: TOSSES_FORMAT}
 MARGIN_ALONG = "margin_along"
 """Attribute of a map with margins: their quantity."""
 TRUST = "trust"
@@ -50,10 +52,9 @@ class FormError(ValueError):
     """What makes a folder no map of cointoss."""
 
 
-class MapForm(NamedTuple):
-    """What the files that describe a map say."""
+class MapGrid(NamedTuple):
+    """The grid of a map's pixels, and how it is cut into tiles."""
 
-    attributes: dict[str, Any]
     x: str
     """The field of the columns."""
     y: str
@@ -64,92 +65,69 @@ class MapForm(NamedTuple):
     """Pixels of a tile in y and x."""
 
 
+class StoreForm(NamedTuple):
+    """What the files that describe a map or a store of tosses say."""
+
+    attributes: dict[str, Any]
+    arrays: dict[str, dict[str, Any]]
+    """The description of each array, by its name."""
+    grid: MapGrid | None
+    """Of a map; None for a store of tosses."""
+
+    def has(self, field: str, coordinate: Any) -> bool:
+        """Return whether there is a coordinate of a field, of this shape and along these dimensions."""
+        found, due = self.arrays.get(field, {}), (list(coordinate.values.shape), list(coordinate.dims))
+        return (found.get("shape"), found.get("dimension_names")) == due
+
+
 def is_map(folder: Path) -> bool:
     """Return whether a folder says that it is a map, or a store of tosses, of this format."""
     try:
         attributes = _description(folder)["attributes"]
-        return attributes.get("cointoss_map") == FORMAT or attributes.get("cointoss_tosses") == TOSSES_FORMAT
+        return any(attributes.get(kind) == number for kind, number in _FORMATS.items())
     except (OSError, ValueError, LookupError, TypeError, AttributeError):
         return False
 
 
-def read_attributes(folder: Path, dims: int) -> dict[str, Any]:
-    """Return the attributes of a map or a store of tosses, of the kinds that it must have.
+def read_form(folder: Path, dims: int) -> StoreForm:
+    """Return what the descriptions of a map or a store of tosses say; nothing else of it is read.
 
     Args:
-        folder: of one that says that it is such.
+        folder: of one.
         dims: how many dimensions it should have.
 
     Raises:
-        FormError: for a folder that is none.
+        FormError: for a folder that is not as cointoss writes one.
         OSError: if a file can't be read.
     """
     _require_plain(folder, dims)
     try:
-        attributes = _group_attributes(_description(folder))
-        if "cointoss_map" in attributes:
-            return _form(folder).attributes
-        _listed(folder, _description(folder))
+        described = _description(folder)
+        attributes, arrays = _group_attributes(described), _listed(folder, described)
+        return StoreForm(attributes, arrays, _grid(attributes, arrays) if _MAP in attributes else None)
     except RecursionError:
         raise FormError(f"{DESCRIPTION}: nested too deeply") from None
-    return attributes
-
-
-def names_of_arrays(folder: Path) -> set[str]:
-    """Return the names of the arrays of a map or a store of tosses."""
-    return set(_listed(folder, _description(folder)))
-
-
-def has_grid(folder: Path, field: str, coordinate: Any) -> bool:
-    """Return whether a store has a coordinate of a field, of this shape and along these dimensions."""
-    if not (folder / field).is_dir():
-        return False
-    found = _description(folder / field)
-    due = list(coordinate.values.shape), list(coordinate.dims)
-    return (found.get("shape"), found.get("dimension_names")) == due
 
 
 def require_arrays(
-    folder: Path, sizes: Mapping[str, int], layers: Mapping[str, Any], coordinates: Mapping[str, Any]
+    form: StoreForm, sizes: Mapping[str, int], layers: Mapping[str, Any], coordinates: Mapping[str, Any]
 ) -> None:
     """Refuse a store whose arrays are described otherwise than those of a layout; see `store.Layout`.
 
     Raises:
         FormError: naming the array.
-        OSError: if a file can't be read.
     """
-    shape = tuple(sizes.values())
-    tile = _sizes("outcome", _description(folder / "outcome").get("chunk_grid"), within=shape)
-    if math.prod(tile) > MOST_IN_TILE:
-        raise FormError(f"array outcome: tiles of {tile} tosses")
-    for name, layer in layers.items():
-        written = "NaN" if math.isnan(layer.fill_value) else layer.fill_value
-        due = _array(np.dtype(layer.kind).name, written, shape, tile, tuple(sizes))
-        _require_array(name, _description(folder / name), due)
+    _require_layers(form.arrays, sizes, layers)
     for field, (dims, values, _) in coordinates.items():
         zero = 0 if values.dtype.kind == "i" else 0.0
         due = _array(values.dtype.name, zero, values.shape, values.shape, dims)
-        _require_array(field, _description(folder / field), due)
+        _require_array(field, form.arrays[field], due)
 
 
 def foreign_entry(folder: Path) -> str | None:
     """Return the name of something in a map's folder that is no part of a map, if there is any."""
     known = {DESCRIPTION, *_NAMES}
     return min((entry.name for entry in folder.iterdir() if entry.name not in known), default=None)
-
-
-def read_form(folder: Path) -> MapForm:
-    """Return what a map's descriptions say; nothing else of it is read.
-
-    Raises:
-        FormError: for a folder that is not as cointoss writes a map.
-        OSError: if a file can't be read.
-    """
-    _require_plain(folder, 2)
-    try:
-        return _form(folder)
-    except RecursionError:
-        raise FormError(f"{DESCRIPTION}: nested too deeply") from None
 
 
 def require_chunk(folder: Path, name: Path, size: int) -> None:
@@ -205,55 +183,56 @@ def _description(folder: Path) -> dict[str, Any]:
     return found
 
 
-def _form(folder: Path) -> MapForm:
-    described = _description(folder)
-    attributes = _group_attributes(described)
-    if "cointoss_map" not in attributes:
-        raise FormError("attribute cointoss_map missing")
+def _grid(attributes: dict[str, Any], arrays: dict[str, dict[str, Any]]) -> MapGrid:
+    """Return the grid of a map, all of whose arrays are as cointoss writes them."""
     if not isinstance(attributes.get(MARGIN_ALONG, ""), str):
         raise FormError(f"attribute {MARGIN_ALONG} = {shown(attributes[MARGIN_ALONG])}")
     if attributes.get(TRUST, True) is not True:
         raise FormError(f"attribute {TRUST} = {shown(attributes[TRUST])}")
-    absent = set(LAYERS) - {"outcome", "impacts"}
-    absent -= {"margin"} if MARGIN_ALONG in attributes else set()
-    absent -= {trust_layer(attributes["after"])} if TRUST in attributes else set()
-    layers, arrays = set(LAYERS) - absent, _listed(folder, described)
-    if layers - set(arrays):
-        raise FormError(f"array {min(layers - set(arrays))} missing")
-    fields = set(arrays) - layers
+    due = {"outcome", "impacts"} | ({"margin"} if MARGIN_ALONG in attributes else set())
+    due |= {trust_layer(attributes["after"])} if TRUST in attributes else set()
+    if due - set(arrays):
+        raise FormError(f"array {min(due - set(arrays))} missing")
+    fields = set(arrays) - due
     if len(fields) != 2 or not fields <= set(NUMBERS):
         raise FormError(f"fields of its axes: {shown(sorted(fields))}, not two of a scenario")
     (x, columns), (y, rows) = (_axis(arrays, dimension) for dimension in ("x", "y"))
-    shape = rows, columns
+    layers = {name: layer for name, layer in LAYERS.items() if name in due}
+    height, width = _require_layers(arrays, {"y": rows, "x": columns}, layers)
+    return MapGrid(x, y, (rows, columns), (height, width))
+
+
+def _require_layers(
+    arrays: dict[str, dict[str, Any]], sizes: Mapping[str, int], layers: Mapping[str, Any]
+) -> tuple[int, ...]:
+    """Return the lengths of a tile; refuse arrays that are described otherwise than these layers."""
+    shape = tuple(sizes.values())
     tile = _sizes("outcome", arrays["outcome"].get("chunk_grid"), within=shape)
     if math.prod(tile) > MOST_IN_TILE:
-        raise FormError(f"array outcome: tiles of {tile[1]} by {tile[0]} pixels")
-    for name, (kind, fill_value, _) in LAYERS.items():
-        if name in arrays:
-            written = "NaN" if math.isnan(fill_value) else fill_value
-            due = _array(np.dtype(kind).name, written, shape, tile, ("y", "x"))
-            _require_array(name, arrays[name], due)
-    return MapForm(attributes, x, y, (rows, columns), (tile[0], tile[1]))
+        told = f"{tile[1]} by {tile[0]} pixels" if tuple(sizes) == ("y", "x") else f"{tile} tosses"
+        raise FormError(f"array outcome: tiles of {told}")
+    for name, layer in layers.items():
+        written = "NaN" if math.isnan(layer.missing) else layer.missing
+        _require_array(
+            name, arrays[name], _array(np.dtype(layer.kind).name, written, shape, tile, tuple(sizes))
+        )
+    return tile
 
 
 def _group_attributes(described: dict[str, Any]) -> dict[str, Any]:
     """Return the attributes of a map or a store of tosses, from what describes it."""
     attributes = described.get("attributes")
-    kind = (
-        "cointoss_tosses"
-        if isinstance(attributes, dict) and "cointoss_tosses" in attributes
-        else "cointoss_map"
-    )
-    if not isinstance(attributes, dict) or kind not in attributes:
-        raise FormError(f"attribute {kind} missing")
-    current = TOSSES_FORMAT if kind == "cointoss_tosses" else FORMAT
-    if (number := attributes[kind]) != current:
-        raise FormError(f"attribute {kind} = {shown(number)}, not {current}")
-    for name, due in _ATTRIBUTES.items():
+    if not isinstance(attributes, dict):
+        raise FormError(f"attribute {_MAP} missing")
+    kind = next((kind for kind in (_TOSSES, _MAP) if kind in attributes), _MAP)
+    for name in (kind, *_ATTRIBUTES):
         if name not in attributes:
             raise FormError(f"attribute {name} missing")
-        if not isinstance(attributes[name], due):
-            raise FormError(f"attribute {name} = {shown(attributes[name])}")
+        found = attributes[name]
+        if name == kind and found != _FORMATS[kind]:
+            raise FormError(f"attribute {kind} = {shown(found)}, not {_FORMATS[kind]}")
+        if not isinstance(found, _ATTRIBUTES.get(name, object)):
+            raise FormError(f"attribute {name} = {shown(found)}")
     for name, due in (("zarr_format", 3), ("node_type", "group")):
         if described.get(name) != due:
             raise FormError(f"{name} = {shown(described.get(name))}, not {due}")

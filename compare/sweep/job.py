@@ -1,40 +1,28 @@
 """Make the maps, their picture and their report that `cointoss basin` is asked for."""
 
 import os
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import NamedTuple
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.film.back_end import drawing_problem, require_mujoco
-from cointoss.compare.output.files import UnwritableError, require_file, written_whole
+from cointoss.compare.output.files import UnwritableError, require_file, write_bytes
 from cointoss.compare.report.contents import NOT_ASKED, require_folder
 from cointoss.compare.sweep import describe, run, store
-from cointoss.compare.sweep.asked import Job
+from cointoss.compare.sweep.asked import Job, Source
 from cointoss.compare.sweep.axes import Axis, parse_axis
+from cointoss.compare.sweep.cluster import Workers, cluster
 from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.layers import trust_layer
 from cointoss.compare.sweep.layout import layout_of_map
 from cointoss.compare.sweep.pixels import check
 from cointoss.compare.sweep.untrusted import untrusted_pixels
-from cointoss.models.scenario import Scenario
 from cointoss.models.stages import stage
 
 Say = Callable[[str], None]
 """Called with what is waited for."""
-
-
-class Source(NamedTuple):
-    """The scenario that is asked for."""
-
-    name: str
-    """Its name, or its file's, in messages."""
-    scenario: Scenario
-    text: str
-    """Its TOML."""
 
 
 def sweeps_of(job: Job, source: Source, x: Axis, y: Axis) -> dict[Path, Sweep]:
@@ -54,7 +42,7 @@ def sweeps_of(job: Job, source: Source, x: Axis, y: Axis) -> dict[Path, Sweep]:
             after=job.after,
             margin=job.margin,
             trust=job.trust and engine == Engine.ANALYTIC,
-            name=Path(source.name).stem,
+            name=source.stem,
         )
         for path, engine in _engines_of(job).items()
     }
@@ -86,15 +74,17 @@ def make(job: Job, source: Source, command: str, say: Say) -> Iterator[str]:
     x, y = parse_axis(job.x, source.scenario), parse_axis(job.y, source.scenario)
     for path in engines:
         store.require_place(path, resume=job.resume, overwrite=job.overwrite)
-    if job.png is not None:
-        require_file(job.png, ".png", source.name)
+    require_file(job.png, ".png", source.name)
     no_video = None
     if job.report is not None:
-        _require_report(job.report, engines, source.name)
+        require_folder(job.report, source.name)
+        for path in engines:
+            if Path(os.path.realpath(job.report)).is_relative_to(os.path.realpath(path)):
+                why = f"lies in the map {path}; accepted: a folder outside of it"
+                raise UnwritableError(f"{job.report}: {why}")
         no_video = NOT_ASKED if job.no_video else drawing_problem()
     # From here on MuJoCo is imported: its back end is chosen.
-    if Engine.MUJOCO in engines.values():
-        require_mujoco()
+    require_mujoco(*engines.values())
     sweeps = sweeps_of(job, source, x, y)
     if job.resume:
         for path, sweep in sweeps.items():
@@ -104,10 +94,10 @@ def make(job: Job, source: Source, command: str, say: Say) -> Iterator[str]:
     for sweep in sweeps.values():
         check(sweep)
         run.require_room(sweep, job.out.parent, maps=len(sweeps), drawn=drawn)
-    with _tosser(job.scheduler, say) as tosser:
+    with cluster(job.scheduler, say, "`resume` goes on") as workers:
         for path, sweep in sweeps.items():
             with store.opened(path, layout_of_map(sweep, source.text), overwrite=job.overwrite) as map_:
-                run.fill(map_, tosser(sweep))
+                run.fill(map_, _tosser(sweep, workers))
                 yield describe.describe_map(path, sweep, run.fractions_of(map_))
                 if sweep.margin is not None:
                     margins = map_.whole("margin")
@@ -122,40 +112,27 @@ def make(job: Job, source: Source, command: str, say: Say) -> Iterator[str]:
         return
     from cointoss.compare.sweep import show
 
-    first = next(iter(sweeps.values()))
+    made = list(sweeps.values())
     if len(maps) > 1:
         yield describe.describe_agreement(describe.measure(*maps))
     if job.png is not None:
         with stage("drawing the picture"):
-            drawn_map = show.png_of(maps, first, job.style, margins=margins, untrusted=untrusted)
-            with written_whole(job.png) as aside:
-                aside.write_bytes(drawn_map)
+            picture = show.png_of(maps, made[0], job, margins=margins, untrusted=untrusted)
+            write_bytes(job.png, picture)
         yield f"picture    {job.png}"
     if job.report is not None:
         from cointoss.compare.report.comparison import compared
         from cointoss.compare.report.folder import write_report
 
         fine = replace(Engine.MUJOCO.package.FINE, contact=job.contact)
-        both = compared(first.scenario, source.text, Path(source.name).stem, fine)
-        made = list(sweeps.values())
-        shown = show.section(maps, made, job.style, command, untrusted=untrusted)
+        both = compared(made[0].scenario, source.text, source.stem, fine)
+        shown = show.section(maps, made, job, command, untrusted=untrusted)
         page = write_report(both, job.report, no_video, maps=shown)
         yield f"report     {page}"
 
 
-def _require_report(folder: Path, maps: Iterable[Path], source: str) -> None:
-    require_folder(folder, source)
-    for path in maps:
-        if Path(os.path.realpath(folder)).is_relative_to(os.path.realpath(path)):
-            raise UnwritableError(f"{folder}: lies in the map {path}; accepted: a folder outside of it")
-
-
-@contextmanager
-def _tosser(scheduler: str | None, say: Say) -> Iterator[Callable[[Sweep], run.Tosser]]:
-    if scheduler is None:
-        yield run.toss_here
-        return
-    from cointoss.compare.sweep.cluster import cluster
-
-    with cluster(scheduler, say, "`resume` goes on") as workers:
-        yield lambda sweep: lambda parts: workers(partial(run.toss_part, sweep), parts, sweep.engine)
+def _tosser(sweep: Sweep, workers: Workers | None) -> run.Tosser:
+    """Return what tosses the pixels of a sweep: this machine, or the workers of a cluster."""
+    if workers is None:
+        return run.toss_here(sweep)
+    return lambda parts: workers(partial(run.toss_part, sweep), parts, sweep.engine)

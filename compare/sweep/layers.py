@@ -1,38 +1,28 @@
 """The arrays of a map and of a store of tosses: types, attributes, and what they hold without a toss."""
 
-from typing import Any, NamedTuple
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.grid import Sweep
-from cointoss.models.answers import COLUMNS, NOT_TOSSED, REFUSED
+from cointoss.models.answers import COLUMNS, NOT_TOSSED, REFUSED, AnswerColumn
 from cointoss.models.labelled import meanings_of
 from cointoss.models.records import Outcome
 
-
-class Layer(NamedTuple):
-    """An array over the dimensions of a store."""
-
-    kind: type[np.generic]
-    fill_value: float
-    attributes: dict[str, Any]
+LAYERS = {**COLUMNS, "margin": AnswerColumn(kind=np.float64, attributes={}, missing=np.nan)}
+"""All arrays that there may be; what the attributes of a map's say depends on what is asked for."""
 
 
-OF_TOSSES = {name: Layer(one.kind, one.missing, one.attributes) for name, one in COLUMNS.items()}
-"""The answers of tosses."""
-LAYERS = {name: Layer(one.kind, one.fill_value, {}) for name, one in OF_TOSSES.items()} | {
-    "margin": Layer(np.float64, np.nan, {})
-}
-"""All that there may be, without their attributes, which depend on what is asked for."""
-
-
-def layers_of(sweep: Sweep) -> dict[str, Layer]:
+def layers_of(sweep: Sweep) -> dict[str, AnswerColumn]:
     """Return the arrays of a sweep's map, by name."""
-    meanings = meanings_of({NOT_TOSSED: "not_tossed", **Outcome.by_value()})
     attributes = {
-        "outcome": {"long_name": "outcome", **meanings},
+        "outcome": {
+            "long_name": "outcome",
+            **meanings_of({NOT_TOSSED: "not_tossed", **Outcome.by_value()}),
+        },
         "impacts": {"long_name": "number of impacts"},
     }
     if sweep.margin is not None:
@@ -40,14 +30,14 @@ def layers_of(sweep: Sweep) -> dict[str, Layer]:
         about = f"{found}; infinite: none up to 1 SI unit"
         attributes["margin"] = {"long_name": about, "units": sweep.quantity.unit}
     if sweep.trust and sweep.after is not None:
-        upto = f"up to touch {sweep.after + 1}"
-        about = f"number of leading impacts {upto} that the engine's own errors cannot have changed"
-        attributes["trusted_impacts"] = {"long_name": about}
+        about = f"number of leading impacts up to touch {sweep.after + 1} that the engine's own errors cannot"
+        attributes["trusted_impacts"] = {"long_name": f"{about} have changed"}
     elif sweep.trust:
-        meanings = meanings_of({NOT_TOSSED: "not_tossed", 0: "uncertain", 1: "certain"})
-        about = "whether the engine's own errors cannot change the outcome"
-        attributes["outcome_certain"] = {"long_name": about, **meanings}
-    return {name: LAYERS[name]._replace(attributes=about) for name, about in attributes.items()}
+        attributes["outcome_certain"] = {
+            "long_name": "whether the engine's own errors cannot change the outcome",
+            **meanings_of({NOT_TOSSED: "not_tossed", 0: "uncertain", 1: "certain"}),
+        }
+    return {name: replace(LAYERS[name], attributes=about) for name, about in attributes.items()}
 
 
 def trust_layer(after: int | None) -> str:

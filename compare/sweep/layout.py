@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 from cointoss.compare.sweep.batch import Batch, attributes_of
 from cointoss.compare.sweep.form import FORMAT, MARGIN_ALONG, TOSSES_FORMAT, TRUST
 from cointoss.compare.sweep.grid import MOST_TILES, Sweep, tile_shape, tosses_in_tile
-from cointoss.compare.sweep.layers import OF_TOSSES, Layer, axis_attributes, layers_of
+from cointoss.compare.sweep.layers import axis_attributes, layers_of
 from cointoss.compare.sweep.pieces import How
+from cointoss.models.answers import COLUMNS, AnswerColumn
 
 
 class Coordinate(NamedTuple):
@@ -29,7 +30,7 @@ class Layout:
     """Of its dimensions, the last varying fastest."""
     tile: tuple[int, ...]
     """The lengths of a tile, which is a file of each array, along them."""
-    layers: dict[str, Layer]
+    layers: dict[str, AnswerColumn]
     coordinates: dict[str, Coordinate]
     """By field."""
     attributes: dict[str, Any]
@@ -70,7 +71,7 @@ def layout_of_tosses(batch: Batch, how: How) -> Layout:
     return Layout(
         sizes=batch.sizes,
         tile=_tile_of(batch.shape, most),
-        layers={name: OF_TOSSES[name] for name in how.names},
+        layers={name: COLUMNS[name] for name in how.names},
         coordinates={
             one.field: Coordinate(one.dims, one.values, attributes_of(one, batch.scenario))
             for one in batch.varied

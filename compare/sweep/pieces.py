@@ -11,13 +11,17 @@ from numpy.typing import NDArray
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.batch import Batch
-from cointoss.models.answers import ANSWER, REFUSED, Answers, Trust, names_of
+from cointoss.models.answers import ANSWER, NOT_TOSSED, REFUSED, Answers, Trust, names_of
 from cointoss.models.batch import refused
+from cointoss.models.stages import stage
+from cointoss.models.unused import warn_of_unused_fields
 
 FIRST, GROWTH, SECOND = 64, 8, 1.0
 """Tosses of the first piece; how many times as many the next may have; and the time of one [s]."""
 MOST = 1 << 17
 """Tosses of a piece, whose rows take 50 MB."""
+Columns = dict[str, NDArray[Any]]
+"""Arrays by the names of answers, or of a map's layers."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,6 +45,31 @@ class How:
         return names_of(self.trust)
 
 
+def check(batch: Batch, how: How) -> None:
+    """Refuse a batch with a toss that is no scenario, unless those are kept, or that its engine can't make.
+
+    The errors and warnings are those of `require_scenarios` and `require_supported`.
+    """
+    if not how.keeps:
+        require_scenarios(batch)
+    require_supported(batch, how)
+
+
+def require_scenarios(batch: Batch) -> None:
+    """Refuse a batch with a toss that is no scenario, before the first one.
+
+    Raises:
+        ScenarioError: naming field, value, and what is accepted.
+
+    Warns:
+        UnusedFieldWarning: for a field that nothing uses.
+    """
+    batch.check()
+    if not any(one.words for one in batch.varied):  # which may use a field each
+        largest = batch.largest()
+        warn_of_unused_fields(largest.floor, largest.air)
+
+
 def require_supported(batch: Batch, how: How) -> None:
     """Refuse a batch that can't be tossed so, before its first toss.
 
@@ -52,6 +81,41 @@ def require_supported(batch: Batch, how: How) -> None:
         if how.keeps:
             rows = rows[~refused(rows, batch.fields)]
         how.engine.package.require_rows(rows, settings=how.settings, law=how.law, trust=how.trust)
+
+
+def columns(
+    batch: Batch, how: How, parts: Iterable[NDArray[np.intp]] | None = None
+) -> Iterator[tuple[NDArray[np.intp], Columns]]:
+    """Yield what `pieces` does, with the answers by their names."""
+    for tosses, found in pieces(batch, how, parts):
+        yield tosses, {name: getattr(found, name) for name in how.names}
+
+
+def gather(
+    arrays: Columns,
+    tossed: Iterator[tuple[NDArray[np.intp], Columns]],
+    name: str,
+    *,
+    shown: bool | None = None,
+) -> None:
+    """Fill flat arrays with tosses, by their numbers; Ctrl-C leaves the rest as it is, with a warning.
+
+    Args:
+        arrays: by name, (n,), `outcome` among them, which holds `NOT_TOSSED`.
+        tossed: the numbers of the tosses of each part, and what the arrays have of them.
+        name: of the job, for who waits.
+        shown: whether how far it is is shown; None shows it in a terminal or a notebook.
+    """
+    count, done = len(arrays["outcome"]), 0
+    with stage(name, "tosses", total=count, shown=shown) as progress:
+        try:
+            for tosses, found in tossed:
+                for one, array in arrays.items():
+                    array[tosses] = found[one]
+                done += len(tosses)
+                progress(done, count)
+        except KeyboardInterrupt:
+            warn_of_interruption(int(np.sum(arrays["outcome"] != NOT_TOSSED)), count)
 
 
 def pieces(

@@ -1,25 +1,20 @@
 """What is known of some pixels of a map: their tosses, and their margins."""
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
+from cointoss.compare.sweep import pieces
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.layers import layers_of
-from cointoss.compare.sweep.pieces import require_supported
+from cointoss.compare.sweep.pieces import Columns
 from cointoss.models.answers import Answers
 from cointoss.models.errors import ScenarioError
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
-from cointoss.models.unused import warn_of_unused_fields
-
-Layers = dict[str, NDArray[Any]]
-"""Arrays by the names of a map's layers."""
 
 
-def pixels_of(sweep: Sweep, numbers: NDArray[np.intp], answers: Answers) -> Layers:
+def pixels_of(sweep: Sweep, numbers: NDArray[np.intp], answers: Answers) -> Columns:
     """Return what a map keeps of some pixels, (n,) each.
 
     Args:
@@ -27,7 +22,7 @@ def pixels_of(sweep: Sweep, numbers: NDArray[np.intp], answers: Answers) -> Laye
         numbers: of the pixels, row by row.
         answers: of their tosses.
     """
-    found: Layers = {"outcome": shown(sweep, answers)}
+    found: Columns = {"outcome": shown(sweep, answers)}
     for name in layers_of(sweep).keys() - found:
         found[name] = _margins(sweep, numbers) if name == "margin" else getattr(answers, name)
     return found
@@ -56,14 +51,10 @@ def pixel_scenario(sweep: Sweep, y: float, x: float) -> Scenario:
     Raises:
         ScenarioError: for values that make no valid scenario, naming them.
     """
-    given = ((axis.field, _whole(axis.field, at)) for axis, at in ((sweep.y, y), (sweep.x, x)))
-    (first, second), (third, fourth) = given
-    return sweep.batch.scenario.replace(first, second, third, fourth)
-
-
-def _whole(field: str, value: float) -> float:
-    """Return the value of a field; a number of impacts, whole on every axis, as an integer."""
-    return int(value) if field == "ending.max_impacts" else value
+    given = ((sweep.y.field, y), (sweep.x.field, x))
+    # A number of impacts is whole on every axis.
+    first, second = ((field, int(at) if field == "ending.max_impacts" else at) for field, at in given)
+    return sweep.batch.scenario.replace(*first, *second)
 
 
 def check(sweep: Sweep) -> None:
@@ -77,9 +68,7 @@ def check(sweep: Sweep) -> None:
         UnusedFieldWarning: for a field that nothing uses.
     """
     try:
-        sweep.batch.check()
-        largest = sweep.batch.largest()
+        pieces.require_scenarios(sweep.batch)
     except ScenarioError as error:
         raise SweepError(str(error)) from None
-    warn_of_unused_fields(largest.floor, largest.air)
-    require_supported(sweep.batch, sweep.how)
+    pieces.require_supported(sweep.batch, sweep.how)

@@ -1,7 +1,6 @@
 """Read a map from disk: what it is of, and the pixels that are tossed."""
 
-from collections.abc import Iterable
-from numbers import Integral
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,12 +10,12 @@ from numpy.typing import NDArray
 from cointoss.compare.engines import Engine
 from cointoss.compare.film.back_end import BackEndError, require_mujoco
 from cointoss.compare.sweep.axes import Axis, unit_of
-from cointoss.compare.sweep.errors import MapError, SweepError
-from cointoss.compare.sweep.form import MARGIN_ALONG, TRUST, MapForm, read_form
+from cointoss.compare.sweep.errors import MapError, SweepError, is_whole
+from cointoss.compare.sweep.form import MARGIN_ALONG, TRUST, FormError, MapGrid, read_form
 from cointoss.compare.sweep.grid import Sweep, tiles
 from cointoss.compare.sweep.layers import LAYERS, NOT_TOSSED, REFUSED, layers_of
 from cointoss.compare.sweep.store import Store
-from cointoss.compare.sweep.tossed_map import TossedMap, settings_of
+from cointoss.compare.sweep.tossed_map import TossedMap, settings_of, stride_of
 from cointoss.models.errors import ScenarioError, shown
 from cointoss.models.reading import parse
 from cointoss.models.scenario import Scenario
@@ -62,38 +61,31 @@ def tossed_map_at(path: str | Path, *, most: int = MOST_READ) -> TossedMap:
     if not path.is_dir():
         raise MapError(f"{path}: {'is no' if path.exists() else 'no such'} folder; {_ACCEPTED}")
     try:
-        form = read_form(path)
+        form = read_form(path, 2)
+        if (grid := form.grid) is None:
+            raise FormError("attribute cointoss_map missing")
         map_ = Store.at(path, "r")
-        sweep = _sweep(path, form, map_)
+        sweep = _sweep(path, form.attributes, grid, map_)
         layers = layers_of(sweep)
     except (ScenarioError, BackEndError):
         raise
     except Exception as error:  # zarr raises errors of any kind
         raise MapError(f"{path}: is no map of cointoss ({error}); {_ACCEPTED}") from None
-    ny, nx = form.shape
+    ny, nx = grid.shape
     if ny * nx > MOST_READ:
         few = f"accepted: a map of at most {MOST_READ:g} pixels"
         raise MapError(f"{path}: has {nx} by {ny} pixels; {few}")
-    if -(-ny // form.tile[0]) * -(-nx // form.tile[1]) > MOST_TILES:
+    if -(-ny // grid.tile[0]) * -(-nx // grid.tile[1]) > MOST_TILES:
         few = f"accepted: a map of at most {MOST_TILES:g} tiles"
-        raise MapError(f"{path}: has tiles of {form.tile[1]} by {form.tile[0]} pixels; {few}")
-    stride = 1
-    while -(-ny // stride) * -(-nx // stride) > most:
-        stride += 1
-    return TossedMap(name=path.name, sweep=sweep, stride=stride, layers=_read(map_, form, layers, stride))
+        raise MapError(f"{path}: has tiles of {grid.tile[1]} by {grid.tile[0]} pixels; {few}")
+    stride = stride_of(grid.shape, most)
+    return TossedMap(name=path.name, sweep=sweep, stride=stride, layers=_read(map_, grid, layers, stride))
 
 
-def is_whole(number: object) -> bool:
-    """Return whether a number is whole, and none that stands for a truth."""
-    return isinstance(number, Integral) and not isinstance(number, bool)
-
-
-def _sweep(path: Path, form: MapForm, map_: Store) -> Sweep:
-    attributes = form.attributes
+def _sweep(path: Path, attributes: Mapping[str, Any], grid: MapGrid, map_: Store) -> Sweep:
     scenario = parse(attributes["scenario"], f"{path}: attribute scenario")
     engine = Engine(attributes["engine"])
-    if engine == Engine.MUJOCO:
-        require_mujoco()
+    require_mujoco(engine)
     after = attributes["after"]
     if not (after is None or (is_whole(after) and after >= 0)):
         raise ValueError(f"after = {shown(after)}")
@@ -103,8 +95,8 @@ def _sweep(path: Path, form: MapForm, map_: Store) -> Sweep:
     return Sweep(
         scenario=scenario,
         engine=engine,
-        x=_axis(form.x, map_, scenario),
-        y=_axis(form.y, map_, scenario),
+        x=_axis(grid.x, map_, scenario),
+        y=_axis(grid.y, map_, scenario),
         settings=settings_of(engine, attributes["engine_settings"]),
         after=after,
         margin=attributes.get(MARGIN_ALONG),
@@ -127,17 +119,17 @@ def _axis(field: str, map_: Store, scenario: Scenario) -> Axis:
     return axis
 
 
-def _read(map_: Store, form: MapForm, names: Iterable[str], stride: int) -> dict[str, NDArray[Any]]:
-    ny, nx = (-(-count // stride) for count in form.shape)
-    arrays = {name: np.full((ny, nx), LAYERS[name].fill_value, LAYERS[name].kind) for name in names}
-    for tile in tiles(form.shape, form.tile):
+def _read(map_: Store, grid: MapGrid, names: Iterable[str], stride: int) -> dict[str, NDArray[Any]]:
+    ny, nx = (-(-count // stride) for count in grid.shape)
+    arrays = {name: np.full((ny, nx), LAYERS[name].missing, LAYERS[name].kind) for name in names}
+    for tile in tiles(grid.shape, grid.tile):
         tossed = map_.tossed(tile)
         if not tossed.any():
             continue
         kept = tuple(slice(-(-part.start // stride), -(-part.stop // stride)) for part in tile)
         first = tuple(slice(-part.start % stride, None, stride) for part in tile)
         for name, array in arrays.items():
-            array[kept] = np.where(tossed, map_.read(tile, name), LAYERS[name].fill_value)[first]
+            array[kept] = np.where(tossed, map_.read(tile, name), LAYERS[name].missing)[first]
     # No map has a pixel that is no scenario.
     arrays["outcome"][arrays["outcome"] == REFUSED] = NOT_TOSSED
     return arrays

@@ -10,19 +10,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.compare.output.files import UnwritableError
-from cointoss.compare.output.interruption import Interruption
+from cointoss.compare.output.interruption import saying
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.layers import bytes_per_pixel, trust_layer
-from cointoss.compare.sweep.pieces import pieces
-from cointoss.compare.sweep.pixels import Layers, pixels_of
+from cointoss.compare.sweep.pieces import Columns, pieces
+from cointoss.compare.sweep.pixels import pixels_of
 from cointoss.compare.sweep.store import Store
 from cointoss.models.answers import tally
 from cointoss.models.records import Outcome
 from cointoss.models.stages import stage
 
 Numbers = NDArray[np.intp]
-Tosser = Callable[[Iterable[Numbers]], Iterator[tuple[Numbers, Layers]]]
+Tosser = Callable[[Iterable[Numbers]], Iterator[tuple[Numbers, Columns]]]
 """Tosses what has these numbers, each part within a tile, and gives it or parts of it, in any order."""
 DRAWING_BYTES_PER_PIXEL = 80
 """Memory that measuring and drawing a map takes, at most."""
@@ -31,14 +31,14 @@ DRAWING_BYTES_PER_PIXEL = 80
 def toss_here(sweep: Sweep) -> Tosser:
     """Return what tosses pixels one part after the other, on all cores of this machine."""
 
-    def toss(parts: Iterable[Numbers]) -> Iterator[tuple[Numbers, Layers]]:
+    def toss(parts: Iterable[Numbers]) -> Iterator[tuple[Numbers, Columns]]:
         for numbers, answers in pieces(sweep.batch, sweep.how, parts):
             yield numbers, pixels_of(sweep, numbers, answers)
 
     return toss
 
 
-def toss_part(sweep: Sweep, numbers: Numbers) -> Layers:
+def toss_part(sweep: Sweep, numbers: Numbers) -> Columns:
     """Return what is known of some pixels, tossed at once."""
     rows = sweep.batch.rows(numbers)
     how = sweep.how
@@ -56,15 +56,14 @@ def fill(store: Store, tosser: Tosser, *, shown: bool | None = None) -> None:
     whole, name = math.prod(store.shape), store.path.name
     left = [tile for tile in store.tiles if store.is_empty or not store.tossed(tile).all()]
     kept = whole - sum(int(store.missing(tile).size) for tile in left)
-    try:
-        with stage(name, "tosses", total=whole, done=kept, shown=shown) as progress:
-            for numbers, layers in tosser(map(store.missing, left)):
-                store.write(numbers, layers)
-                kept += len(numbers)
-                progress(kept, whole)
-    except Interruption as interruption:
-        interruption.message = f"{name}: {kept} of {whole} tosses are saved; `resume` continues"
-        raise
+    with (
+        saying(lambda _: f"{name}: {kept} of {whole} tosses are saved; `resume` continues"),
+        stage(name, "tosses", total=whole, done=kept, shown=shown) as progress,
+    ):
+        for numbers, layers in tosser(map(store.missing, left)):
+            store.write(numbers, layers)
+            kept += len(numbers)
+            progress(kept, whole)
 
 
 def fractions_of(store: Store) -> dict[Outcome, float]:

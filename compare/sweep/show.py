@@ -1,6 +1,5 @@
 """Pictures of maps, for a file and for a report."""
 
-import io
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
@@ -13,7 +12,7 @@ from numpy.typing import NDArray
 from cointoss.compare.basins import picture
 from cointoss.compare.basins.fractions import fractions
 from cointoss.compare.basins.picture_style import Palette, PictureStyle
-from cointoss.compare.output.plots import axes_or_new
+from cointoss.compare.output.plots import axes_or_new, picture_bytes
 from cointoss.compare.output.style import GREY
 from cointoss.compare.report.map_section import MapSection
 from cointoss.compare.sweep.axes import Axis
@@ -55,9 +54,7 @@ def png_of(
         beside = None if margins is None else _margins(margins, sweep)
         figure = picture.draw_map(maps[0], x=x, y=y, style=style, margins=beside, untrusted=untrusted)
     figure.suptitle(_title(sweep), parse_math=False)
-    drawn = io.BytesIO()
-    figure.savefig(drawn, format="png", dpi=style.dpi)
-    return drawn.getvalue()
+    return picture_bytes(figure, dpi=style.dpi)
 
 
 def section(
@@ -121,7 +118,14 @@ def plot_map(made: TossedMap, ax: Axes | None, layer: str, palette: str, *, boun
             raise SweepError(f"{name}: {value!r}, accepted: {', '.join(accepted)}")
     axes = axes_or_new(ax)
     style = PictureStyle(palette=Palette(palette), boundaries=boundaries)
-    draw_layer(axes, drawn[layer], made.sweep, style, untrusted=made.untrusted)
+    x, y = _drawn(made.sweep.x), _drawn(made.sweep.y)
+    if layer == "outcome":
+        patches = picture.draw_panel(axes, made.outcome, x=x, y=y, style=style, untrusted=made.untrusted)
+    else:
+        patches = picture.draw_margin_panel(axes, _margins(drawn[layer], made.sweep), x=x, y=y)
+    if patches:
+        axes.legend(handles=patches, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, frameon=False)
+    axes.set_title(_title(made.sweep), parse_math=False)
     return axes
 
 
@@ -132,32 +136,6 @@ def plot_counts(counts: Mapping[str, int], ax: Axes | None) -> Axes:
     axes.bar_label(bars)
     axes.set(xlabel="outcome", ylabel="tosses")
     return axes
-
-
-def draw_layer(
-    axes: Axes,
-    layer: Array | NDArray[np.int8],
-    sweep: Sweep,
-    style: PictureStyle,
-    *,
-    untrusted: NDArray[np.bool_] | None = None,
-) -> None:
-    """Draw the outcomes of a map, or its margins, into `axes`, with a legend below.
-
-    Args:
-        axes: where.
-        layer: outcomes, of int8, or margins, (y, x).
-        sweep: what the map is made of.
-        style: how to draw.
-        untrusted: the pixels of the outcomes that are hatched, (y, x).
-    """
-    x, y = _drawn(sweep.x), _drawn(sweep.y)
-    if layer.dtype == np.int8:
-        shown = picture.draw_panel(axes, layer, x=x, y=y, style=style, untrusted=untrusted)
-    else:
-        shown = picture.draw_margin_panel(axes, _margins(layer, sweep), x=x, y=y)
-    picture.legend_below(axes, shown)
-    axes.set_title(_title(sweep), parse_math=False)
 
 
 def _drawn(axis: Axis) -> picture.MapAxis:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from itertools import product
 from pathlib import Path
-from typing import Any, Literal, NoReturn
+from typing import Any, Literal
 
 import numpy as np
 import zarr
@@ -24,18 +24,17 @@ from cointoss.compare.output.interruption import undoing
 from cointoss.compare.sweep.form import (
     MARGIN_ALONG,
     TRUST,
+    StoreForm,
     foreign_entry,
-    has_grid,
     is_map,
-    names_of_arrays,
-    read_attributes,
+    read_form,
     require_arrays,
     require_chunk,
 )
 from cointoss.compare.sweep.grid import numbers_in, tiles
 from cointoss.compare.sweep.layers import LAYERS, holds_tosses
 from cointoss.compare.sweep.layout import Layout
-from cointoss.compare.sweep.pixels import Layers
+from cointoss.compare.sweep.pieces import Columns
 from cointoss.models.errors import ScenarioError
 from cointoss.models.reading import parse
 
@@ -101,15 +100,11 @@ class Store:
         self._require_chunks(name, part)
         return self._array(name)[part]
 
-    def require_decodable(self, name: str) -> None:
-        """Refuse an array of which a file does not decode to its size; nothing is decoded."""
-        self._require_chunks(name, tuple(slice(0, count) for count in self._array(name).shape))
-
     def whole(self, name: str) -> NDArray[Any]:
         """Return all values of an array, or of a coordinate by its field."""
         return self.read(tuple(slice(0, count) for count in self._array(name).shape), name)
 
-    def write(self, numbers: NDArray[np.intp], layers: Layers) -> None:
+    def write(self, numbers: NDArray[np.intp], layers: Columns) -> None:
         """Keep what is known of a tile, or of a part of one.
 
         Args:
@@ -259,7 +254,7 @@ def _write_empty(folder: Path, layout: Layout) -> None:
             shape=tuple(layout.sizes.values()),
             chunks=layout.tile,
             dtype=layer.kind,
-            fill_value=layer.fill_value,
+            fill_value=layer.missing,
             dimension_names=list(layout.sizes),
             # A tile that breaks off must not pass for one.
             compressors=ZstdCodec(checksum=True),
@@ -287,53 +282,49 @@ def _same(path: Path, target: Path, mode: Literal["r", "r+"], layout: Layout) ->
     One of another layout or of other versions is refused: its tosses would be of two kinds.
     """
     with _readable(path):
-        stored = read_attributes(target, len(layout.sizes))
-    due = layout.attributes
-    made_by, ours = (
-        {name: one for name, one in each["versions"].items() if name not in _READERS}
-        for each in (stored, due)
-    )
+        form = read_form(target, len(layout.sizes))
+    unlike = _unlike(form, layout, path)
+    if unlike is None:
+        with _readable(path):
+            require_arrays(form, layout.sizes, layout.layers, layout.coordinates)
+            found = Store.at(target, mode)
+            unlike = _unlike_values(found, form, layout)
+        if unlike is None:
+            return replace(found, path=path)
+    kind = "map" if "cointoss_map" in layout.attributes else "store of tosses"
+    raise UnwritableError(f"{path}: is a {kind} with another {unlike}; {_WAYS_OUT}")
+
+
+def _unlike(form: StoreForm, layout: Layout, path: Path) -> str | None:
+    """Return what of a store is described otherwise than a layout, for a person; None where nothing is."""
+    stored, due = form.attributes, layout.attributes
     try:
         same_scenario = parse(stored["scenario"], str(path)) == parse(due["scenario"], str(path))
     except ScenarioError:
         same_scenario = False
-    others = (stored.keys() | due.keys()) - {"scenario", "versions", "name"}
-    unlike = next((name for name in [*_CALLED, *sorted(others)] if stored.get(name) != due.get(name)), None)
     if not same_scenario:
-        _refuse_other(path, due, "scenario")
-    if unlike is not None:
-        value = f", {json.dumps(stored.get(unlike))}" if unlike == "engine_settings" else ""
-        _refuse_other(path, due, f"{_CALLED.get(unlike, unlike)}{value}")
-    with _readable(path):
-        axes = layout.coordinates.items()
-        unlike_grid = [one.dims[0] for field, one in axes if not has_grid(target, field, one)]
-    if unlike_grid:
-        _refuse_other(path, due, f"grid in {unlike_grid[-1]}")
-    with _readable(path):
-        own = {*layout.layers, *layout.coordinates}
-        others = sorted(names_of_arrays(target) ^ own)
-    if others:
-        _refuse_other(path, due, f"set of arrays, for {', '.join(others)}")
-    with _readable(path):
-        require_arrays(target, layout.sizes, layout.layers, layout.coordinates)
-        found = Store.at(target, mode)
-        for field in layout.coordinates:
-            found.require_decodable(field)
-        unlike_grid = [one.dims[0] for field, one in axes if not _same_values(found.whole(field), one.values)]
-    if unlike_grid:
-        _refuse_other(path, due, f"grid in {unlike_grid[-1]}")
-    if made_by != ours:
-        _refuse_other(path, due, f"set of versions, {json.dumps(made_by)}")
-    return replace(found, path=path)
+        return "scenario"
+    others = (stored.keys() | due.keys()) - {"scenario", "versions", "name"}
+    for name in [*_CALLED, *sorted(others)]:
+        if stored.get(name) != due.get(name):
+            value = f", {json.dumps(stored.get(name))}" if name == "engine_settings" else ""
+            return f"{_CALLED.get(name, name)}{value}"
+    if grids := [one.dims[0] for field, one in layout.coordinates.items() if not form.has(field, one)]:
+        return f"grid in {grids[-1]}"
+    arrays = sorted(form.arrays.keys() ^ {*layout.layers, *layout.coordinates})
+    return f"set of arrays, for {', '.join(arrays)}" if arrays else None
 
 
-def _same_values(first: NDArray[Any], second: NDArray[Any]) -> bool:
-    return bool(np.array_equal(first, second, equal_nan=first.dtype.kind == "f"))
-
-
-def _refuse_other(path: Path, due: dict[str, Any], what: str) -> NoReturn:
-    kind = "map" if "cointoss_map" in due else "store of tosses"
-    raise UnwritableError(f"{path}: is a {kind} with another {what}; {_WAYS_OUT}")
+def _unlike_values(found: Store, form: StoreForm, layout: Layout) -> str | None:
+    """Return which values or versions of a store are others than those of a layout; None where none are."""
+    for field, one in reversed(layout.coordinates.items()):
+        if not np.array_equal(found.whole(field), one.values, equal_nan=one.values.dtype.kind == "f"):
+            return f"grid in {one.dims[0]}"
+    made_by, ours = (
+        {name: one for name, one in each["versions"].items() if name not in _READERS}
+        for each in (form.attributes, layout.attributes)
+    )
+    return None if made_by == ours else f"set of versions, {json.dumps(made_by)}"
 
 
 @contextmanager

@@ -1,24 +1,22 @@
 """The verb: toss a batch of scenarios, and return how they ended as one dataset."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Mapping
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.batch import Batch, batch_of
 from cointoss.compare.sweep.dataset import dataset_of
 from cointoss.compare.sweep.errors import SweepError, require_whole
-from cointoss.compare.sweep.pieces import How, pieces, require_supported, warn_of_interruption
-from cointoss.models.answers import COLUMNS, NOT_TOSSED, Trust
+from cointoss.compare.sweep.pieces import How, check, columns, gather, warn_of_interruption
+from cointoss.models.answers import COLUMNS, Trust
 from cointoss.models.errors import require_type
 from cointoss.models.reading import ScenarioSource
 from cointoss.models.records import UnsupportedError
-from cointoss.models.stages import stage
-from cointoss.models.unused import warn_of_unused_fields
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -109,16 +107,7 @@ def toss_many(
         )
     check(batch, how)
     answers = {name: np.full(len(batch), COLUMNS[name].missing, COLUMNS[name].kind) for name in how.names}
-    done = 0
-    with stage(f"tossing by {how.engine}", "tosses", total=len(batch), shown=progress) as tell:
-        try:
-            for tosses, found in pieces(batch, how):
-                for name, array in answers.items():
-                    array[tosses] = getattr(found, name)
-                done += len(tosses)
-                tell(done, len(batch))
-        except KeyboardInterrupt:
-            warn_of_interruption(int(np.sum(answers["outcome"] != NOT_TOSSED)), len(batch))
+    gather(answers, columns(batch, how), f"tossing by {how.engine}", shown=progress)
     return dataset_of(batch, how, {name: array.reshape(batch.shape) for name, array in answers.items()})
 
 
@@ -136,14 +125,9 @@ def _into_store(
         raise SweepError("vary: nothing varies, accepted: one field or more for a store")
     store.require_place(path, resume=resume, overwrite=overwrite)
     check(batch, how)
-
-    def toss(parts: Iterable[NDArray[np.intp]]) -> Iterator[tuple[NDArray[np.intp], dict[str, Any]]]:
-        for tosses, found in pieces(batch, how, parts):
-            yield tosses, {name: getattr(found, name) for name in how.names}
-
     with store.opened(path, layout_of_tosses(batch, how), overwrite=overwrite) as kept:
         try:
-            fill(kept, toss, shown=progress)
+            fill(kept, partial(columns, batch, how), shown=progress)
         except KeyboardInterrupt:
             left = sum(kept.missing(tile).size for tile in kept.tiles)
             warn_of_interruption(len(batch) - left, len(batch))
@@ -183,20 +167,3 @@ def how_of(
         workers=workers,
         keeps=errors == "keep",
     )
-
-
-def check(batch: Batch, how: How) -> None:
-    """Refuse a batch with a toss that is no scenario, or that its engine can't make.
-
-    Raises:
-        ScenarioError, UnsupportedError: naming field, value, and what is accepted.
-
-    Warns:
-        UnusedFieldWarning: for a field that nothing uses.
-    """
-    if not how.keeps:
-        batch.check()
-        if not any(one.words for one in batch.varied):  # which may use a field each
-            largest = batch.largest()
-            warn_of_unused_fields(largest.floor, largest.air)
-    require_supported(batch, how)

@@ -1,9 +1,11 @@
 """A map in memory: what it is of, and its arrays, as a dataset and back."""
 
 import json
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
+from itertools import count
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,7 +24,7 @@ from cointoss.compare.sweep.layers import (
     layers_of,
     trust_layer,
 )
-from cointoss.compare.sweep.pixels import Layers
+from cointoss.compare.sweep.pieces import Columns
 from cointoss.compare.sweep.untrusted import untrusted_pixels
 from cointoss.models.reading import parse
 from cointoss.models.records import Array
@@ -40,7 +42,7 @@ class TossedMap:
 
     sweep: Sweep
     """The scenario, the axes, the engine with its settings, and which face or outcome is shown."""
-    layers: Layers
+    layers: Columns
     """By name, (ny, nx) each; `outcome` is -1 where no toss was made yet."""
     name: str
     stride: int = 1
@@ -52,7 +54,9 @@ class TossedMap:
         for name, array in self.layers.items():
             if array.shape != expected:
                 raise ValueError(f"{name}: shape {array.shape}, expected {expected}")
-        self.layers.update({name: _read_only(array) for name, array in self.layers.items()})
+        self.layers.update({name: array.view() for name, array in self.layers.items()})
+        for array in self.layers.values():
+            array.setflags(write=False)
         tossed = self.outcome[self.outcome != NOT_TOSSED]
         if tossed.size:
             outcome_codes(tossed)
@@ -80,9 +84,7 @@ class TossedMap:
 
     def thinned(self, most: int) -> "TossedMap":
         """Return every second, third, ... pixel along both axes, so that there are at most `most`."""
-        step = 1
-        while self.outcome[::step, ::step].size > most:
-            step += 1
+        step = stride_of(self.outcome.shape, most)
         layers = {name: layer[::step, ::step] for name, layer in self.layers.items()}
         return replace(self, layers=layers, stride=step * self.stride)
 
@@ -112,10 +114,9 @@ class TossedMap:
         return in_words(xarray.Dataset(arrays, coordinates, about))
 
 
-def _read_only(array: NDArray[Any]) -> NDArray[Any]:
-    own = array.view()
-    own.setflags(write=False)
-    return own
+def stride_of(shape: tuple[int, ...], most: int) -> int:
+    """Return the least n of which every n-th pixel along both axes are at most so many."""
+    return next(n for n in count(1) if math.prod(-(-side // n) for side in shape) <= most)
 
 
 def map_of(dataset: "xr.Dataset") -> TossedMap:

@@ -57,9 +57,10 @@ def import_map(modules: dict[str, str]) -> str:
     Args:
         modules: texts by names; they may import each other as "./NAME".
     """
+    # What a module imports is named as in the map.
+    named = {name: _IMPORTED.sub(r"\1\2\3", text).encode() for name, text in modules.items()}
     held = {
-        name: "data:text/javascript;base64," + b64encode(_by_name(text).encode()).decode("ascii")
-        for name, text in modules.items()
+        name: "data:text/javascript;base64," + b64encode(text).decode("ascii") for name, text in named.items()
     }
     return f'<script type="importmap">{json.dumps({"imports": held})}</script>'
 
@@ -69,8 +70,3 @@ def data_element(data: object, *, id_: str) -> str:
     text = json.dumps(data, allow_nan=False, separators=(",", ":"))
     # A "</script>" in the data must not end it.
     return f'<script type="application/json" id="{id_}">{text.replace("<", chr(92) + "u003c")}</script>'
-
-
-def _by_name(module: str) -> str:
-    """Return a module's text with what it imports named as in the import map."""
-    return _IMPORTED.sub(r"\1\2\3", module)

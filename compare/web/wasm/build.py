@@ -7,7 +7,7 @@ from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
 
-from cointoss.compare.output.files import written_whole
+from cointoss.compare.output.files import write_bytes
 from cointoss.compare.web.wasm.carried import SECTION, sources
 from cointoss.models.kernel.building import NEEDED
 from cointoss.models.kernel.digests import digest_of_parts
@@ -40,8 +40,7 @@ def build(out: Path) -> None:
     digest_of_parts.cache_clear()
     if sources() != made_of:
         raise RuntimeError("its sources have changed while they were compiled: build it again")
-    with written_whole(out) as aside:
-        aside.write_bytes(engine + _section(_description()))
+    write_bytes(out, engine + _section(_description()))
 
 
 def _description() -> dict[str, object]:

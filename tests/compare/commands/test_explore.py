@@ -40,7 +40,7 @@ def test_a_map_with_a_name_that_is_none_is_refused(copy, name):
 
 
 def test_a_map_by_mujoco_is_not_to_blame_for_a_back_end_that_is_missing(copy, monkeypatch):
-    def missing():
+    def missing(_engine):
         raise BackEndError("MUJOCO_GL = x: MuJoCo can't be used")
 
     changed(copy, engine=Engine.MUJOCO)

@@ -43,4 +43,4 @@ def test_margins_are_looked_for_in_numbers_that_a_release_can_have():
     window = window_of({"release.position.z": (-1e9, 1e9)}, load("fig24a"))
     # A margin may be as wide as the window, to either side.
     assert window.values(np.array([[-1.0], [0.75], [2.0]])).ravel().tolist() == [-LARGEST, 5e8, LARGEST]
-    assert window.rows(np.array([[-1.0], [2.0]]))[1].tolist() == [False, True]
+    assert window.rows(window.values(np.array([[-1.0], [2.0]])))[1].tolist() == [False, True]

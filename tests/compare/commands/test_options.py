@@ -1,6 +1,6 @@
 """Options made of a record: their kinds, their help, the rules between them, and back to words."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Literal
@@ -9,7 +9,7 @@ import click
 import pytest
 from click.testing import CliRunner
 
-from cointoss.compare.commands.common import Given, QuantityType
+from cointoss.compare.commands.common import Given, quantity
 from cointoss.compare.commands.options import one_of, only_with, options_of, without, words_of
 from cointoss.compare.output.accepted import Form, Within
 from cointoss.compare.output.language import in_options
@@ -41,7 +41,7 @@ class Look:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Wish:
+class Wish(Look):
     """What is asked for."""
 
     to_do: str
@@ -53,12 +53,10 @@ class Wish:
     """How many."""
     out: Annotated[tuple[Path, ...], Form("FILE")] = ()
     """Files."""
-    with_: Annotated[Given | None, QuantityType("m")] = None
+    with_: Annotated[Given | None, quantity("m")] = None
     """A length."""
     no_video: bool = False
     """No video."""
-    look: Look = field(default_factory=Look)
-    """How it is drawn."""
 
 
 taken: list[Wish] = []
@@ -91,7 +89,7 @@ def test_each_kind_of_field_is_read():
         *("--colour", "dark-blue", "--pair", "1:2"),
     )
     assert (found.engine, found.count, found.out) == ("mujoco", 3, (Path("a"), Path("b")))
-    assert found.look == Look(colour=Colour.DARK_BLUE, pair=("1", "2"))
+    assert (found.colour, found.pair) == (Colour.DARK_BLUE, ("1", "2"))
     assert given("--to-do", "walk", "--with", "2 cm").with_ == Given("2 cm", 0.02)
 
 

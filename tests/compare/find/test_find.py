@@ -137,7 +137,7 @@ def test_points_that_no_scenario_accepts_are_passed_over():
     shown = Target(sequence="H").shown(window, np.array([[0.1], [0.9]]))
     assert (shown[0], shown[1] >= 0) == (-1, True)
     with pytest.raises(ScenarioError):
-        window.scenario_at(np.array([0.1]))
+        window.scenario_of(window.values(np.array([0.1])))
 
 
 def test_points_that_make_no_scenario_are_no_tosses():

@@ -5,6 +5,7 @@ from typing import Any
 import pytest
 from pydantic import BaseModel
 
+from cointoss.compare.shares.show import texts_of
 from cointoss.compare.sweep.axes import Axis, parse_axis
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.fields import UNITS, split
@@ -94,5 +95,5 @@ def test_an_axis_has_as_many_values_as_asked_for_and_none_twice():
     with pytest.raises(SweepError, match="not 3 numbers between both; accepted: ends that are farther apart"):
         parse_axis("floor.restitution=0.5:0.5000000000000001:3", load("fig24a"))
     close = parse_axis("floor.restitution=0.5:0.50000002:3", load("fig24a"))
-    assert close.texts == ["0.5", "0.50000001", "0.50000002"]
-    assert parse_axis("floor.restitution=0.8:0.2:3", load("fig24a")).texts == ["0.8", "0.5", "0.2"]
+    assert texts_of(close.values) == ["0.5", "0.50000001", "0.50000002"]
+    assert texts_of(parse_axis("floor.restitution=0.8:0.2:3", load("fig24a")).values) == ["0.8", "0.5", "0.2"]
