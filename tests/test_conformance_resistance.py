@@ -9,7 +9,7 @@ import pytest
 
 from cointoss.compare.engines import Engine
 from cointoss.models.records import Ending, Outcome
-from cointoss_reproduction.setups.hands import states_of_hands
+from tests.helpers.corpus import states_of_hands
 from tests.helpers.draws import AIR, THIN, ZLOTY, scenario
 from tests.helpers.engines import toss, toss_many
 from tests.helpers.states import energies

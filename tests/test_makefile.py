@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from cointoss_reproduction.frame import runner
+from tests.helpers.command_line import cointoss
 
 MAKEFILE = Path(__file__).parents[1] / "Makefile"
 SLEEP = """#!/bin/sh
@@ -91,4 +91,4 @@ def test_the_container_makes_all_results_and_pages_by_targets_that_there_are():
     assert done.returncode == 0, done.stderr
     (listed,) = re.findall(r"cointoss reproduce (.*) --out docs$", done.stdout, flags=re.MULTILINE)
     assert set(listed.split()) == {path.name for path in (MAKEFILE.parent / "docs/reproduction").iterdir()}
-    assert set(listed.split()) <= set(runner.names())
+    assert set(listed.split()) <= {line.split()[0] for line in cointoss("reproduce").stdout.splitlines()}

@@ -14,9 +14,9 @@ from cointoss.analytic.runs import run
 from cointoss.models.batch import rows_from_states
 from cointoss.models.records import Array, Ending
 from cointoss.models.scenario import Scenario
-from cointoss_reproduction.setups.general_coins import CLASSES, CoinClass
 from tests.benchmarks.one_coin import mechanics
 from tests.benchmarks.rates import report
+from tests.helpers.corpus import CLASSES, CoinClass
 from tests.helpers.many import as_parts
 
 MANY, FEW = 64, 4

@@ -27,24 +27,3 @@ def test_settings_of_a_contact_are_those_on_which_it_depends():
     assert one_step.as_dict().keys() == of_both | {"step", "slip_damping"}
     recorded: dict[str, Any] = one_step.as_dict()
     assert coin_mj.MujocoSettings(**recorded).as_dict() == recorded
-
-
-@pytest.mark.parametrize(
-    ("wrong", "accepted"),
-    [
-        ({"contact": "hard"}, '"spring" or "one_step"'),
-        ({"friction": "none"}, '"explicit" or "native"'),
-        ({"stiffness": 0.0}, "a finite number > 0"),
-        ({"stiffness": float("nan")}, "a finite number > 0"),
-        ({"step": float("inf")}, "a finite number > 0"),
-        ({"flight_angle": -1.0}, "a finite number > 0"),
-        ({"flight_steps": 0}, "a whole number >= 1"),
-        ({"steps": 0}, "a whole number >= 1"),
-        ({"steps": 1.5}, "a whole number >= 1"),
-        ({"slip_damping": -1.0}, "a finite number >= 0"),
-    ],
-)
-def test_a_wrong_setting_is_refused_by_name_value_and_what_is_accepted(wrong, accepted):
-    ((name, value),) = wrong.items()
-    with pytest.raises(ValueError, match=f"Settings.{name} = {value}: accepted: {accepted}"):
-        coin_mj.MujocoSettings(**wrong)

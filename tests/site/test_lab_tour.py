@@ -10,7 +10,6 @@ import cointoss
 from cointoss import analytic
 from cointoss.compare.metrics.estimates import share
 from cointoss.models.batch import rows_of
-from cointoss_reproduction.setups.planar_maps import faces_after
 from tests.helpers.lab import COUNTED, HEIGHT, SPIN, go
 
 
@@ -21,12 +20,19 @@ def scenario_of(stop):
     return plain.replace(*(part for pair in fields.items() for part in pair))
 
 
+def faces_after(held, count, fields, after):
+    """Return the faces up at the touch after some impacts, the outcome where a toss ended before."""
+    rows = rows_of(held.replace("ending.max_impacts", after + 1), count, fields)
+    return analytic.toss_rows(rows).after(after)
+
+
 def row_of(scenario, values, after, **fixed):
     """Return the faces along a row of a map, over values of the spin."""
     pairs = [part for name, value in fixed.items() for part in (name.replace("__", "."), value)]
     held = scenario.replace(*pairs) if pairs else scenario
-    rows = rows_of(held, len(values), {SPIN: values})
-    return analytic.toss_rows(rows).outcome if after is None else faces_after(rows, after)
+    if after is None:
+        return analytic.toss_rows(rows_of(held, len(values), {SPIN: values})).outcome
+    return faces_after(held, len(values), {SPIN: values}, after)
 
 
 def changes(faces_):
@@ -49,9 +55,8 @@ def test_the_share_of_a_hand_is_that_of_the_package(kept):
         # Within four standard errors.
         assert values.mean() == pytest.approx(mean, rel=4 * 0.02 / 2000**0.5)
         assert values.std() == pytest.approx(0.02 * mean, rel=4 / (2 * 2000) ** 0.5)
-    rows = rows_of(scenario_of(stop), 2000, fields)
     for after, least, most in ((0, 0.99, 1), (2, 0.4, 0.6)):
-        expected = share(faces_after(rows, after) == 1)
+        expected = share(faces_after(scenario_of(stop), 2000, fields, after) == 1)
         assert least <= expected.value <= most
         if after == 0:
             shown = tuple(f"{100 * part:.1f}" for part in (expected.value, expected.low, expected.high))

@@ -3,8 +3,8 @@
 import pytest
 
 from cointoss.models.records import Outcome
-from cointoss_reproduction.setups.general_coins import CLASSES
 from tests.helpers.bits import MANY, cases, numbers_of, numbers_of_many
+from tests.helpers.corpus import CLASSES
 from tests.helpers.engine_page import changes, written
 
 

@@ -11,7 +11,7 @@ import pytest
 import cointoss
 from cointoss import analytic
 from cointoss.models.batch import rows_from_states, rows_of
-from cointoss_reproduction.setups.general_coins import CLASSES
+from tests.helpers.corpus import CLASSES
 from tests.helpers.draws import AIR, THIN, scenario
 from tests.helpers.engine_page import changes, written
 from tests.helpers.many import same_states

@@ -18,9 +18,8 @@ from cointoss.models.batch import rows_from_states
 from cointoss.models.certificate import CONTACT_ENERGY
 from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.records import Ending, Outcome
-from cointoss_reproduction.setups.hands import states_of_hands
-from cointoss_reproduction.studies.endings.study import draw_toss
 from tests.helpers.contacts import follow_for, held, put_on_floor
+from tests.helpers.corpus import draw_toss, states_of_hands
 from tests.helpers.draws import AIR, IMPERFECT, THIN, ZLOTY, draw_coin, scenario
 
 step_contact = by_numba(step_contact)
@@ -236,7 +235,7 @@ def test_a_thick_coin_that_rolls_upright_is_caught_on_its_edge_and_without_resis
 @pytest.mark.parametrize("seed", range(8))
 def test_contacts_of_random_tosses_never_gain_energy(seed):
     rng = np.random.default_rng((17, seed))
-    _, case = draw_toss(rng, ("ideal", "imperfect")[seed % 2])
+    case = draw_toss(rng, imperfect=seed % 2 == 1)
     law = ("smooth", "coulomb", "perfectly_rough")[seed % 3]
     case = case.replace(
         "floor.contact",

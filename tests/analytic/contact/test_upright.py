@@ -19,8 +19,8 @@ from cointoss.models.barriers import energy
 from cointoss.models.geometry import gap
 from cointoss.models.laws import EndingTest
 from cointoss.models.records import Ending, Outcome
-from cointoss_reproduction.studies.endings.study import draw_toss
 from tests.helpers.contacts import end_mode, follow_for, follow_step, held, upright_coin
+from tests.helpers.corpus import draw_toss
 from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, scenario
 
 SMOOTH = FloorFriction(0.0)
@@ -235,7 +235,7 @@ def test_a_rolling_coin_stands_unless_it_skids_or_its_roll_tips_it(roll_rate, mu
 @pytest.mark.parametrize("number", [5496, 6096, 4614, 7739])
 def test_a_toss_that_comes_upright_on_a_rough_floor_is_followed_to_its_end(number):
     """Tosses of the study of endings in which the coin skids or rolls on both rims for a while."""
-    _, case = draw_toss(np.random.default_rng((2008, 1, number)), "imperfect")
+    case = draw_toss(np.random.default_rng((2008, 1, number)), imperfect=True)
     tossed = run(case.body, case.rules._replace(test=EndingTest.LYING), state_at_release(case.release))
     assert Mode.UPRIGHT in tossed.modes
     assert tossed.outcome != Outcome.UNDECIDED
@@ -312,7 +312,7 @@ def test_a_rim_that_friction_cannot_hold_takes_no_slip():
 
 def test_a_coin_that_pivots_on_one_rim_while_the_other_skids_goes_on():
     """A toss of the study of endings: without its slow slip the rim that stuck would have no friction."""
-    _, case = draw_toss(np.random.default_rng((2008, 1, 9428)), "imperfect")
+    case = draw_toss(np.random.default_rng((2008, 1, 9428)), imperfect=True)
     tossed = run(case.body, case.rules._replace(max_time=2.9), state_at_release(case.release))
     assert tossed.ending == Ending.MAX_TIME
     lasting = np.diff(tossed.start_times)[tossed.modes[:-1] == Mode.UPRIGHT]

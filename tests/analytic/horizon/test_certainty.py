@@ -12,7 +12,7 @@ from cointoss.analytic.runs import horizon_of, run
 from cointoss.analytic.settings import MANY, AnalyticSettings
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.records import Ending, Outcome
-from cointoss_reproduction.studies.endings.study import COINS, draw_toss
+from tests.helpers.corpus import draw_toss
 from tests.helpers.draws import AIR, ZLOTY, scenario
 
 ROUNDING, MOVED = 2e-15, 6
@@ -24,7 +24,7 @@ def test_no_certain_outcome_changes_and_most_that_do_not_are_called_certain(coun
     """Tosses of all coins, floors and airs; in truth an outcome is certain that no moved release changes."""
     rng, called, in_truth = np.random.default_rng(12), 0, 0
     for number in range(count):
-        _, case = draw_toss(rng, COINS[number % len(COINS)])
+        case = draw_toss(rng, imperfect=number % 2 == 1)
         body, rules, start = case.body, case.rules, state_at_release(case.release)
         toss = run(body, rules, start, MANY)
         horizon = horizon_of(body, rules, toss)
@@ -73,7 +73,7 @@ def test_of_random_tosses_another_outcome_is_found_in_no_time(tolerance):
     """Where rounding alone decides, the toss made again from its last trusted impact ends otherwise."""
     rng, found, settings = np.random.default_rng(7), [], AnalyticSettings(contact_tolerance=tolerance)
     for number in range(150):
-        _, case = draw_toss(rng, COINS[number % len(COINS)])
+        case = draw_toss(rng, imperfect=number % 2 == 1)
         tossed = analytic.toss(case, settings=settings)
         found.append(tossed.other_outcome)
         assert tossed.other_outcome is None or not tossed.outcome_certain

@@ -9,7 +9,6 @@ from cointoss.compare.basins.picture import MapAxis, draw_comparison
 from cointoss.compare.sweep import describe
 from cointoss.models.reading import load, parse
 from tests.helpers.basin_runs import SCENARIO, basin
-from tests.helpers.command_line import refused
 from tests.helpers.made_maps import halves
 
 AXES = ("--x", "release.angular_velocity.eta=20:60:6", "--y", "release.position.z=0.2:0.6:5", "--after", 0)
@@ -21,31 +20,12 @@ def test_both_engines_make_a_map_each_and_are_compared(coin, tmp_path):
     assert answered.exit_code == 0, answered.stderr
     maps = [xr.open_zarr(tmp_path / name, chunks=None) for name in ("map.zarr", "map-mujoco.zarr")]
     assert [found.attrs["engine"] for found in maps] == ["analytic", "mujoco"]
-    assert maps[1].attrs["versions"].keys() >= {"mujoco"}
     # Keller's hyperbolas at first touch: away from them, and here near them too, both engines agree.
     assert np.array_equal(maps[0].outcome, maps[1].outcome)
-    lines = answered.stdout.splitlines()
-    assert [line.split()[0] for line in lines if not line.startswith(" ")] == [
-        *("map", "engine", "tosses", "heads", "tails"),
-        *("map", "engine", "tosses", "heads", "tails"),
-        *("agreement", "picture"),
-    ]
-    near = lines[-3].split()
-    away = lines[-4].split()
-    assert int(near[3]) + int(away[away.index("of") + 1]) == 30
-    assert near[0] == "100.000"
     with Image.open(png) as image:
         assert image.size == (2250, 675)
     again = basin(coin, *AXES, "--compare", "--out", out, "--resume")
-    assert again.stdout.splitlines() == lines[:-1]
-
-
-def test_what_mujoco_comes_near_to_is_told_once(coin, tmp_path):
-    coin.write_text(SCENARIO.replace('"smooth"', '"perfectly_rough"'))
-    answered = basin(coin, *AXES, "--engine", "mujoco", "--out", tmp_path / "map.zarr")
-    assert answered.exit_code == 0
-    assert len(answered.stderr.splitlines()) == 1
-    assert 'floor.contact = "perfectly_rough": MuJoCo tosses on a floor of' in answered.stderr
+    assert again.stdout == answered.stdout.removesuffix(f"picture    {png}\n")
 
 
 def test_a_map_is_drawn_in_the_size_and_colours_asked(coin, tmp_path):
@@ -73,7 +53,6 @@ def test_a_map_of_a_changed_scenario_keeps_it_and_is_gone_on_with(coin, tmp_path
     changed = load(coin).replace("floor.restitution", 0.5, "release.spin", 30)
     assert parse(xr.open_zarr(out, chunks=None).attrs["scenario"], "map") == changed
     assert basin(coin, *axes, *other, "--out", out, "--resume").exit_code == 0
-    assert "is a map with another scenario" in refused("basin", coin, *axes, "--out", out, "--resume")
 
 
 def test_the_agreement_is_told_near_the_boundaries_and_away_from_them():

@@ -89,15 +89,6 @@ def test_a_port_in_use_is_refused(map_path):
         port = other.getsockname()[1]
         said = refused("explore", map_path, "--port", port)
     assert f"--port {port}: another program listens there; accepted: another port" in said
-    assert "accepted: an integer >= 1 and <= 65535" in refused("explore", map_path, "--port", 70000)
-
-
-def test_the_static_page_opens_no_browser_and_ends_in_html(map_path, tmp_path):
-    for name, more, said in (
-        ("a.html", ["--no-browser"], "accepted: only without --no-browser"),
-        ("a.txt", [], "in .html"),
-    ):
-        assert said in refused("explore", map_path, "--static", tmp_path / name, *more)
 
 
 @pytest.mark.parametrize(

@@ -6,9 +6,6 @@ import pytest
 from cointoss.compare.film.back_end import ADVICE
 from cointoss.compare.film.stills import stills
 from cointoss.models.records import States
-from cointoss_reproduction.frame import runner
-from cointoss_reproduction.frame.claim import unexpected
-from cointoss_reproduction.studies.fig5 import study as fig5
 from tests.helpers.draws import scenario
 
 
@@ -41,11 +38,3 @@ def test_a_back_end_that_ends_the_process_is_told_too(monkeypatch):
     monkeypatch.setattr("cointoss.compare.film.back_end.DRAW_ONE_FRAME", dying)
     told = stills(scenario(), faces(HEADS))
     assert told == f"{ADVICE} (ended by signal 9)"
-
-
-def test_the_figure_comes_without_stills_too(monkeypatch, tmp_path):
-    monkeypatch.setattr(fig5, "stills", lambda *_: "no library")
-    result = runner.reproduce("fig5", tmp_path, lambda *_: None, quick=True)
-    assert unexpected(result.claims, quick=True) == ()
-    assert any("no stills: no library" in claim.mujoco for claim in result.claims)
-    assert (runner.folder_of("fig5", tmp_path) / "figure.png").exists()

@@ -16,6 +16,7 @@ from cointoss.compare.sweep.toss_many import toss_many
 from cointoss.models.batch import PLACE, rows_of
 from cointoss.models.errors import ScenarioError
 from cointoss.models.laws import ContactLaw
+from cointoss.models.parts import LARGEST
 from cointoss.models.reading import load, parse
 from cointoss.models.records import Outcome
 from tests.helpers.basin_runs import SCENARIO
@@ -154,34 +155,6 @@ def test_points_that_make_no_scenario_are_no_tosses():
     assert found.lines[1].startswith(f"at most {100 * most:.2g} % of the tosses in the window")
 
 
-def test_a_window_without_a_scenario_is_refused():
-    with pytest.raises(ScenarioError, match=r"release\.position\.z"):
-        find(COIN, {"release.position.z": "-2:-1"}, sequence="H", tosses=16)
-    with pytest.raises(ScenarioError, match="no point of the window makes a scenario"):
-        find(COIN, {"release.position.z": "-1:1.1"}, sequence="H", tosses=1)
-
-
-@pytest.mark.parametrize(
-    ("vary", "given", "told"),
-    [
-        ({}, {"sequence": "H"}, "vary: nothing, accepted: a dict such as"),
-        (3, {"sequence": "H"}, "vary: 3, accepted: a dict such as"),
-        ({"height": "1:2:3"}, {"sequence": "H"}, "height = .1:2:3.: accepted: its first and last value"),
-        (WINDOW, {}, "sequence, outcome: none; accepted: one of them, or both"),
-        (WINDOW, {"sequence": "HX"}, "sequence: 'HX', accepted: letters H and T"),
-        (WINDOW, {"sequence": "H" * 1001}, "sequence: 1001 faces, accepted: at most"),
-        (WINDOW, {"outcome": "side"}, "outcome: 'side', accepted: undecided, heads, tails, edge"),
-        (WINDOW, {"sequence": "H", "tosses": 0}, "tosses: 0, accepted: a whole number from 1"),
-        (WINDOW, {"sequence": "H", "seed": 1.5}, "seed: 1.5, accepted: a whole number from 0"),
-        (WINDOW | {"height": (0, 1)}, {"sequence": "H"}, r"release\.position\.z: twice; accepted"),
-        ({"ending.max_impacts": (1, 9)}, {"sequence": "H"}, r"max_impacts: no field that may vary here"),
-    ],
-)
-def test_what_cannot_be_searched_is_refused(vary, given, told):
-    with pytest.raises(ValueError, match=told):
-        find(COIN, vary, **given)
-
-
 def test_the_faces_are_those_of_tosses_that_end_there_whatever_differs_between_them():
     """The coin, the floor, its law, and the attitude; some coins make fewer touches."""
     n, rng = 60, np.random.default_rng(2)
@@ -209,3 +182,10 @@ def test_a_spin_may_vary_about_the_axis_that_the_coin_has():
     w = np.array(found.scenario.release.angular_velocity)
     assert 20 <= np.linalg.norm(w) <= 21
     assert w[0] / w[1] == pytest.approx(4 / 3)
+
+
+def test_margins_are_looked_for_in_numbers_that_a_release_can_have():
+    window = window_of({"release.position.z": (-1e9, 1e9)}, load("fig24a"))
+    # A margin may be as wide as the window, to either side.
+    assert window.values(np.array([[-1.0], [0.75], [2.0]])).ravel().tolist() == [-LARGEST, 5e8, LARGEST]
+    assert window.rows(np.array([[-1.0], [2.0]]))[1].tolist() == [False, True]

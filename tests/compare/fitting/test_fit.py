@@ -7,10 +7,7 @@ import numpy as np
 import pytest
 
 from cointoss import Observed, analytic, fit
-from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.fitting.misfit import Misfit
-from cointoss.compare.sweep.errors import SweepError
-from cointoss.models.errors import FieldError, ScenarioError
 from cointoss.models.scenario import Scenario
 
 MS = 1e-3
@@ -296,72 +293,3 @@ def test_a_span_may_run_downwards():
     for one, other in zip(up.values, down.values, strict=True):
         assert other.value == pytest.approx(one.value, abs=one.sd / 100)
         assert other.interval == pytest.approx(one.interval, abs=one.sd / 50)
-
-
-@pytest.mark.parametrize(
-    ("given", "named"),
-    [
-        ({"vary": "floor.restitution"}, 'vary: "floor.restitution", accepted: a dict such as'),
-        ({"vary": {"clock": 1.0}}, "clock = 1.0: accepted: its first and last value"),
-        ({"vary": {"clock": "0"}}, 'clock = "0": accepted: its first and last value'),
-        ({"vary": {"clock": (0.0, None)}}, "clock = None: accepted: a number in s"),
-        ({"vary": {3: (0, 1)}}, "3: accepted: the name of a field"),
-        ({"sd": 0.001}, "sd: 0.001, accepted: a dict such as"),
-        ({"sd": {"time": None}}, "sd.time = None: accepted: a standard deviation from 1e-12 to 1e.09 s"),
-        ({"sd": {"time": "1 mm"}}, 'sd.time = "1 mm": accepted: a standard deviation'),
-        ({"sd": {"time": 0.0}}, "sd.time = 0.0: accepted: a standard deviation from 1e-12"),
-        ({"sd": {"times": 1.0}}, "sd: .*, of time, height, attitude"),
-        ({"observed": 3}, "observed: 3, accepted: an Observed, or the path of a CSV file"),
-        ({"starts": 1.5}, "starts: 1.5, accepted: a whole number from 1 to"),
-        ({"starts": 0}, "starts: 0, accepted: a whole number from 1 to"),
-        ({"seed": "x"}, "seed: 'x', accepted: a whole number from 0 to"),
-    ],
-)
-def test_arguments_of_a_wrong_kind_are_named(tmp_path, given, named):
-    path = tmp_path / "heard.csv"
-    path.write_text("t\n0.3\n")
-    arguments = {"observed": path, "vary": ANY, "sd": {"time": "1 ms"}, **given}
-    with pytest.raises((ObservationError, FieldError, SweepError), match=named):
-        fit(scenario=FLAT, **arguments)
-
-
-@pytest.mark.parametrize(
-    ("vary", "named"),
-    [
-        ({}, "vary: nothing, accepted: a dict such as"),
-        ({"floor.bounce": (0, 1)}, "floor.bounce: no numeric field"),
-        ({"floor.restitution": (0.5, 0.5)}, "START = STOP"),
-        ({"floor.restitution": (0.5, 0.9), "restitution": "0.4:0.9"}, "twice; accepted: each field once"),
-        ({"ending.max_time": (1, 2)}, "ending.max_time: no field that may vary here"),
-        ({"release.quaternion.e0": (0.1, 1)}, "release.quaternion.e0: no field that may vary here"),
-        ({"clock": ("1 m", 2)}, "clock = 1 m: accepted: a number in s"),
-    ],
-)
-def test_what_can_not_vary_is_named(vary, named):
-    with pytest.raises(SweepError, match=named):
-        fit(Observed(touch_times=[0.3], touch_sd=MS), FLAT, vary)
-
-
-def test_spans_without_a_scenario_are_refused():
-    with pytest.raises(ScenarioError, match=r"release\.position\.z"):
-        fit(Observed(touch_times=[0.3], touch_sd=MS), FLAT, {"release.position.z": (-2.0, -1.0)}, starts=4)
-
-
-@pytest.mark.parametrize(
-    ("given", "named"),
-    [
-        ({}, "nothing was seen"),
-        ({"touch_times": [0.1, 0.2], "touch_sd": [0.1]}, "touch_sd: shape"),
-        ({"touch_times": [0.1], "touch_sd": 0.0}, r"touch_sd: \[0\] is 0.0"),
-        ({"touch_times": [0.1]}, r"touch_sd: \[0\] is nan"),
-        ({"touch_times": [0.2, 0.1], "touch_sd": MS}, r"touch_times: \[1\] is 0.1"),
-        ({"touch_times": [0.2], "touch_sd": MS, "faces": "X"}, r"faces: \[0\] is 'X'"),
-        ({"touch_times": [0.2], "touch_sd": MS, "touch_numbers": [0]}, r"touch_numbers: \[0\]"),
-        ({"times": [0.2], "tilts": [4.0], "tilt_sd": MS}, r"tilts: \[0\]"),
-        ({"times": [0.2], "quaternions": [[2.0, 0, 0, 0]], "quaternion_sd": MS}, r"quaternions: \[0\]"),
-        ({"touch_times": np.ones(20_001)}, "20,001 touches; accepted: at most 20,000"),
-    ],
-)
-def test_what_was_not_seen_so_is_named(given, named):
-    with pytest.raises(ObservationError, match=named):
-        Observed(**given)

@@ -10,32 +10,7 @@ from cointoss.compare.output.answer import as_lines, contact_line
 from cointoss.models.reading import load
 from tests.helpers.command_line import cointoss
 
-
-def test_text_shows_what_the_toss_measured_of_itself():
-    shown = cointoss("toss", "contact_coulomb", "--max-impacts", 2).stdout
-    number = r"-?\de[-+]\d\d"
-    pattern = rf"^checked   contact law {number}, energy {number} m g r, \|e\| {number}, gap {number} r$"
-    found = re.search(pattern, shown, re.MULTILINE)
-    assert found
-    numbers = [float(part) for part in re.findall(number, found[0])]
-    assert max(abs(part) for part in numbers) < 1e-10
-    assert numbers[0] > 0
-    in_the_air = analytic.toss(load("fig24a").replace("ending.max_time", 0.01))
-    assert "checked" not in as_lines(in_the_air)
-
-
 ROW = re.compile(r"^ *(\d+) +\d+\.\d+ +[HT]", re.MULTILINE)
-
-
-def test_text_shows_the_first_of_thousands_of_impacts():
-    text = cointoss("toss", "zloty").stdout
-    assert len(text.splitlines()) < 40
-    more = re.search(r"^sequence  ([HT|]{60}) \.\.\. and (\d+) more$", text, re.MULTILINE)
-    assert more
-    faces = 60 - more[1].count("|") + int(more[2])
-    assert faces > 1000
-    assert ROW.findall(text) == [str(number) for number in range(1, 21)]
-    assert text.endswith(f"\n... and {faces - 20} more; --all prints all {faces}\n")
 
 
 def test_all_impacts_and_contacts_are_printed_where_they_are_asked_for():

@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from cointoss.compare.output.files import UnwritableError, require_file, write_text, written_together
-from cointoss.models.reading import scenario_text
-from tests.helpers.command_line import in_a_shell, python, refused
+from tests.helpers.command_line import in_a_shell, python
 
 
 def test_a_failed_write_leaves_what_was_there(tmp_path):
@@ -127,21 +126,6 @@ run_to_exit(command)
     ended = python("-c", script)
     assert (ended.returncode, ended.stderr) == (143, "cointoss: interrupted by SIGTERM\n")
     assert held(earlier) == OLD
-
-
-def test_an_output_is_never_the_scenario(tmp_path):
-    text = scenario_text("fig24a")
-    for name in ("coin.csv", "coin.mp4"):
-        (tmp_path / name).write_text(text)
-        (tmp_path / f"link-{name}").symlink_to(tmp_path / name)
-    for command, source, target in (
-        (["toss", "--trajectory"], "coin.csv", "coin.csv"),
-        (["toss", "--trajectory"], "coin.csv", "link-coin.csv"),
-        (["video", "--out"], "coin.mp4", "coin.mp4"),
-    ):
-        said = refused(*command, tmp_path / target, tmp_path / source)
-        assert "is the scenario; accepted: another file" in said
-    assert (tmp_path / "coin.csv").read_text() == (tmp_path / "coin.mp4").read_text() == text
 
 
 def test_only_files_that_may_be_replaced_are_accepted(tmp_path):

@@ -1,8 +1,6 @@
 """The report's folder: a self-contained page, numbers, paths, and a film that plays."""
 
-import html
 import json
-import re
 import shutil
 from unittest.mock import patch
 
@@ -16,12 +14,10 @@ from cointoss.compare.film.filmed import followed
 from cointoss.compare.film.video import frame_count
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.report.comparison import compare, compared
-from cointoss.compare.report.contents import FILES, NOT_ASKED, require_folder
+from cointoss.compare.report.contents import FILES, require_folder
 from cointoss.compare.report.folder import BEING_DRAWN, write_report
 from cointoss.compare.report.page import versions
-from cointoss.models import certificate
 from cointoss.models.reading import parse, scenario_text
-from tests.helpers.command_line import cointoss, refused
 from tests.helpers.draws import scenario
 from tests.helpers.films import film_written
 from tests.helpers.site import read
@@ -42,25 +38,12 @@ def folder(found, tmp_path_factory):
     return target
 
 
-def test_the_page_stands_alone_and_has_its_parts(folder):
+def test_the_page_stands_alone_and_names_the_versions(folder):
+    """What it says is in a transcript; see `tests.helpers.golden`."""
     text = (folder / "report.html").read_text(encoding="utf-8")
     assert all(address.startswith(("data:", "#")) for address in read(folder / "report.html").loaded)
     assert text.count("<video") == 1
-    headings = re.findall(r"<h[12][^>]*>([^<]*)", text)
-    parts = ["Heads and tails", "Film", "Motion", "Impacts", "Scenario", "Settings and versions"]
-    assert headings == ["short: do two engines toss this coin alike?", *parts]
-    assert "center_of_mass" in text
-    assert "°" in text
-    assert "<code>floor.restitution_kind</code></td><td>kinematic</td>" in text.replace("<wbr>", "")
-    assert text.count("Measured in this toss") == 2
-    for name in (certificate.LAW, certificate.FLIGHT_ENERGY, certificate.GAP):
-        rows = re.findall(f"<td>{re.escape(name)}</td><td>(-?[0-9.]+e[-+][0-9]+) ", text)
-        assert len(rows) == 2
-        assert abs(float(rows[0])) < 1e-11
-        assert abs(float(rows[1])) > 1e-9 or name != certificate.LAW, "a contact of MuJoCo takes time"
-    for name, version in versions().items():
-        assert name in text
-        assert version in text
+    assert all(name in text and version in text for name, version in versions().items())
 
 
 def test_the_numbers_are_those_of_the_tosses(found, folder):
@@ -69,20 +52,6 @@ def test_the_numbers_are_those_of_the_tosses(found, folder):
     assert numbers["tosses"][0]["impacts"][1]["time"] == found.analytic.impacts.time[1]
     assert numbers["comparison"]["impulse_difference"] == found.differences.impulse.tolist()
     assert numbers["comparison"]["horizon"] == found.horizon
-
-
-def test_the_report_says_which_impact_ends_mujocos_trust_and_why(tmp_path):
-    flat = {"position": [0, 0, 0.2038736], "angles": [0, 1e-6, 0]}
-    comparison = compare(scenario(coin={"thickness": 0.0}, release=flat, ending={"max_impacts": 3}))
-    write_report(comparison, tmp_path, "none here")
-    text = html.unescape((tmp_path / "report.html").read_text(encoding="utf-8"))
-    reason = "at impact 1 a second point lands within MuJoCo's contact"
-    assert f"they agree on all 3 impacts. Not even the first must agree: {reason}.</p>" in text
-    assert f"Not even the first face must agree: {reason}.</p>" in text
-    assert f"by itself it is trusted in 0 of 3 impacts: {reason}. " in text
-    numbers = json.loads((tmp_path / "numbers.json").read_text(encoding="utf-8"))
-    assert [toss["trust_reason"] for toss in numbers["tosses"]] == ["", reason]
-    assert numbers["comparison"]["horizon"] == 0
 
 
 def test_the_film_has_its_frames(found, folder):
@@ -109,29 +78,6 @@ def test_the_page_stands_before_the_film_is_drawn_and_after_it_was_interrupted(t
     assert {path.name for path in tmp_path.iterdir()} == set(FILES) - {"toss.mp4", *missing}
 
 
-def test_no_video_is_drawn_where_none_is_asked_for(tmp_path):
-    (tmp_path / "short.toml").write_text(SHORT)
-    assert (
-        cointoss("compare", tmp_path / "short.toml", "--out", tmp_path / "out", "--no-video").exit_code == 0
-    )
-    assert {path.name for path in (tmp_path / "out").iterdir()} == set(FILES) - {"toss.mp4"}
-    assert NOT_ASKED in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
-
-
-def test_a_report_has_a_default_folder_named_as_its_scenario(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "euros").mkdir()
-    (tmp_path / "euros" / "short.toml").write_text(SHORT)
-    for _ in range(2):
-        answered = cointoss("compare", "euros/short.toml", "--no-video")
-        assert (answered.exit_code, answered.stdout) == (0, "short-report/report.html\n")
-    assert {path.name for path in tmp_path.iterdir()} == {"euros", "short-report"}
-    (tmp_path / "short-report" / "numbers.json").write_text("mine")
-    said = refused("compare", "euros/short.toml", "--no-video")
-    assert "belongs to no report; accepted: a folder without files of these names" in said
-    assert (tmp_path / "short-report" / "numbers.json").read_text() == "mine"
-
-
 def test_without_opengl_the_report_says_what_to_install(tmp_path):
     text = SHORT.replace("max_impacts = 2", "max_impacts = 1")
     page = write_report(compared(parse(text, "short"), text, "short"), tmp_path, ADVICE)
@@ -148,14 +94,10 @@ def test_what_mujoco_cannot_realise_is_a_report_of_one_engine(tmp_path, monkeypa
     text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 2")
     page = write_report(compared(parse(text, "knurled"), text, "knurled"), tmp_path, None)
     html = page.read_text(encoding="utf-8")
-    assert "Not realisable in MuJoCo" in html
-    assert "No video." not in html
     assert html.count("<video") == 1
-    assert 'aria-label="Film of the toss"' in html
     assert "The toss by the analytic engine, drawn by MuJoCo, which can’t toss it." in html
     frames = frame_count([followed(analytic.toss(parse(text, "knurled")))], stamp)
     assert film_written(tmp_path / "toss.mp4").frames == frames
-    assert re.search(r'"not_realisable": ".*knurled', (tmp_path / "numbers.json").read_text(encoding="utf-8"))
     assert {path.name for path in tmp_path.iterdir()} == set(FILES) - {"path-mujoco.csv"}
 
 
@@ -221,18 +163,3 @@ def test_what_is_no_file_of_a_report_is_refused(folder, tmp_path):
     (earlier / "report.html").rmdir()
     with pytest.raises(UnwritableError, match="is the scenario; accepted: another file"):
         require_folder(earlier, str(earlier / "path-mujoco.csv"))
-
-
-@pytest.mark.parametrize("max_time", [1e-9, 1e-3, 0.05])
-def test_the_shortest_toss_has_a_report_which_tells_of_no_impact(tmp_path, max_time):
-    page = write_report(compared(scenario(ending={"max_time": max_time}), "", "short"), tmp_path, ADVICE)
-    text = page.read_text(encoding="utf-8")
-    for told in ("max_time", "The coin does not touch the floor.", "No impact."):
-        assert told in text
-    for untold in ("S is the impulse", "dots are impacts", "Vertical lines are impacts"):
-        assert untold not in text
-    numbers = json.loads((tmp_path / "numbers.json").read_text(encoding="utf-8"))
-    assert [(toss["ending"], toss["impacts"]) for toss in numbers["tosses"]] == [("max_time", [])] * 2
-    for engine in ("analytic", "mujoco"):
-        rows = (tmp_path / f"path-{engine}.csv").read_text(encoding="utf-8").splitlines()
-        assert [float(row.split(",")[0]) for row in (rows[1], rows[-1])] == [0, max_time]

@@ -15,7 +15,6 @@ from cointoss.compare.shares.counting import BLOCK, Block, Count, draws, toss_bl
 from cointoss.compare.shares.plan import plan_of
 from cointoss.compare.shares.shares import shares
 from cointoss.compare.shares.show import csv, markdown
-from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.batch import STATE, rows_of
 from cointoss.models.hand import Hand, same_side_probability
 from cointoss.models.reading import load
@@ -163,50 +162,3 @@ def test_what_is_undecided_is_left_out_where_any_hand_catches(coin, vary, hand, 
     counts = np.array([3, 4, 5, 0, 0, 0])
     left = plan_of(vary, coin, tosses=1, to=None, name="", hand=hand).counted(counts)
     assert left.tolist() == [0 if is_left_out else 3, 4, 5, 0, 0, 0]
-
-
-@pytest.mark.parametrize(
-    ("given", "told"),
-    [
-        ({"tosses": 0}, r"^tosses: 0, accepted: a whole number from 1 to 10000000$"),
-        ({"tosses": True}, "^tosses: True, accepted: "),
-        ({"seed": -1}, "^seed: -1, accepted: "),
-        ({"to": 0.0}, r"^to = 0.0: accepted: a part from 0.01 % to 50 %$"),
-        ({"engine": "bullet"}, "^engine: 'bullet', accepted: analytic, mujoco, both$"),
-        ({"hand": 3}, "^hand: 3, accepted: a Hand, or the path of its file$"),
-    ],
-)
-def test_what_no_shares_can_be_made_of_is_refused(given, told):
-    with pytest.raises(ValueError, match=told):
-        shares(DISC, **given)
-
-
-@pytest.mark.parametrize(
-    ("vary", "told"),
-    [
-        ({"release.position.z": "0.2:1:3"}, "the hand releases the coin; accepted: hand.height, "),
-        ({"floor.contact": "0:1:3"}, "floor.contact: no numeric field"),
-        ({"hand.psi": "0:2:3"}, "hand.psi = 2.0: accepted: an angle from 0 to 90 deg"),
-        ({"coin.thickness": "-1:1:3"}, r"coin.thickness = -1.0: .* \(at coin.thickness = -1\)"),
-        ({"hand.height": "0.1 mm:1 m:3"}, r"hand.height = 0.0001: accepted: .* \(at hand.height = 0.0001\)"),
-        ({"floor.restitution": "0:1:3", "restitution": "0:1:3"}, "on both axes"),
-        (
-            dict.fromkeys(("floor.restitution", "gravity", "coin.mass"), "0.1:1:3"),
-            "3 fields, accepted: at most 2",
-        ),
-        (
-            dict.fromkeys(("floor.restitution", "gravity"), "0.1:1:300"),
-            "300 by 300 settings, accepted: at most",
-        ),
-        ({"floor.restitution": 3}, "floor.restitution = 3: accepted: START:STOP:N"),
-        (3, "vary: 3, accepted: a dict"),
-    ],
-)
-def test_fields_that_cannot_vary_are_refused(vary, told):
-    with pytest.raises(SweepError, match=told):
-        shares(DISC, vary)
-
-
-def test_a_spun_coin_has_no_height():
-    with pytest.raises(SweepError, match=r"^hand\.height: of no use where the coin is spun"):
-        shares(DISC, {"hand.height": "0.2:1:3"}, hand=Hand(spun=True))

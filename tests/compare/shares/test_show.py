@@ -1,15 +1,11 @@
 """The dataset of shares: its table, CSV, JSON and pictures say the same."""
 
-import csv
-import io
-import json
-
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
 from cointoss.compare.engines import Engine
-from cointoss.compare.metrics.estimates import chance_alike, share_of
+from cointoss.compare.metrics.estimates import chance_alike
 from cointoss.compare.shares import show
 from cointoss.compare.shares.picture import picture_of, plot_shares, require_drawable
 from cointoss.compare.shares.plan import plan_of
@@ -30,15 +26,6 @@ def made(vary, engines=(Engine.ANALYTIC,), hand=None, odds=(0, 0.45, 0.4, 0.15, 
     return dataset_of(plan, counts, is_complete=True)
 
 
-def test_the_table_has_a_row_for_each_setting_with_intervals():
-    found = made(TWO)
-    head, _, *rows = show.markdown(found).splitlines()
-    assert head == "| restitution χ | thickness [m] | tosses | heads | tails | edge |"
-    assert len(rows) == 6
-    part = share_of(int(found["count"].sel(outcome="heads")[1, 2]), 1000)
-    assert rows[-1].startswith(f"| 0.6 | 0.003 | 1,000 | {100 * part.value:.1f} % [{100 * part.low:.1f}, ")
-
-
 def test_both_engines_stand_beside_each_other_with_the_chance_of_their_difference():
     found = made(ONE, engines=tuple(Engine))
     alike = show.alike(found)
@@ -48,20 +35,6 @@ def test_both_engines_stand_beside_each_other_with_the_chance_of_their_differenc
     assert [row[1] for row in rows] == ["analytic", "mujoco"] * 2
     assert float(rows[3][-1].rstrip(" |")) == pytest.approx(alike[1], rel=0.01)
     assert len(show.alike(made(ONE))) == 0
-
-
-def test_the_dataset_the_csv_and_the_json_say_the_same():
-    found = made(TWO)
-    assert dict(found.sizes) == {"floor.restitution": 2, "coin.thickness": 3, "outcome": 6}
-    assert found["coin.thickness"].attrs["units"] == "m"
-    edge = found.sel({"floor.restitution": 0.6, "outcome": "edge"}).isel({"coin.thickness": 1})
-    rows = list(csv.DictReader(io.StringIO(show.csv(found))))
-    told = json.loads(json.dumps(show.as_json(found), default=np.ndarray.tolist))["settings"][4]
-    for name, key in (("share", "value"), ("low", "low"), ("high", "high")):
-        column = "edge" if name == "share" else f"edge {name}"
-        assert float(edge[name]) == float(rows[4][column]) == told["shares"]["edge"][key]
-    assert int(edge["count"]) == int(rows[4]["edge count"])
-    assert float(rows[4]["coin.thickness [m]"]) == told["coin.thickness"]
 
 
 def test_no_share_is_of_coins_that_are_not_caught():

@@ -1,13 +1,10 @@
 """Axes of a map: what is read, with which units, and every way to get one wrong."""
 
-from typing import Any
-
 import pytest
 from pydantic import BaseModel
 
 from cointoss.compare.shares.show import texts_of
 from cointoss.compare.sweep.axes import Axis, parse_axis
-from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.fields import UNITS, split
 from cointoss.models.reading import load
 from cointoss.models.scenario import Scenario
@@ -32,27 +29,9 @@ def test_every_numeric_field_but_the_inertia_can_vary():
     assert keys == numeric_fields(Scenario) - {"coin.inertia"}
 
 
-@pytest.mark.parametrize("field", UNITS)
-def test_a_value_lands_in_its_field_alone_with_its_unit(field):
-    case = TUMBLING.replace("ending.caught", 1.0)
-    if "quaternion" in field:
-        case = scenario(release={"quaternion": [0.5, 0.5, 0.5, 0.5]})
-    table, key, index = split(field)
-
-    def value(of: Scenario) -> Any:
-        entry = getattr(getattr(of, table) if table else of, key)
-        return entry if index is None else entry[index]
-
-    # Near the value that is there, so that the scenario stays valid; a count stays whole.
-    new = value(case) + (1 if field == "ending.max_impacts" else 1e-4)
-    changed = case.replace(field, new)
-    assert value(changed) == (pytest.approx(new, rel=1e-3) if "quaternion" in field else new)
-    back = changed.replace(field, value(case))
-    if "quaternion" not in field:  # whose other components are brought to norm 1
-        assert back == case
-    if UNITS[field]:
-        as_text = f"{new!r} {UNITS[field]}"
-        assert parse_axis(f"{field}={as_text}:9:2", case).start == pytest.approx(new, rel=1e-15)
+@pytest.mark.parametrize(("field", "unit"), [pair for pair in UNITS.items() if pair[1]])
+def test_a_value_may_be_given_in_the_unit_of_its_field(field, unit):
+    assert parse_axis(f"{field}=0.3 {unit}:9:2", TUMBLING).start == pytest.approx(0.3, rel=1e-15)
 
 
 def test_an_axis_includes_both_ends_and_takes_units():
@@ -66,34 +45,7 @@ def test_an_axis_includes_both_ends_and_takes_units():
     assert parse_axis("air.normal=1:2:2", drag).unit == "kg*m**-2.5*s**-0.5"
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("floor.contact=1:2:3", r"floor\.contact: no numeric field .*floor\.restitution, .*floor\.friction"),
-        ("floor.restitutoin=0:1:3", r"did you mean floor\.restitution\?"),
-        ("release.position=0:1:3", r"did you mean release\.position\.[xyz]\?"),
-        ("coin.inertia=0:1:3", "no numeric field"),
-        ("gravity=9:9:3", "START = STOP"),
-        ("gravity=9:900 cm/s**2:3", "START = STOP"),
-        ("gravity=9:10:1", "N = 1; accepted: a whole number from 2 to 1000000"),
-        ("gravity=9:10:1e3", "N = 1e3; accepted"),
-        ("gravity=9:10:2000000", "N = 2000000; accepted"),
-        ("gravity=9:10", "accepted: FIELD=START:STOP:N"),
-        ("gravity", "accepted: FIELD=START:STOP:N"),
-        ("gravity=fast:10:3", r"gravity = fast: accepted: a number in m/s\*\*2"),
-        ("gravity=9 kg:10:3", "gravity = 9 kg: accepted"),
-        ("gravity=nan:10:3", "a finite number"),
-        ("ending.max_impacts=1:4:3", "whole numbers only"),
-    ],
-)
-def test_a_wrong_axis_is_refused_with_what_is_accepted(text, said):
-    with pytest.raises(SweepError, match=said):
-        parse_axis(text, TUMBLING)
-
-
 def test_an_axis_has_as_many_values_as_asked_for_and_none_twice():
-    with pytest.raises(SweepError, match="not 3 numbers between both; accepted: ends that are farther apart"):
-        parse_axis("floor.restitution=0.5:0.5000000000000001:3", load("fig24a"))
     close = parse_axis("floor.restitution=0.5:0.50000002:3", load("fig24a"))
     assert texts_of(close.values) == ["0.5", "0.50000001", "0.50000002"]
     assert texts_of(parse_axis("floor.restitution=0.8:0.2:3", load("fig24a")).values) == ["0.8", "0.5", "0.2"]

@@ -1,23 +1,18 @@
 """Maps from Python: the same as the command's, and what xarray and pandas see of them."""
 
-import ast
 import json
-import re
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 import pytest
-import xarray
 from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 import cointoss
-from cointoss.compare.engines import Engine
-from cointoss.compare.sweep import grid, run
+from cointoss.compare.sweep import run
 from cointoss.compare.sweep.layers import NOT_TOSSED
-from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.compare.sweep.tossed_map import TossedMap, map_of
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
@@ -106,36 +101,6 @@ def test_a_final_outcome_is_trusted_where_it_is_certain(certain):
     assert "trusted_impacts" not in certain
 
 
-def test_a_map_in_memory_is_that_on_disk(found, tmp_path):
-    path = found.cointoss.save(tmp_path / "map.zarr")
-    with xarray.open_dataset(path, engine="zarr", consolidated=True) as on_disk:
-        for name in (ETA, Z, "impacts"):
-            assert found[name].attrs == on_disk[name].attrs
-            assert found[name].dims == on_disk[name].dims
-            assert np.array_equal(found[name], on_disk[name])
-        assert on_disk.outcome.dtype == np.int8
-        assert (on_disk.cointoss.words.outcome == found.outcome).all()
-        assert on_disk.cointoss.counts == found.cointoss.counts
-    assert found.attrs["engine"] == on_disk.attrs["engine"]
-    assert parse(found.attrs["scenario"], "ours") == parse(on_disk.attrs["scenario"], "theirs")
-    assert cointoss.read_map(path).equals(found)
-
-
-def test_what_a_person_sees_of_a_map(found):
-    counts = found.cointoss.counts
-    assert sum(counts.values()) == 35
-    assert repr(found.cointoss) == f"<35 tosses: {counts['heads']} heads, {counts['tails']} tails>"
-    frame = found.cointoss.table()
-    assert frame["outcome"].tolist().count("heads") == counts["heads"]
-    assert frame[ETA].tolist() == np.tile(found[ETA].values, 5).tolist()
-    assert frame.attrs["units"] == {Z: "m", ETA: "rad/s"}
-    along = found.cointoss.shares("x")
-    assert along.sizes == {"x": 7, "outcome": 6}
-    assert (along["count"].sum("outcome") == 5).all()
-    with pytest.raises(cointoss.SweepError, match="along: 'z', accepted: y, x"):
-        found.cointoss.shares("z")
-
-
 def test_a_plot_shows_the_map_or_its_margins(found, margins):
     panel = found.cointoss.plot(given := Figure().add_subplot(), boundaries=True)
     assert panel is given
@@ -167,18 +132,6 @@ def test_a_plot_hatches_untrusted_pixels(found, trusted):
     assert len(found.cointoss.plot(Figure().add_subplot()).get_images()) == 1
 
 
-def test_the_command_says_what_is_untrusted(trusted, tmp_path, monkeypatch):
-    monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, 10)
-    asked = ("--after", 8, "--trust", "--out", tmp_path / "map.zarr")
-    answered = command(*ASKED, *asked, "--png", tmp_path / "map.png", "--dpi", 40)
-    few, middle = np.quantile(trusted.trusted_impacts, [0.1, 0.5], method="inverted_cdf")
-    assert f"trusted    median {middle} impacts, a tenth at most {few}\n" in answered.stdout
-    share = 100 * trusted.cointoss.untrusted.mean()
-    said = f"untrusted  {share:.3f} %: impact 9 is not trusted, or the toss ended before\n"
-    assert said in answered.stdout
-    assert (tmp_path / "map.png").exists()
-
-
 def test_a_count_that_a_stranger_made_huge_takes_no_room(trusted, tmp_path):
     huge = trusted.trusted_impacts.copy(deep=True)
     huge[0, 0] = 2_000_000_000
@@ -186,15 +139,6 @@ def test_a_count_that_a_stranger_made_huge_takes_no_room(trusted, tmp_path):
     answered = command(*ASKED, "--after", 8, "--trust", "--out", path, "--resume")
     assert answered.exit_code == 0
     assert "untrusted  " in answered.stdout
-
-
-def test_the_command_says_which_outcomes_may_be_decided_by_errors(certain, tmp_path):
-    path = tmp_path / "map.zarr"
-    answered = command(*ASKED, "--trust", "--out", path)
-    share = 100 * certain.cointoss.untrusted.mean()
-    said = f"untrusted  {share:.3f} %: the engine's own errors may have decided the outcome\n"
-    assert said in answered.stdout
-    assert cointoss.read_map(path).equals(certain)
 
 
 def contents(store):
@@ -250,80 +194,11 @@ def test_a_pixel_without_its_trusted_impacts_is_tossed_again(trusted, tmp_path):
     assert cointoss.read_map(path).equals(trusted)
 
 
-def test_a_map_is_saved_over_no_other_and_only_whole(found, tmp_path):
-    path = found.cointoss.save(tmp_path / "m.zarr")
-    with pytest.raises(OSError, match=r"m\.zarr: exists; accepted: a new name"):
-        found.cointoss.save(path)
-    found.cointoss.save(path, overwrite=True)
-    with pytest.raises(OSError, match=r"m\.txt: .*; accepted: one that ends in \.zarr"):
-        found.cointoss.save(tmp_path / "m.txt")
-    coarse = cointoss.read_map(path, most=12)
-    assert coarse.outcome.shape == (3, 4)
-    assert map_of(coarse).sweep.shape == (5, 7)
-    with pytest.raises(cointoss.SweepError, match=r"one pixel of every 2 is here; accepted: a whole"):
-        coarse.cointoss.save(tmp_path / "coarse.zarr")
-    assert [entry.name for entry in tmp_path.iterdir()] == ["m.zarr"]
-
-
 def test_a_map_that_is_not_finished_says_so(found):
     part = missing_at(found, (0, 0))
     assert part.cointoss.table()["outcome"].tolist()[0] == "not_tossed"
     with pytest.raises(cointoss.SweepError, match="1 of 35 pixels are not tossed; accepted"):
         part.cointoss.plot()
-
-
-NO_MAPS = """
-engine 'paper' -> engine: 'paper', accepted: analytic, mujoco
-engine None -> engine: None, accepted: analytic, mujoco
-after -1 -> after: -1, accepted: a whole number from 0
-after '2' -> after: '2', accepted: a whole number
-after True -> after: True, accepted: a whole number
-after 1.5 -> after: 1.5, accepted: a whole number
-x None -> x: None, accepted: FIELD=START:STOP:N, such as
-y (1, 2) -> y: (1, 2), accepted: FIELD=START:STOP:N, such as
-x {'spin': [1, 2, 4]} -> spin: values that are not evenly spaced; accepted: START:STOP:N
-x {'spin': (1, 2)} -> spin = [1, 2]: accepted: START:STOP:N
-x {'spin': '1:2:3', 'height': '1:2:3'} -> accepted: FIELD=START:STOP:N, such as
-x 'release.position.z=0.1:1:9' -> release.position.z: on both axes; accepted: two fields
-x 'height=0.1:1:9' -> release.position.z: on both axes; accepted: two fields
-margin 3 -> margin: 3, accepted: text
-margin 'luck' -> margin luck: accepted: height
-trust 1 -> trust: 1, accepted: True or False
-"""
-
-
-@pytest.mark.parametrize("case", NO_MAPS.strip().splitlines())
-def test_what_makes_no_map_is_refused(case):
-    given, _, named = case.partition(" -> ")
-    name, _, value = given.partition(" ")
-    with pytest.raises(ValueError, match=re.escape(named)):
-        cointoss.basin("fig24a", **{"x": X, "y": Y, name: ast.literal_eval(value)})
-
-
-def test_only_the_analytic_engine_counts_trusted_impacts():
-    with pytest.raises(cointoss.SweepError, match="trust: by mujoco, accepted: only by the analytic engine"):
-        cointoss.basin("fig24a", x=X, y=Y, engine="mujoco", trust=True)
-
-
-def test_two_axes_may_make_no_map_together():
-    with pytest.raises(ValueError, match="100000 by 100000 pixels, accepted: at most 5e"):
-        cointoss.basin("fig24a", x="release.position.z=0.1:1:100000", y="gravity=1:9:100000")
-
-
-@pytest.mark.parametrize("wrong", [None, {}, np.zeros(3)], ids=lambda wrong: type(wrong).__name__)
-def test_what_is_no_scenario_is_refused(wrong):
-    for use in (
-        lambda one: cointoss.basin(one, x=X, y=Y),
-        cointoss.compare,
-        cointoss.toss,
-        cointoss.toss_many,
-    ):
-        with pytest.raises(
-            cointoss.ScenarioError, match=r"^scenario: of type .*, accepted: a Scenario, the pa"
-        ):
-            use(wrong)
-    with pytest.raises(TypeError, match=r"^text: of type .*, accepted: TOML as text"):
-        cointoss.parse(wrong, "wrong")
 
 
 def test_what_is_no_map_is_refused(found):
@@ -332,19 +207,6 @@ def test_what_is_no_map_is_refused(found):
         replace(made, layers={**made.layers, "outcome": np.full((5, 7), 77, np.int8)})
     with pytest.raises(ValueError, match=r"impacts: shape \(1, 1\), expected \(5, 7\)"):
         TossedMap(name="m", sweep=made.sweep, layers={**made.layers, "impacts": np.zeros((1, 1), np.int32)})
-    with pytest.raises(cointoss.SweepError, match="palette: 'foo', accepted: safe, paper"):
-        found.cointoss.plot(palette="foo")
-    with pytest.raises(cointoss.SweepError, match="layer: 'margin', accepted: outcome"):
-        found.cointoss.plot(layer="margin")
-    for most in (0, True, 2.5):
-        with pytest.raises(cointoss.SweepError, match=f"most = {most}; accepted: a whole number from 1"):
-            tossed_map_at("map.zarr", most=most)  # pyright: ignore[reportArgumentType]
-    for none in (found.isel(y=0), found.drop_vars(Z), found.drop_vars("outcome"), xarray.Dataset()):
-        with pytest.raises(cointoss.SweepError, match="dataset: accepted: one of tosses over two fields"):
-            none.cointoss.page()
-    uneven = found.isel(x=[0, 1, 3])
-    with pytest.raises(cointoss.SweepError, match="values that are not evenly spaced"):
-        uneven.cointoss.save("never.zarr")
 
 
 def test_outcomes_without_two_fields_are_bars(found):

@@ -12,42 +12,10 @@ import numpy as np
 import pytest
 import zarr
 
-import cointoss
-from cointoss.compare.engines import Engine
-from cointoss.compare.sweep import grid
-from cointoss.compare.sweep.errors import MapError
-from cointoss.compare.sweep.layout import layout_of_map
 from cointoss.compare.sweep.reading import tossed_map_at
-from cointoss.compare.sweep.store import opened
-from cointoss.models.errors import ScenarioError
-from tests.helpers.basin_runs import SCENARIO, sweep_of
 from tests.helpers.command_line import refused
 from tests.helpers.pickles import Runs
-
-X, Y = "release.angular_velocity.eta", "release.position.z"
-AXES = (f"{X}=20:60:12", f"{Y}=0.2:0.6:10")
-CHUNKS = {X: "c/0", Y: "c/0", "outcome": "c/0/0", "impacts": "c/0/0", "margin": "c/0/0"}
-GIGABYTES = 1 << 40
-NO_MAP = "is no map of cointoss ("
-
-
-@pytest.fixture(scope="module")
-def made(tmp_path_factory):
-    """A map in one tile, filled without a toss."""
-    path, sweep = tmp_path_factory.mktemp("made") / "map.zarr", sweep_of(*AXES, margin="height")
-    with opened(path, layout_of_map(sweep, SCENARIO), overwrite=False) as map_:
-        numbers = np.arange(120)
-        outcome = (numbers % 3).astype(np.int8)
-        layers = {"outcome": outcome, "impacts": outcome.astype(np.int32), "margin": outcome.astype(float)}
-        map_.write(numbers, layers)
-    return path
-
-
-@pytest.fixture
-def path(made, tmp_path):
-    """A copy of the map, with the scenario's file beside it."""
-    (tmp_path / "coin.toml").write_text(SCENARIO)
-    return shutil.copytree(made, tmp_path / "map.zarr")
+from tests.helpers.strange_maps import AXES, CHUNKS, GIGABYTES, NO_MAP, X, Y, described, is_refused, regular
 
 
 @pytest.fixture
@@ -56,37 +24,6 @@ def opened_by_zarr(monkeypatch):
     asked, open_group = [], zarr.open_group
     monkeypatch.setattr(zarr, "open_group", lambda *a, **k: asked.append(a) or open_group(*a, **k))
     return asked
-
-
-def is_refused(path, what=NO_MAP):
-    """Check that no way to read or to continue a map accepts it, and that each says so in one line."""
-    with pytest.raises((MapError, ScenarioError)) as raised:
-        cointoss.read_map(path)
-    page = path.parent / "page.html"
-    asked = path.parent / "coin.toml", "--x", AXES[0], "--y", AXES[1], "--margin", "height", "--out", path
-    answers = [refused("explore", path, "--static", page), refused("basin", *asked, "--resume")]
-    assert str(raised.value).startswith(f"{path}: ")
-    for answer in answers:
-        assert answer.startswith(f"cointoss: {path}: ")
-        assert answer.count(str(path)) == 1
-        assert "accepted: " in answer
-        assert len(answer) < 600
-    assert what in str(raised.value)
-    assert what in answers[0]
-    assert not page.exists()
-    return answers[1]
-
-
-def described(path, name):
-    """Change entries of an array's description, there and where the map repeats it."""
-
-    def change(**entries):
-        for file, part in ((path / name / "zarr.json", False), (path / "zarr.json", True)):
-            whole = json.loads(file.read_text())
-            (whole["consolidated_metadata"]["metadata"][name] if part else whole).update(entries)
-            file.write_text(json.dumps(whole))
-
-    return change
 
 
 class Unpickler(numcodecs.abc.Codec):
@@ -178,10 +115,6 @@ def test_codecs_that_are_not_ours_are_refused(path, opened_by_zarr, name, codecs
     assert not opened_by_zarr
 
 
-def regular(*sizes):
-    return {"name": "regular", "configuration": {"chunk_shape": list(sizes)}}
-
-
 ENTRIES = {
     "text": (X, {"data_type": "string"}),
     "object": (X, {"data_type": "object"}),
@@ -210,6 +143,7 @@ ENTRIES = {
     "same dimension": (X, {"dimension_names": ["y"]}),
     "fill": ("outcome", {"fill_value": 1}),
     "more": (X, {"must_understand": False}),
+    "scaled": ("outcome", {"attributes": {"scale_factor": 2}}),
 }
 
 
@@ -341,74 +275,6 @@ def test_what_describes_no_map_is_not_replaced(path, damage):
     assert refused("basin", *asked, "--overwrite") == is_refused(path) == said
 
 
-def frame(size, length=8):
-    """Return the beginning of a Zstandard frame that says that it holds so many bytes."""
-    flags = {0: 0x00, 2: 0x60, 4: 0xA0, 8: 0xE0}[length]
-    window = b"\x58" if length == 0 else b""
-    return b"\x28\xb5\x2f\xfd" + bytes([flags]) + window + size.to_bytes(length, "little")
-
-
-def bombs(size):
-    """Return chunks that decode to more than `size` bytes, or to nobody knows how many."""
-    pack = numcodecs.Zstd(checksum=True).encode
-    return {
-        "says so": frame(GIGABYTES) + b"\x01\x00\x00",
-        "packed": pack(bytes(size + (1 << 24))),
-        "does not say": frame(0, length=0) + b"\x01\x00\x00",
-        "too long": pack(bytes(size)) + bytes(2 * size + 1024),
-        "another": pack(bytes(size - 1)),
-        "skipped": b"\x50\x2a\x4d\x18\x04\x00\x00\x00abcd" + pack(bytes(size)),
-        "empty": b"",
-        "short": frame(size)[:8],
-    }
-
-
-@pytest.fixture
-def decoded(monkeypatch):
-    """The chunks that are decoded."""
-    given, decode = [], numcodecs.zstd.Zstd.decode
-    monkeypatch.setattr(
-        numcodecs.zstd.Zstd, "decode", lambda codec, buf: given.append(bytes(buf)) or decode(codec, buf)
-    )
-    return given
-
-
-@pytest.mark.parametrize("kind", bombs(100))
-def test_a_chunk_that_decodes_to_another_size_is_not_decoded(path, decoded, kind):
-    (path / X / CHUNKS[X]).write_bytes(bombs(96)[kind])
-    is_refused(path, f"{X}/c/0: does not decode to 96 bytes")
-    assert not decoded
-
-
-@pytest.mark.parametrize("name", CHUNKS)
-def test_values_that_are_lost_are_no_zeros(path, name):
-    """Zarr reads what is lost as its fill value; of a tile, that is one not tossed yet."""
-    (path / name / CHUNKS[name]).unlink()
-    if name in (X, Y):
-        is_refused(path, f"({name}/c/0: lost)")
-    else:
-        assert set(cointoss.read_map(path).cointoss.counts) == {"not_tossed"}
-
-
-@pytest.mark.parametrize("kind", bombs(100))
-@pytest.mark.parametrize("name", ["outcome", "impacts", "margin"])
-def test_a_tile_that_decodes_to_another_size_is_not_tossed_yet(path, decoded, name, kind):
-    bomb = bombs(120 * {"outcome": 1, "impacts": 4, "margin": 8}[name])[kind]
-    (path / name / CHUNKS[name]).write_bytes(bomb)
-    assert set(cointoss.read_map(path).cointoss.counts) == {"not_tossed"}
-    assert decoded
-    assert bomb not in decoded
-
-
-def test_a_second_frame_is_not_decoded(path):
-    pack = numcodecs.Zstd(checksum=True).encode
-    whole = pack(bytes(120))
-    (path / "outcome" / CHUNKS["outcome"]).write_bytes(whole)
-    assert set(cointoss.read_map(path).cointoss.counts) == {"undecided"}
-    (path / "outcome" / CHUNKS["outcome"]).write_bytes(whole + pack(bytes(1 << 20)))
-    assert set(cointoss.read_map(path).cointoss.counts) == {"not_tossed"}
-
-
 def test_tiles_without_number_are_refused_at_once(path):
     for name, count in ((X, 5_000), (Y, 5_000)):
         described(path, name)(shape=[count], chunk_grid=regular(count))
@@ -430,17 +296,3 @@ def test_what_lies_beside_the_arrays_is_not_looked_at(path):
     assert after.sweep == before.sweep
     for name, array in before.layers.items():
         assert np.array_equal(after.layers[name], array)
-
-
-@pytest.mark.parametrize("tile", [25, 1 << 14])
-def test_maps_of_all_tiles_are_read(tmp_path, monkeypatch, tile):
-    monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, tile)
-    sweep = sweep_of(*AXES, after=3)
-    with opened(tmp_path / "map.zarr", layout_of_map(sweep, SCENARIO), overwrite=False) as map_:
-        for number, part in enumerate(map_.tiles):
-            numbers = map_.missing(part)
-            filled = np.full(len(numbers), number % 5)
-            map_.write(numbers, {"outcome": filled.astype(np.int8), "impacts": filled.astype(np.int32)})
-    read = tossed_map_at(tmp_path / "map.zarr")
-    assert read.sweep == sweep
-    assert -1 not in read.outcome

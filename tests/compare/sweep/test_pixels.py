@@ -85,29 +85,6 @@ def test_a_part_of_a_map_is_that_part_of_the_whole():
     assert np.array_equal(part.impacts, whole.impacts[1:3, 2:4])
 
 
-@pytest.mark.parametrize(
-    ("x", "y", "said"),
-    [
-        ("release.position.z=-1:1:4", "gravity=9:10:3", r"release\.position\.z = -1.*above the floor"),
-        # Flat it is clear of the floor, and upright again: in between it is not.
-        (
-            "release.angles.theta=0:3.14159:21",
-            "release.position.z=2 mm:1:3",
-            r"\(at y 0, x 1, .*release\.angles\.theta = 0\.157",
-        ),
-        ("floor.restitution=0.5:1.5:4", "release.position.z=0.2:1:3", r"floor\.restitution = 1\.5"),
-        ("coin.radius=1 cm:10 m:4", "release.position.x=0:1:3", r"above the floor.*coin\.radius = \d"),
-        ("release.angular_velocity.xi=0:1e8:4", "release.position.x=0:1:3", r"angular_velocity.*spin of at"),
-        ("release.quaternion.e0=1:0.9:4", "release.position.x=0:1:3", "norm 1 within 1e-3"),
-        ("coin.center_of_mass.xi=-2 cm:2 cm:4", "release.position.x=0:1:3", "center_of_mass"),
-        ("release.velocity.x=0:2e9:4", "release.position.x=0:1:3", r"release\.velocity"),
-    ],
-)
-def test_a_pixel_that_is_no_scenario_is_refused_before_the_first_toss(x, y, said):
-    with pytest.raises(SweepError, match=said):
-        check(sweep_of(x, y, TUMBLING))
-
-
 def test_euler_parameters_off_norm_are_refused_inside_an_axis():
     case = scenario(release={"quaternion": [1.0, 0, 0, 0]})
     check(sweep_of("release.quaternion.e1=-0.01:0.01:9", "release.position.x=0:1:3", case))

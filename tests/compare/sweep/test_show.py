@@ -17,11 +17,9 @@ from cointoss.compare.basins.picture_style import PictureStyle
 from cointoss.compare.engines import Engine
 from cointoss.compare.film.back_end import ADVICE
 from cointoss.compare.report.comparison import compare, compared
-from cointoss.compare.report.contents import FILES, NOT_ASKED, require_folder
+from cointoss.compare.report.contents import require_folder
 from cointoss.compare.report.folder import write_report
 from cointoss.compare.sweep import job, show
-from cointoss.compare.sweep.axes import parse_axis
-from cointoss.compare.sweep.describe import AWAY
 from cointoss.compare.sweep.layout import layout_of_map
 from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.compare.sweep.store import opened
@@ -63,42 +61,14 @@ def test_the_report_has_the_numbers_of_both_maps_and_the_command(coin, tmp_path,
     answered = basin(coin, *asked, "--report", report, "--png", png, "--palette", "safe", "--dpi", 60)
     assert answered.exit_code == 0, answered.stderr
     assert answered.stdout.endswith(f"picture    {png}\nreport     {report}/report.html\n")
-    names = {"report.html", "numbers.json", "path-analytic.csv", "path-mujoco.csv"}
-    assert {path.name for path in report.iterdir()} == names
     require_folder(report, str(coin))
-
     found = json.loads((report / "numbers.json").read_text(encoding="utf-8"))
-    numbers = found["map"]
     stores = [xr.open_zarr(tmp_path / name, chunks=None) for name in ("map.zarr", "map-mujoco.zarr")]
-    maps = [store.outcome.to_numpy() for store in stores]
-    assert numbers["after"] == stores[0].attrs["after"] == 1
-    for name, text in (("x", X), ("y", Y)):
-        axis = parse_axis(text, parse(COIN, "coin"))
-        assert numbers["axes"][name] == {
-            "field": axis.field,
-            "unit": axis.unit,
-            "start": axis.start,
-            "stop": axis.stop,
-            "count": axis.count,
-        }
-    for engine, store, outcomes in zip(("analytic", "mujoco"), stores, maps, strict=True):
-        assert numbers["settings"][engine] == store.attrs["engine_settings"]
-        shares = {str(Outcome(code)): np.mean(outcomes == code) for code in Outcome}
-        assert numbers["fractions"][engine] == pytest.approx(shares, abs=1e-15)
-    assert numbers["settings"]["mujoco"]["contact"] == contact
-    alike, undecided = int(np.sum(maps[0] == maps[1])), numbers["agreement"]["undecided"]
-    near, away = numbers["agreement"]["near"], numbers["agreement"]["away"]
-    assert (near["agreeing"] + away["agreeing"], near["compared"] + away["compared"]) == (alike, 20)
-    assert (undecided, numbers["agreement"]["distance"]) == (0, AWAY)
-    words = shlex.split(numbers["command"])
-    assert words[:3] == ["cointoss", "basin", str(coin)]
-    # What is asked for beyond the defaults, and to go on with the maps.
-    typed = {"--x": X, "--y": Y, "--after": "1", "--out": str(out), "--report": str(report), "--dpi": "60"}
-    typed |= {} if contact == "spring" else {"--contact": contact}
-    assert {name: words[words.index(name) + 1] for name in typed} == typed
-    assert len(words) == 3 + 2 * len(typed) + len(["--compare", "--resume"])
-    assert {"--compare", "--resume"} < set(words)
-    assert cointoss(*shlex.split(numbers["command"])[1:]).exit_code == 0
+    for store in stores:
+        shares = {str(outcome): np.mean(store.outcome.to_numpy() == outcome) for outcome in Outcome}
+        assert found["map"]["fractions"][store.attrs["engine"]] == pytest.approx(shares, abs=1e-15)
+    # The command goes on with the maps.
+    assert cointoss(*shlex.split(found["map"]["command"])[1:]).exit_code == 0
 
     html = (report / "report.html").read_text(encoding="utf-8")
     assert html.index(">Impacts<") < html.index(">Basin map<") < html.index(">Scenario<")
@@ -166,17 +136,6 @@ def test_a_share_of_no_pixels_is_a_dash(tmp_path):
     text = shown_of(section_of([halves(2, 2), halves(2, 2)]), tmp_path)
     assert "shows the final outcome." in text
     assert "boundaries of the analytic map 0 – nearer to the boundaries 4 100.000 %" in text
-
-
-def test_a_report_without_a_video_is_made_by_the_command_that_it_names(coin, tmp_path, monkeypatch):
-    monkeypatch.setattr(job, "drawing_problem", lambda: pytest.fail("no video is asked for"))
-    asked = ("--x", X, "--y", Y, "--compare", "--out", tmp_path / "map.zarr", "--report", tmp_path / "report")
-    answered = basin(coin, *asked, "--no-video")
-    assert answered.exit_code == 0, answered.stderr
-    assert set(FILES) - {path.name for path in (tmp_path / "report").iterdir()} == {"toss.mp4"}
-    assert NOT_ASKED in (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
-    numbers = json.loads((tmp_path / "report" / "numbers.json").read_text(encoding="utf-8"))
-    assert "--no-video" in shlex.split(numbers["map"]["command"])
 
 
 def test_a_back_end_for_drawing_is_chosen_before_mujoco_is_imported(coin, tmp_path):

@@ -85,16 +85,6 @@ def test_a_frame_shows_the_coin_its_sequence_and_its_energy(page, notebook, fig2
     assert_quiet(page, frame)
 
 
-def test_a_frame_plays_until_it_is_paused(page, notebook, fig24a):
-    (frame,) = notebook(fig24a.play(), moving=True)
-    frame.wait_for(f"{TIME} > 0.01")
-    frame.value("document.getElementById('play').click()")
-    paused = frame.value(TIME)
-    assert 0.01 < paused < fig24a.end_time
-    assert frame.value(f"new Promise((kept) => setTimeout(() => kept({TIME}), 200))") == paused
-    assert_quiet(page, frame)
-
-
 def test_both_engines_play_together(page, notebook, fig24a, by_mujoco):
     (frame,) = notebook(by_mujoco.play(fig24a))
     expected = [row(by_mujoco, "MuJoCo", "mujoco"), row(fig24a, "analytic", "analytic")]
@@ -176,11 +166,6 @@ def test_a_large_map_is_thinned(map_path, monkeypatch):
     assert shown[0].stride == 2
     np.testing.assert_array_equal(shown[0].outcome, found.outcome[::2, ::2])
     np.testing.assert_array_equal(shown[0].x, found.x[::2])
-
-
-def test_what_is_no_toss_is_not_played(fig24a):
-    with pytest.raises(TypeError, match=r"^other: 'fig24b', accepted: a toss$"):
-        fig24a.play("fig24b")
 
 
 def test_a_terminal_is_told_what_a_notebook_shows(fig24a):

@@ -8,7 +8,7 @@ import pytest
 
 from cointoss_reproduction.frame.claim import unexpected
 
-DOCS = Path(__file__).parents[1] / "docs"
+DOCS = Path(__file__).parents[2] / "docs"
 sys.path.append(str(DOCS / "extensions"))
 engines = import_module("engines")
 

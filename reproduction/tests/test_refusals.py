@@ -1,0 +1,31 @@
+"""What `cointoss reproduce` refuses, in one line, and what a shell completes."""
+
+import pytest
+from click.testing import CliRunner
+
+from cointoss.compare.cli import main
+from tests.helpers.command_line import refused
+
+REFUSED = {
+    "all": "--out: missing; accepted: main reproduce all --out DIR (see ",
+    "--out out": "NAME: missing; accepted: all, or one of: accuracy-and-stripes, ",
+    "nothing": "nothing: no such name; accepted: accuracy-and-stripes, ",
+    "contact-laws no-such --out out": "no-such: no such name; accepted: ",
+    "contact_laws --out out": "contact_laws: no such name; accepted: ",
+}
+
+
+@pytest.mark.parametrize("line", REFUSED)
+def test_a_line_is_refused_before_anything_is_written(line, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert REFUSED[line] in refused("reproduce", *line.split())
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_shell_completes_the_names_of_studies():
+    asking = {
+        "_COINTOSS_COMPLETE": "bash_complete",
+        "COMP_WORDS": "cointoss reproduce table",
+        "COMP_CWORD": "2",
+    }
+    assert CliRunner().invoke(main, [], env=asking, prog_name="cointoss").stdout == "plain,table1\n"

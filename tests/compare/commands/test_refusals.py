@@ -1,0 +1,52 @@
+"""What the command line refuses: each line of refusals.toml has its one line, and nothing is written."""
+
+import os
+import re
+import shlex
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from tests.helpers.command_line import cointoss, refused
+
+TABLE = tomllib.loads((Path(__file__).parents[1] / "refusals.toml").read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """What the table says that there is."""
+    place = tmp_path_factory.mktemp("refused")
+    with pytest.MonkeyPatch.context() as patched:
+        patched.chdir(place)
+        for name in TABLE["folders"]:
+            Path(name).mkdir(parents=True)
+        for name, text in TABLE["files"].items():
+            Path(name).write_text(text, encoding="utf-8")
+        for name, target in TABLE["links"].items():
+            Path(name).symlink_to(target)
+        for name in TABLE["read_only"]:
+            Path(name).chmod(0o444)
+        for line in TABLE["maps"]:
+            assert cointoss(*shlex.split(line)).exit_code == 0
+        for name, text in TABLE["beside"].items():
+            Path(name).write_text(text, encoding="utf-8")
+    return place
+
+
+def held(folder):
+    """Return what a folder holds."""
+    return {path: path.is_file() and path.read_bytes() for path in folder.rglob("*")}
+
+
+@pytest.mark.parametrize("row", TABLE["refused"], ids=lambda row: row["line"])
+def test_a_line_is_refused_in_one_line_with_what_is_accepted(row, folder, monkeypatch):
+    monkeypatch.chdir(folder)
+    before, (first, *words) = held(folder), shlex.split(row["line"])
+    if "=" in first:
+        monkeypatch.setitem(os.environ, *first.split("="))
+    else:
+        words = [first, *words]
+    pattern = ".*".join(re.escape(part) for part in f"cointoss: {row['says']}\n".split("…"))
+    assert re.fullmatch(pattern, told := refused(*words)), told
+    assert held(folder) == before
