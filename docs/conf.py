@@ -53,9 +53,10 @@ nb_output_stderr = "warn"
 # No widgets: their scripts would come from the network.
 nb_ipywidgets_js: dict[str, dict[str, str]] = {}
 
-# Types would be those of pydantic's fields; the docstrings give meaning, frame, shape and unit.
+# Signatures and types would be those of pydantic's fields; docstrings give meaning, frame, shape and unit.
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 autodoc_preserve_defaults = True
-autodoc_default_options = {"exclude-members": "model_config"}
+autodoc_class_signature = "separated"
+autodoc_default_options = {"exclude-members": "__init__, __new__, model_config"}
 default_role = "code"

@@ -244,6 +244,15 @@ def test_what_a_page_names_of_the_code_is_there():
         )
 
 
+def test_a_page_of_docs_leads_to_each_figure():
+    """One that a person wrote: a table of all figures leads nowhere in particular."""
+    own = [page for page in PAGES if page.name not in ("REPRODUCTION.md", "GALLERY.md")]
+    text = "".join(page.read_text(encoding="utf-8") for page in own)
+    figures = [page.relative_to(DOCS).as_posix() for page in DOCS.glob("reproduction/*/index.md")]
+    assert len(figures) > 20
+    assert [figure for figure in figures if f"]({figure})" not in text] == []
+
+
 def test_there_is_code_to_run():
     code = {page.name: written(page) for page in PAGES}
     assert sum(block.language == "python" for block in code["README.md"]) >= 2

@@ -46,15 +46,7 @@ def read(app: Sphinx, what: str, name: str, it: Any, options: Any, lines: list[s
         lines += ["", f":rtype: {public(label)}"]
 
 
-def without_fields(
-    _app: Sphinx, what: str, _name: str, _it: Any, _options: Any, _shown: str | None, _returned: str | None
-) -> tuple[str, None] | None:
-    """Leave out the signature of a class, whose fields stand below it."""
-    return ("", None) if what == "class" else None
-
-
 def setup(app: Sphinx) -> dict[str, bool]:
     """Connect to autodoc."""
     app.connect("autodoc-process-docstring", read)
-    app.connect("autodoc-process-signature", without_fields)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,20 +1,31 @@
 """Write what docs/ holds that is made of other files, as `make pages` does; nothing is computed."""
 
+import re
+from collections.abc import Mapping
 from pathlib import Path
 
 import benchmarks
 import engines
-import house
-import modes
 import nbformat
+import pictures
 from myst_nb.core.read import read_myst_markdown_notebook
 
-from cointoss.compare.output.files import written_together
+from cointoss.study import table, write_text, written_together
 from cointoss_reproduction.frame import gallery, pages, runner
 from cointoss_reproduction.frame.claim import to_json
 from cointoss_reproduction.frame.result import PAGE, SHEETS, folder_of
 
 DOCS = Path(__file__).parents[1]
+
+
+def fill(path: Path, blocks: Mapping[str, str]) -> None:
+    """Write the blocks of a page, by the names of their places, where it has these."""
+    page = written = path.read_text(encoding="utf-8")
+    for name, block in blocks.items():
+        place = rf"(<!-- written by: make pages, {name} -->\n\n).*?(\n\n<!-- end -->\n)"
+        written = re.sub(place, lambda found, new=block: found[1] + new + found[2], written, flags=re.DOTALL)
+    if written != page:
+        write_text(path, written)
 
 
 def write_results(out: Path) -> None:
@@ -30,6 +41,17 @@ def write_results(out: Path) -> None:
     gallery.write(out, gallery.of_paper(), quick=False)
 
 
+def figures() -> str:
+    """Return a picture of each figure of the paper, with a link to its page, three in a row."""
+    cells = [
+        f"[![{found.title}]({place}/figure.png)]({place}/{PAGE}) **{found.paper}:** {found.title}"
+        for name in gallery.of_paper()
+        for found, place in [(runner.find(name), folder_of(name, Path()).as_posix())]
+    ]
+    cells += [" "] * (-len(cells) % 3)
+    return table([" "] * 3, zip(*[iter(cells)] * 3, strict=True), words=True)
+
+
 def notebook_of(page: Path) -> str:
     """Return a page with cells of code as a notebook for Jupyter, without what its cells show."""
     notebook = read_myst_markdown_notebook(page.read_text(encoding="utf-8"), path=page)
@@ -39,16 +61,17 @@ def notebook_of(page: Path) -> str:
     return nbformat.writes(notebook) + "\n"
 
 
-def write_notebooks(examples: Path) -> None:
-    """Write a notebook for Jupyter beside each page in a folder."""
-    for page in examples.glob("*.md"):
+def write(docs: Path) -> None:
+    """Write all of it."""
+    write_results(docs)
+    fill(docs / "GALLERY.md", {"figures": figures()})
+    fill(docs / engines.PAGE, engines.blocks(docs))
+    benchmarks.draw(docs)
+    (docs / "house.svg").write_text(pictures.house(), encoding="utf-8")
+    (docs / "automaton.svg").write_text(pictures.automaton(), encoding="utf-8")
+    for page in (docs / "examples").glob("*.md"):
         page.with_suffix(".ipynb").write_text(notebook_of(page), encoding="utf-8")
 
 
 if __name__ == "__main__":
-    write_results(DOCS)
-    engines.write(DOCS)
-    benchmarks.write(DOCS)
-    write_notebooks(DOCS / "examples")
-    (DOCS / "house.svg").write_text(house.house(DOCS.parent), encoding="utf-8")
-    (DOCS / "automaton.svg").write_text(modes.automaton(), encoding="utf-8")
+    write(DOCS)
