@@ -1,13 +1,13 @@
 """The tables of docs/ENGINES.md, from what the studies of docs/reproduction/ have found."""
 
-import json
 import tomllib
-from collections.abc import Mapping
 from pathlib import Path
 
+import pandas as pd
 from papers import the_one
 
 from cointoss.study import table
+from cointoss_reproduction.frame.cells import TABLE, read_table
 from cointoss_reproduction.frame.claim import Claim, read_claims
 from cointoss_reproduction.frame.result import folder_of
 
@@ -29,27 +29,32 @@ def claim_of(out: Path, study: str, words: str) -> Claim:
 
 def laws(out: Path) -> str:
     """Return which engine fulfils which contact law, and how exactly."""
-    found = json.loads((folder_of("mujoco-laws", out) / "numbers.json").read_text(encoding="utf-8"))
+    fits = read_table(folder_of("mujoco-laws", out) / TABLE).dropna(subset="realisation")
     most = claim_of(out, "mujoco-laws", "MuJoCo realises neither").criteria[0].threshold
+    # Without friction there is no cone: the contact is the same.
+    cones = {native: fits[_is_native(fits, native)] for native in (False, True)}
     rows = [
         [law, f"yes: {claim_of(out, *SHOWN['laws'][law.split()[0]]).criteria[0].measured:.0e}"]
         + [
-            _nearest(found[by][law], most, native=native)
-            for native in (False, True)
-            for by in ("fits", "one_step")
+            _nearest(own[(own.law == law) & (own.realisation == by)], most)
+            for own in cones.values()
+            for by in ("spring", "one_step")
         ]
-        for law in found["fits"]
+        for law in fits.law.unique()
     ]
     return table(BY, rows, words=True)
 
 
-def _nearest(fits: Mapping[str, tuple[float, float, int]], most: float, *, native: bool) -> str:
+def _is_native(fits: pd.DataFrame, native: bool) -> pd.Series:
+    return (fits.contact.str.contains("native") == native) | (fits.contact == "frictionless")
+
+
+def _nearest(fits: pd.DataFrame, most: float) -> str:
     """Return whether a kind of contacts makes a law, and the median and worst error of the nearest."""
-    # Without friction there is no cone: the contact is the same.
-    own = {name: fit for name, fit in fits.items() if ("native" in name) is native or name == "frictionless"}
-    name, (median, worst, _) = min(own.items(), key=lambda fit: fit[1][0])
-    verdict = "yes" if median < most else "no"
-    return f"{verdict}: {median:.0e} ({worst:.0e}), {name.removeprefix('native cone, ')}"
+    nearest = fits.loc[fits["median"].idxmin()]
+    verdict = "yes" if nearest["median"] < most else "no"
+    errors = f"{nearest['median']:.0e} ({nearest['worst']:.0e})"
+    return f"{verdict}: {errors}, {nearest['contact'].removeprefix('native cone, ')}"
 
 
 def ports(out: Path) -> str:

@@ -7,12 +7,12 @@ import pytest
 
 from cointoss.analytic.runs import run
 from cointoss.analytic.toss import toss
-from cointoss.compare.metrics.estimates import scatter_of_shares
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.batch import PLACE, states_of
 from cointoss.models.laws import EndingTest
 from cointoss.models.parts import Release
 from cointoss.models.records import IMPACT_ROW, Ending, Outcome
+from cointoss_reproduction.frame.cells import Cells, table_of
 from cointoss_reproduction.setups import fig24_readings
 from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.setups.hands import HEIGHTS, SPINS, states_of_hands
@@ -26,15 +26,7 @@ from cointoss_reproduction.studies.standing_coins import study as standing_coins
 from cointoss_reproduction.studies.standing_coins.standing import standing
 from cointoss_reproduction.studies.stop_test import study as stop_test
 from cointoss_reproduction.studies.uniform_starts import study as uniform_starts
-
-
-@pytest.mark.parametrize(("p", "bias"), [(0.5, 0.0), (0.9, 0.4)])
-def test_the_bias_of_hands_is_freed_of_chance(p, bias):
-    each = 10
-    shares = np.random.default_rng(0).binomial(each, p, 20_000) / each
-    assert scatter_of_shares(shares, each) == pytest.approx(bias, abs=0.02)
-    # Chance alone would look like a bias of 0.16.
-    assert np.sqrt(np.mean((shares - p) ** 2)) > 0.09
+from saved import missed, unseen
 
 
 def test_hands_keep_their_habit():
@@ -181,7 +173,7 @@ def test_neighbours_on_a_circle_have_near_images_where_there_is_a_map():
     ],
 )
 def test_a_named_face_is_left_where_another_comes_up_later(monkeypatch, faces, outcome, ending, counted):
-    kind = stop_test.CLASSES[0]
+    kind = CoinClass(thick=False, imperfect=False, air=False, coulomb=False)
     rows = np.zeros(3, IMPACT_ROW)
     rows["time"], rows["face"] = [0.1, 0.2, 0.3], faces
     whole = SimpleNamespace(rows=rows, outcome=outcome, ending=Ending.SETTLED)
@@ -205,6 +197,18 @@ def test_a_face_named_in_sustained_contact_is_left_there():
     assert whole.rows["time"][-1] < stopped.end_time
     assert {stopped.outcome, whole.outcome} == {Outcome.HEADS, Outcome.TAILS}
     assert stop_test.stops(body, rules, start)[0].tolist() == [1, 1, 0, 0]
+
+
+def test_a_face_that_is_never_left_or_always_would_be_seen():
+    def counts(left):
+        return lambda **_: [
+            {"test": test, "named": 900, "left": left, "edges": 0, "unknown": 0, "tosses": 100_000}
+            for test in stop_test.TESTS
+        ]
+
+    never, often = (table_of([Cells(counts(left), stop_test.AXES)], unseen, {}) for left in (0, 450))
+    assert [claim.partition(" ")[0] for claim in missed("stop-test", never)] == ["E", "eq."]
+    assert len(missed("stop-test", often)) == 4
 
 
 def general_coin(*, thick):

@@ -43,20 +43,6 @@ COINS = {
 FRICTIONS = (0.05, 0.1, 0.2, 0.3, 0.5)
 
 
-def toss_of(thickness: float, part: float, law: ContactLaw, friction: float) -> Scenario:
-    """Return the toss of Fig. 24(a) of another coin on another floor.
-
-    Args:
-        thickness: of the coin [m].
-        part: of the printed offset of its mass centre, which a thin coin has in its plane.
-        law: of the floor.
-        friction: of the floor.
-    """
-    x, y, z = (part * c for c in PAPER_OFFSET)
-    coin = ("coin.thickness", thickness, "coin.center_of_mass", (x, y, z if thickness else 0.0))
-    return load("fig24a").replace(*coin, "floor.contact", law, "floor.friction", friction)
-
-
 @dataclass(frozen=True, kw_only=True)
 class Reading:
     """A coin and a floor that Fig. 24 may mean."""
@@ -74,8 +60,11 @@ class Reading:
 
     @property
     def scenario(self) -> Scenario:
-        """The toss of Fig. 24(a)."""
-        return toss_of(*COINS[self.coin], self.law, self.friction)
+        """The toss of Fig. 24(a); the mass centre of a thin coin lies in its plane."""
+        thickness, part = COINS[self.coin]
+        x, y, z = (part * c for c in PAPER_OFFSET)
+        coin = ("coin.thickness", thickness, "coin.center_of_mass", (x, y, z if thickness else 0.0))
+        return load("fig24a").replace(*coin, "floor.contact", self.law, "floor.friction", self.friction)
 
 
 READINGS = tuple(
@@ -112,14 +101,6 @@ def printed_heights() -> list[float]:
 def clusters_as_printed(found: Sequence[str]) -> bool:
     """Return whether all sequences begin as all printed ones do, `BEGINNING`."""
     return all(sequence.startswith(BEGINNING) for sequence in found)
-
-
-def shared_with_marks(found: Sequence[str]) -> int:
-    """Count the leading faces, of all six, that sequences share with the printed ones, marks included."""
-    common = (
-        one[: common_prefix(one, printed)] for one, printed in zip(found, PRINTED.values(), strict=True)
-    )
-    return sum(len(part.replace(MARK, "")) for part in common)
 
 
 def shared(found: Sequence[str]) -> list[int]:

@@ -1,13 +1,12 @@
 """General coins: 16 classes of coin, air and floor, and the releases by which they are timed."""
 
 from dataclasses import dataclass
-from itertools import product
 from typing import Any
 
 import numpy as np
 
 from cointoss import Scenario
-from cointoss.study import Array, rows_from_states
+from cointoss.study import Array
 
 SEED = 15
 PAPER_OFFSET, THICKNESS = (-1e-3, -1e-3, -2e-4), 2e-3
@@ -71,7 +70,7 @@ class CoinClass:
         Returns:
             Position, velocity, Euler parameters and angular velocity, (count, 13).
         """
-        rng = np.random.default_rng([SEED, CLASSES.index(self)])
+        rng = np.random.default_rng([SEED, self._number])
         height, velocity = rng.uniform(0.2, 0.6, count), rng.normal(0, 0.3, (count, 3))
         e = rng.normal(size=(count, 4))
         spin = [rng.normal(0, 10, count), rng.uniform(20, 60, count), rng.normal(0, 10, count)]
@@ -79,12 +78,7 @@ class CoinClass:
         turned = e / np.linalg.norm(e, axis=1, keepdims=True)
         return np.hstack([place, velocity, turned, np.stack(spin, axis=1)])
 
-    def rows(self, count: int) -> Array:
-        """Return the tosses from those states as rows, (count, 46)."""
-        return rows_from_states(self.scenario, self.starts(count))
-
-
-CLASSES = tuple(
-    CoinClass(thick=thick, imperfect=imperfect, air=air, coulomb=coulomb)
-    for thick, imperfect, air, coulomb in product((False, True), repeat=4)
-)
+    @property
+    def _number(self) -> int:
+        """Which of the 16 classes it is."""
+        return 8 * self.thick + 4 * self.imperfect + 2 * self.air + self.coulomb

@@ -11,6 +11,7 @@ from cointoss.compare.metrics.estimates import (
     mean_share,
     quotient,
     ratio_of_medians,
+    scatter_of_shares,
     share,
     share_of,
 )
@@ -82,3 +83,12 @@ def test_as_many_as_it_says_would_tell():
     assert small.low < 0.5 < small.high
     many = share(np.arange(needed) % 100 < 52)
     assert 0.497 < many.low < 0.503
+
+
+@pytest.mark.parametrize(("p", "bias"), [(0.5, 0.0), (0.9, 0.4)])
+def test_the_bias_of_hands_is_freed_of_chance(p, bias):
+    each = 10
+    shares = np.random.default_rng(0).binomial(each, p, 20_000) / each
+    assert scatter_of_shares(shares, each) == pytest.approx(bias, abs=0.02)
+    # Chance alone would look like a bias of 0.16.
+    assert np.sqrt(np.mean((shares - p) ** 2)) > 0.09

@@ -1,13 +1,14 @@
 """Section 4.1: a bouncing bar, as Vulović and Prange and Mizuguchi and Suwashita have it, and a disc."""
 
+from collections.abc import Callable
+
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cointoss import Face, Scenario, analytic
 from cointoss.study import (
-    BLUE,
-    VERMILION,
+    Answers,
     Array,
     MapAxis,
     Progress,
@@ -16,49 +17,40 @@ from cointoss.study import (
     rows_from_states,
     share,
 )
-from cointoss_reproduction.frame.declared import Data, Findings, declared, listed
+from cointoss_reproduction.frame.declared import Data, Findings, declared
 from cointoss_reproduction.setups.kellers_map import FASTEST, HIGHEST, middles, thrown
 from cointoss_reproduction.setups.planar_maps import case, toss_rows_by_mujoco
 
-BODIES = {"disc": BLUE, "bar": VERMILION}
+BODIES = ("disc", "bar")
 SPEEDS = np.array([0.025, 0.05, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.225, 0.25])
 """v_0/g of the lines on which stripes are counted [s]; the first is near zero, the last far from it."""
 SEED = 41
-ALIKE = "pixels of the map as the analytic engine"
 
 
 def make(progress: Progress, points: int = 90, line: int = 2500, tosses_mujoco: int = 200) -> Findings:
     """Map the final face of both bodies as Fig. 2 does, and measure their stripes along lines."""
-    spins, speeds = middles(FASTEST, points), middles(HIGHEST, points)
-    over, up = (part.ravel() for part in np.meshgrid(spins, speeds))
-    keller = np.abs(over * up - np.round(over * up)) < 0.25
+    x, y = (part.ravel() for part in np.meshgrid(middles(FASTEST, points), middles(HIGHEST, points)))
+    keller = np.abs(x * y - np.round(x * y)) < 0.25
     data: Data = {"Keller": np.where(keller, Face.HEADS, Face.TAILS).astype(np.int8).reshape(points, points)}
-    widths: dict[str, Array] = {}
-    fine = middles(FASTEST, line)
-    for body in BODIES:
+    few = np.random.default_rng(SEED).choice(len(x), tosses_mujoco, replace=False)
+    lines = np.tile(middles(FASTEST, line), len(SPEEDS)), np.repeat(SPEEDS, line)
+    same = {}
+    for done, body in enumerate(BODIES, start=1):
         scenario = _scenario(body)
-        faces = _faces(scenario, over, up)
-        data[body] = faces.reshape(points, points)
-        progress(2 * len(widths) + 1, 2 * len(BODIES) + 1)
-        along = _faces(scenario, np.tile(fine, len(SPEEDS)), np.repeat(SPEEDS, line))
-        lines = crossings(along.reshape(len(SPEEDS), line))
+        faces, along = (_faces(scenario, *tossed) for tossed in ((x, y), lines))
+        crossed = crossings(along.reshape(len(SPEEDS), line))
         # Keller's boundaries lie at odd quarters of a turn.
-        widths[body] = np.floor(2 * FASTEST * SPEEDS + 1 / 2) / np.maximum(lines, 1)
-        data |= {f"{body}, width": widths[body], f"{body}, boundaries": lines}
-        progress(2 * len(widths), 2 * len(BODIES) + 1)
-    few = np.random.default_rng(SEED).choice(len(over), tosses_mujoco, replace=False)
-    rows = np.concatenate([_rows(_scenario(body), over[few], up[few]) for body in BODIES])
-    mujoco = toss_rows_by_mujoco(rows).outcome.reshape(len(BODIES), -1)
-    same = [int(np.sum(row == data[body].ravel()[few])) for row, body in zip(mujoco, BODIES, strict=True)]
-    progress(2 * len(BODIES) + 1, 2 * len(BODIES) + 1)
-    by_mujoco = [f"{n} of {tosses_mujoco} {ALIKE} ({body})" for n, body in zip(same, BODIES, strict=True)]
-    near, far = ({body: width[at] for body, width in widths.items()} for at in (0, -1))
+        width = np.floor(2 * FASTEST * SPEEDS + 1 / 2) / np.maximum(crossed, 1)
+        data |= {body: faces.reshape(points, points), f"{body}, width": width, f"{body}, boundaries": crossed}
+        same[body] = np.sum(_faces(scenario, x[few], y[few], toss_rows_by_mujoco) == faces[few])
+        progress(done, len(BODIES))
+    near, far = ({body: data[f"{body}, width"][at] for body in BODIES} for at in (0, -1))
     return Findings(
         data=data,
-        mujoco=", ".join(by_mujoco),
-        near=listed(near, ".2g"),
+        same=same,
+        near=near,
         least_near=min(near.values()),
-        far=listed(far, ".2g"),
+        far=far,
         most_far=max(far.values()),
         other=share(data["bar"] != data["disc"], "pixels"),
     )
@@ -76,12 +68,13 @@ def _scenario(body: str) -> Scenario:
     return scenario.replace("coin.inertia", inertia)
 
 
-def _rows(scenario: Scenario, over: Array, up: Array) -> Array:
-    return rows_from_states(scenario, thrown(scenario, over, up))
-
-
-def _faces(scenario: Scenario, over: Array, up: Array) -> NDArray[np.int8]:
-    return analytic.toss_rows(_rows(scenario, over, up)).outcome
+def _faces(
+    scenario: Scenario,
+    over: Array,
+    up: Array,
+    toss_rows: Callable[[Array], Answers] = analytic.toss_rows,
+) -> NDArray[np.int8]:
+    return toss_rows(rows_from_states(scenario, thrown(scenario, over, up))).outcome
 
 
 def _draw(data: Data) -> Figure:
@@ -89,13 +82,14 @@ def _draw(data: Data) -> Figure:
     *maps, widths = picture.subplots(1, 4)
     x = MapAxis(name="ω₀/π", unit="1/s", start=0.0, stop=FASTEST)
     y = MapAxis(name="v₀/g", unit="s", start=0.0, stop=HIGHEST)
-    for axes, name in zip(maps, ("Keller", *BODIES), strict=True):
+    titles = {"Keller": "Keller: caught", **{body: f"{body}, bouncing" for body in BODIES}}
+    for axes, (name, title) in zip(maps, titles.items(), strict=True):
         draw_panel(axes, data[name], x=x, y=y)
-        axes.set_title({"Keller": "Keller: caught"}.get(name, f"{name}, bouncing"))
+        axes.set_title(title)
         axes.grid(visible=False)
         axes.label_outer()
-    for body, color in BODIES.items():
-        widths.semilogy(SPEEDS, data[f"{body}, width"], "o-", color=color, markersize=3, label=body)
+    for body in BODIES:
+        widths.semilogy(SPEEDS, data[f"{body}, width"], "o-", label=body)
     widths.set(title="mean stripe over Keller's", xlabel="v₀/g [s]", ylim=(3e-3, 2))
     widths.legend()
     return picture

@@ -1,89 +1,174 @@
 """When each contact law adds energy, pulls on the coin, leaves the friction cone, or has no solution."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
-from matplotlib.figure import Figure
+import numpy as np
+import pandas as pd
 
-from cointoss.study import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION, paragraphs, table
-from cointoss_reproduction.frame.recorded import recorded
-from cointoss_reproduction.studies.contact_laws.impacts import (
-    COINS,
-    FRICTIONS_OF_ONSETS,
-    FRICTIONS_SUFFICIENT,
-    FRICTIONS_WITHOUT_SOLUTION,
-    LAWS,
-    RESTITUTIONS,
-    ContactRecord,
-    LawRecord,
-    compute,
+from cointoss import ContactLaw, Flag, Impacts, RestitutionKind, load
+from cointoss.study import Array, Body, Rules, raised_flags, strike
+from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.studies.contact_laws.random_impacts import draw_states
+from cointoss_reproduction.studies.contact_laws.thresholds import onset_of_gain, onset_without_solution
+
+SEED = 2008
+SHARP, ROUGH, SLIDING, KINEMATIC = (
+    "(a) sharp_edge",
+    "(c) perfectly_rough",
+    "(f) sliding_friction",
+    "coulomb, kinematic",
 )
-
-SHOWN = (0.2, 0.5, 0.8, 1.0)
-"""Restitutions of the table."""
+LAWS = {
+    **{
+        f"({letter}) {law}": (law, RestitutionKind.KINEMATIC)
+        for letter, law in zip(
+            "abcdef", (law for law in ContactLaw if law != ContactLaw.COULOMB), strict=True
+        )
+    },
+    KINEMATIC: (ContactLaw.COULOMB, RestitutionKind.KINEMATIC),
+    "coulomb, energetic": (ContactLaw.COULOMB, RestitutionKind.ENERGETIC),
+}
+COINS = {
+    "thin ideal": (0.0, (0.0, 0.0, 0.0)),
+    "thick ideal": (2e-3, (0.0, 0.0, 0.0)),
+    "thin imperfect": (0.0, (-1e-3, -1e-3, 0.0)),
+    "thick imperfect": (2e-3, (-1e-3, -1e-3, -2e-4)),
+}
+"""Thickness and mass centre of the coins; the last is the paper's, section 5.1."""
+ALL = "all"
+"""The name of all coins together."""
+RESTITUTIONS = {f"χ = {tenth / 10:g}": tenth / 10 for tenth in range(1, 11)}
+SUFFICIENT = tuple(round(0.05 * step, 2) for step in range(61))
+"""Frictions of floors in whose cone impulses may lie."""
+FRICTIONS = (0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0)
+"""With which onsets are searched."""
+UNSOLVED = (0.5, 1.0, 1.5, 2.0, 3.0)
+"""Frictions with which sliding_friction may have no solution."""
 ROUNDING = 1e-12
 SEARCH_ERROR = 1e-7
-PASSIVE = ("smooth", "coulomb, energetic")
-PULLING = ("sharp_edge", "knurled", "perfectly_rough")
-LEAVING = (*PULLING, "slip_preserving")
-THIN_ROUGH, THIN_SLIDING = math.sqrt(5) / 3, math.sqrt(5) / 2
-_NAMES = {
-    law: f"({letter}) {law}"
-    for letter, law in zip("abcdef", [name for name in LAWS if "coulomb" not in name], strict=True)
-}
-_LINES: dict[str, dict[str, Any]] = {
-    "sharp_edge": {"color": ORANGE, "marker": "^"},
-    "knurled": {"color": GREEN, "marker": "s"},
-    "perfectly_rough": {"color": VERMILION, "marker": "v"},
-    "slip_preserving": {"color": BLUE, "marker": "D"},
-    "smooth": {"color": GREY, "marker": ""},
-    "sliding_friction": {"color": SKY, "marker": "o"},
-    "coulomb, kinematic": {"color": "#000000", "marker": "P"},
-}
+IDEAL_LEAST = math.sqrt(5) / 3 - SEARCH_ERROR
+"""Least restitution at which sharp_edge adds energy to an ideal coin, less that."""
 
 
-def measures(found: ContactRecord) -> dict[str, Any]:
-    """Return what the claims name."""
-    laws, onsets = found.laws, found.onsets
-    gaining = ("knurled", "slip_preserving", "sliding_friction")
-    below_onset = [
-        share
-        for law, onset in (
-            ("sharp_edge", onsets.sharp_edge),
-            ("perfectly_rough", onsets.perfectly_rough),
-            ("coulomb, kinematic", onsets.perfectly_rough),
-        )
-        for coin, shares in zip(COINS, laws[law].gains_by_coin, strict=True)
-        for chi, share in zip(RESTITUTIONS, shares, strict=True)
-        if chi < onset[coin]
+def body_of(coin: str) -> Body:
+    """Return one of `COINS`, without air."""
+    thickness, center = COINS[coin]
+    scenario = load("fig18_3d_ideal")
+    return scenario.replace("coin.thickness", thickness, "coin.center_of_mass", center).body
+
+
+def rules_of(name: str) -> Rules:
+    """Return the rules of one of `LAWS`."""
+    law, kind = LAWS[name]
+    return load("fig18_3d_ideal").rules._replace(law=law, restitution_kind=kind)
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """The impacts drawn for one coin."""
+
+    body: Body
+    states: Array
+    friction: Array
+    """From 0 to 1, (n,)."""
+
+
+@cache
+def drawn_impacts(count: int, seed: int = SEED) -> dict[str, Drawn]:
+    """Draw impacts, the same number for each of `COINS`."""
+    rng = np.random.default_rng(seed)
+    bodies = {name: body_of(name) for name in COINS}
+    rules, each = rules_of(KINEMATIC), count // len(COINS)
+    states = {name: draw_states(body, rules, each, rng) for name, body in bodies.items()}
+    return {name: Drawn(body, states[name], rng.uniform(0, 1, each)) for name, body in bodies.items()}
+
+
+def impacts(law: str, count: int = 20_000, seed: int = SEED) -> Iterator[dict[str, Any]]:
+    """Try a law on `count` random impacts at every restitution, a quarter of them of each coin."""
+    drawn, rules = drawn_impacts(count, seed), rules_of(law)
+    tried = [
+        _struck(rules, one, chi).assign(restitution=at, coin=coin)
+        for at, chi in RESTITUTIONS.items()
+        for coin, one in drawn.items()
     ]
-    of_closed_forms = [(onsets.coulomb, kane_onset), (onsets.sliding_friction, sliding_onset)]
-    return {
-        "passive": max(max(laws[law].largest_change) for law in PASSIVE),
-        "least_gain": min(max(laws[law].largest_change) for law in laws if law not in PASSIVE),
-        "always": min(min(laws[law].gains) for law in gaining),
-        "imperfect": max(onsets.sharp_edge[coin] for coin in COINS if "imperfect" in coin),
-        "ideal": min(onsets.sharp_edge[coin] for coin in COINS if "imperfect" not in coin),
-        "ideal_least": THIN_ROUGH - SEARCH_ERROR,
-        "below_onset": max(below_onset),
-        "thin_rough": max(
-            abs(one["thin ideal"] - THIN_ROUGH) for one in (onsets.sharp_edge, onsets.perfectly_rough)
-        ),
-        "closed_forms": max(
-            abs(chi - closed_form(mu))
-            for onset, closed_form in of_closed_forms
-            for chi, mu in zip(onset, FRICTIONS_OF_ONSETS, strict=True)
-        ),
-        "unsolved": abs(onsets.without_solution["thin ideal"] - THIN_SLIDING),
-        "pull": _only({law: max(record.pulls) for law, record in laws.items()}, PULLING),
-        "leave": _only({law: max(record.leaves_cone) for law, record in laws.items()}, LEAVING),
+    whole: Any = pd.concat(tried)
+    for at, of_coins in whole.groupby("restitution", sort=False):
+        for coin, some in ((ALL, of_coins), *of_coins.groupby("coin", sort=False)):
+            changes = {"median": some.change[some.gains].median(), "largest": some.change.max()}
+            flagged = {name: int(some[name].sum()) for name in ("gains", "pulls", "leaves", "unsolved")}
+            yield {
+                "restitution": at,
+                "chi": RESTITUTIONS[at],
+                "coin": coin,
+                "impacts": len(some),
+                **flagged,
+                **changes,
+            }
+    for friction in SUFFICIENT:
+        yield {"mu": friction, "within": np.mean(whole.needed <= friction)}
+    by_restitution = whole.groupby("restitution")[["pulls", "leaves"]].mean()
+    yield {
+        "largest_change": whole.change.max(),
+        "most_pulls": by_restitution.pulls.max(),
+        "most_leave": by_restitution.leaves.max(),
+        "for_half": whole.needed.quantile(0.5, interpolation="higher"),
+        "for_most": whole.needed.quantile(0.95, interpolation="higher"),
+        "no_solution": whole.unsolved.mean(),
     }
 
 
-def _only(shares: dict[str, float], chosen: tuple[str, ...]) -> tuple[float, float]:
-    """Return the least share of the chosen laws, and the largest of the others."""
-    return min(shares[law] for law in chosen), max(shares[law] for law in shares if law not in chosen)
+def _struck(rules: Rules, drawn: Drawn, chi: float) -> pd.DataFrame:
+    """Return what a law does in each of the impacts of a coin."""
+    found, solved = strike(drawn.body, rules, drawn.states, restitution=chi, friction=drawn.friction)
+    raised = raised_flags(found, drawn.friction)
+    return pd.DataFrame(
+        {
+            "gains": raised[Flag.GAINS_ENERGY],
+            "pulls": raised[Flag.PULLS],
+            "leaves": raised[Flag.LEAVES_CONE],
+            "unsolved": ~solved,
+            "change": found.energy_change / (found.energy - found.energy_change),
+            "needed": friction_needed(found),
+        }
+    )
+
+
+def friction_needed(found: Impacts) -> Array:
+    """Return |S_t|/S_z, the least μ whose cone holds the impulse, (n,); infinite where S_z <= 0."""
+    along, up = np.hypot(found.impulse[:, 0], found.impulse[:, 1]), found.impulse[:, 2]
+    return np.where(up > 0, along / np.where(up > 0, up, 1.0), math.inf)
+
+
+def gaining(law: str, coin: str) -> dict[str, float]:
+    """Return the least restitution at which a law adds energy to a coin in some impact."""
+    return {"gains_from": onset_of_gain(body_of(coin), rules_of(law), 0.0, SEED)}
+
+
+def unsolvable(coin: str) -> dict[str, float]:
+    """Return the least friction with which sliding_friction has no solution in some impact of a coin."""
+    return {"unsolved_from": onset_without_solution(body_of(coin), rules_of(SLIDING), SEED)}
+
+
+def unsolved(friction: float, count: int = 20_000) -> dict[str, Any]:
+    """Return for how many of the random impacts sliding_friction has no solution."""
+    rules, drawn = rules_of(SLIDING), drawn_impacts(count).values()
+    solved = [strike(one.body, rules, one.states, restitution=1.0, friction=friction)[1] for one in drawn]
+    return {"without": 1 - np.mean(solved)}
+
+
+def gaining_with_friction(law: str, friction: float) -> Iterator[dict[str, Any]]:
+    """Return the least restitution at which a law adds energy to the thin ideal coin, both ways."""
+    onset, exact = (
+        onset_of_gain(body_of("thin ideal"), rules_of(law), friction, SEED),
+        CLOSED_FORMS[law](friction),
+    )
+    yield {"by": "search", "onset": onset, "off": onset - exact}
+    yield {"by": "closed form", "onset": exact}
 
 
 def kane_onset(mu: float) -> float:
@@ -119,132 +204,25 @@ def sliding_onset(mu: float) -> float:
     return (1 - ratio) / (1 + ratio)
 
 
-def tables(found: ContactRecord) -> str:
-    """Return the results as tables, in Markdown."""
-    laws, onsets = found.laws, found.onsets
-    shown = [RESTITUTIONS.index(chi) for chi in SHOWN]
-    at_05, at_08 = shown[1:3]
-
-    def of_laws(cells: Callable[[LawRecord], list[str]]) -> list[list[str]]:
-        return [[_NAMES.get(law, law), *cells(record)] for law, record in laws.items()]
-
-    def energy(record: LawRecord) -> list[str]:
-        much = record.median_gain[at_08], max(record.largest_change)
-        return [*(_percent(record.gains[i]) for i in shown), *map(_number, much)]
-
-    def friction(record: LawRecord) -> list[str]:
-        shares = [part[i] for part in (record.pulls, record.leaves_cone) for i in (at_05, at_08)]
-        enough = record.friction_for_half, record.friction_for_most
-        unsolved = sum(record.without_solution) / len(record.without_solution)
-        return [*map(_percent, shares), *map(_number, enough), _percent(unsolved)]
-
-    extremes = [
-        [words, *(f"{onset[coin]:.6f}" for coin in COINS)]
-        for words, onset in (
-            ("sharp_edge adds energy from χ =", onsets.sharp_edge),
-            ("perfectly_rough adds energy from χ =", onsets.perfectly_rough),
-            ("sliding_friction has no solution from μ =", onsets.without_solution),
-        )
-    ]
-    kane = [
-        [words, *(f"{chi:.4f}" for chi in chis)]
-        for words, chis in (
-            ("sliding_friction, from χ =", onsets.sliding_friction),
-            ("the same, closed form", map(sliding_onset, FRICTIONS_OF_ONSETS)),
-            ("coulomb, kinematic, from χ =", onsets.coulomb),
-            ("the same, closed form", map(kane_onset, FRICTIONS_OF_ONSETS)),
-        )
-    ]
-    unsolved = [["share of impacts", *map(_percent, found.share_without_solution)]]
-    pull = "pull, χ = 0.5 | χ = 0.8 | leave cone, χ = 0.5 | χ = 0.8 | μ for half | μ for 95 % | no solution"
-    return paragraphs(
-        f"{found.count} random impacts for each law and restitution χ, seed {found.seed}.",
-        "Impacts that add energy; gains over the kinetic energy before the impact.",
-        table(
-            ["law", *(f"χ = {chi:g}" for chi in SHOWN), "median gain, χ = 0.8", "largest, any χ"],
-            of_laws(energy),
-        ),
-        "The same by coin, at χ = 0.8.",
-        table(["law", *COINS], of_laws(lambda law: [_percent(coin[at_08]) for coin in law.gains_by_coin])),
-        "Impacts that pull on the coin (S_z < 0), and that leave the friction cone, μ drawn from 0 to 1. "
-        "Over all χ: the μ that would do for a half and for 95 % of the impacts, and the share without a "
-        "solution.",
-        table(f"law | {pull}", of_laws(friction)),
-        "The extremes over all impacts, found by search. "
-        f"For the thin ideal coin √5/3 = {THIN_ROUGH:.6f} and √5/2 = {THIN_SLIDING:.6f}.",
-        table(["coin", *COINS], extremes),
-        "The thin ideal coin gains energy from the floor:",
-        table(["law", *(f"μ = {mu:g}" for mu in FRICTIONS_OF_ONSETS)], kane),
-        "Impacts in which sliding_friction has no solution: as printed it would pull (S_z < 0).",
-        table(["", *(f"μ = {mu:g}" for mu in FRICTIONS_WITHOUT_SOLUTION)], unsolved),
-    )
+CLOSED_FORMS = {SLIDING: sliding_onset, KINEMATIC: kane_onset}
 
 
-def _percent(share: float) -> str:
-    return "0" if share == 0 else f"{100 * share:.2f} %"
+def found(cells: pd.DataFrame) -> dict[str, float]:
+    """Return the largest share of random impacts that add energy below the onset that was searched."""
+    onsets = cells[cells.gains_from.notna()].set_index(["law", "coin"]).gains_from
+    of_laws = {SHARP: SHARP, ROUGH: ROUGH, KINEMATIC: ROUGH}
+    tried = cells[cells.law.isin(of_laws) & cells.coin.isin(COINS) & cells.impacts.notna()]
+    own = zip(tried.law.map(of_laws), tried.coin, strict=True)
+    below = tried.chi < [onsets[law, coin] for law, coin in own]
+    return {"below_onset": (tried.gains / tried.impacts)[below].max()}
 
 
-def _number(value: float | None) -> str:
-    return "none" if value is None else "0" if value == 0 else f"{value:.3g}"
-
-
-def _energy(found: ContactRecord) -> Figure:
-    picture = Figure(figsize=(8.4, 3.8))
-    often, much = picture.subplots(1, 2)
-    for law, line in _LINES.items():
-        record = found.laws[law]
-        label = "smooth; coulomb, energetic" if law == "smooth" else law
-        often.plot(RESTITUTIONS, [100 * share for share in record.gains], label=label, **line)
-        gains = [math.nan if gain is None else 100 * gain for gain in record.median_gain]
-        much.plot(RESTITUTIONS, gains, **line)
-    often.set_ylabel("impacts that add energy [%]")
-    much.set_ylabel("median gain / kinetic energy before [%]")
-    much.set_ylim(bottom=0)
-    for axes in (often, much):
-        axes.set(xlabel="restitution χ", xticks=[0.2, 0.4, 0.6, 0.8, 1.0])
-    picture.legend(loc="outside lower center", ncols=4)
-    return picture
-
-
-def _friction(found: ContactRecord) -> Figure:
-    picture = Figure(figsize=(6, 3.6))
-    axes = picture.subplots()
-    for law in ("slip_preserving", "sharp_edge", "perfectly_rough", "knurled"):
-        share = [100 * part for part in found.laws[law].friction_sufficient]
-        axes.plot(FRICTIONS_SUFFICIENT, share, label=law, markevery=6, **_LINES[law])
-    axes.set(xlabel="friction μ of the floor", ylabel="impacts within its cone [%]")
-    axes.set(xlim=(0, FRICTIONS_SUFFICIENT[-1]), ylim=(0, 101))
-    axes.legend(loc="lower right")
-    return picture
-
-
-def _onset(found: ContactRecord) -> Figure:
-    picture = Figure(figsize=(6, 3.6))
-    axes = picture.subplots()
-    top = FRICTIONS_OF_ONSETS[-1]
-    fine = [top * step / 400 for step in range(1, 401)]
-    for name, onset, closed_form in (
-        ("coulomb, kinematic", found.onsets.coulomb, kane_onset),
-        ("sliding_friction", found.onsets.sliding_friction, sliding_onset),
-    ):
-        line = _LINES[name]
-        axes.plot(fine, [closed_form(mu) for mu in fine], color=line["color"])
-        axes.plot(FRICTIONS_OF_ONSETS, onset, line["marker"], color=line["color"], label=name, clip_on=False)
-    axes.axhline(THIN_ROUGH, color=_LINES["perfectly_rough"]["color"], linestyle="--", linewidth=1.2)
-    axes.text(
-        top, THIN_ROUGH - 0.015, "perfectly_rough, sharp_edge: √5/3", va="top", ha="right", color=VERMILION
-    )
-    axes.set(xlabel="friction μ", ylabel="restitution from which\nthe law can add energy")
-    axes.set(xlim=(0, top), ylim=(0, 1.02))
-    axes.legend(loc="center right")
-    return picture
-
-
-REPRODUCTION = recorded(
+REPRODUCTION = study(
     __name__,
-    compute,
-    record=ContactRecord,
-    measures=measures,
-    tables=tables,
-    draw={"energy": _energy, "friction": _friction, "onset": _onset},
+    Cells(impacts, {"law": tuple(LAWS)}),
+    Cells(gaining, {"law": (SHARP, ROUGH), "coin": tuple(COINS)}),
+    Cells(unsolvable, {"coin": tuple(COINS)}),
+    Cells(gaining_with_friction, {"law": tuple(CLOSED_FORMS), "friction": FRICTIONS}),
+    Cells(unsolved, {"friction": UNSOLVED}),
+    found=found,
 )

@@ -1,23 +1,24 @@
 """Section 5.1: the transient Lyapunov exponents of free fall, by the tangent map of the flight."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
+import pandas as pd
 
 from cointoss import Scenario, Toss, analytic, coin_mj, load
 from cointoss.study import (
     FINE,
     Array,
     Body,
-    Progress,
     by_numba,
     flight_tangent,
     sample,
     state_at_release,
     state_of,
 )
-from cointoss_reproduction.frame.declared import Data, Findings, declared
+from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.free_fall import MEDIA, MODELS
 
 flight_tangent = by_numba(flight_tangent)
@@ -26,55 +27,48 @@ sample = by_numba(sample)
 LONGEST = {"vacuum": 100.0, "air": 2000.0}
 """How long the coins fall [s]; in air the last turning is slow to end."""
 SAMPLES = 40
+ENGINES = {"analytic": analytic.toss, "MuJoCo": coin_mj.toss}
 SHORT, CHANGE = 0.6, 1e-6
 """Time of two nearby tosses by both engines [s], and how far apart they start, relative to the spin."""
 SPIN = 40.0
 """About the middle axis [rad/s]."""
 
 
-def make(progress: Progress) -> Findings:
-    """Follow all small changes of the four coins' flights, without and with air."""
-    found = Findings()
-    spectra: dict[str, Array] = {}
-    for medium, air in MEDIA.items():
-        times = np.geomspace(0.1, LONGEST[medium], SAMPLES)
-        for name, (file, _) in MODELS.items():
-            case = load(file).replace("air", air)
-            spectra[f"{medium}, {name}"] = _exponents(case, times)
-            progress(len(spectra), len(MEDIA) * len(MODELS) + 1)
-    last = {medium: np.array([spectra[f"{medium}, {name}"][-1] for name in MODELS]) for medium in MEDIA}
-    found.last, found.power = (
-        last,
-        {
-            medium: np.array([_power(spectra[f"{medium}, {name}"], LONGEST[medium]) for name in MODELS])
-            for medium in MEDIA
-        },
-    )
+def falling(medium: str, model: str) -> Iterator[dict[str, Any]]:
+    """Follow all small changes of a coin's flight."""
+    longest = LONGEST[medium]
+    times = np.geomspace(0.1, longest, SAMPLES)
+    exponents = _exponents(load(MODELS[model][0]).replace("air", MEDIA[medium]), times)
+    for t, each in zip(times, exponents, strict=True):
+        yield {"end": "largest", "time": t, "exponent": each.max()}
+        yield {"end": "smallest", "time": t, "exponent": each.min()}
+    end = exponents[-1]
+    power = _power(times, exponents.max(axis=1) * times, longest)
+    yield {"end_largest": end.max(), "end_smallest": end.min(), "size": np.abs(end).max(), "power": power}
+
+
+def nearby(engine: Callable[[Scenario], Toss]) -> dict[str, float]:
+    """Return how fast two nearby tosses part, in air, and in vacuum about the middle axis [1/s]."""
     case = load(MODELS["3D imperfect"][0]).replace("air", MEDIA["air"])
-    found.nearby = [
-        _growth_of_difference(engine, case, np.ones(3)) for engine in (analytic.toss, coin_mj.toss)
-    ]
-    middle, direction, found.rate = _about_the_middle_axis()
-    found.nearby_middle = [
-        _growth_of_difference(engine, middle, direction) for engine in (analytic.toss, coin_mj.toss)
-    ]
-    found.tangent = _growth_of_tangent(middle, direction)
-    progress(len(MEDIA) * len(MODELS) + 1, len(MEDIA) * len(MODELS) + 1)
-    found.largest, found.smallest = (
-        {medium: _span(end(exponents, axis=1)) for medium, exponents in last.items()}
-        for end in (np.max, np.min)
-    )
-    found.size, found.mujoco_off = np.abs(last["vacuum"]).max(), abs(found.nearby[1] - found.nearby[0])
-    found.fold = np.exp(found.nearby_middle[0] * SHORT)
-    found.middle = max(found.tangent, *found.nearby_middle)
-    found.data = {
-        f"{medium}, time": np.geomspace(0.1, LONGEST[medium], SAMPLES) for medium in MEDIA
-    } | spectra
-    return found
+    middle, direction, _ = _about_the_middle_axis()
+    about_middle = _growth_of_difference(engine, middle, direction)
+    return {
+        "nearby": _growth_of_difference(engine, case, np.ones(3)),
+        "middle": about_middle,
+        "fold": float(np.exp(about_middle * SHORT)),
+    }
 
 
-def _span(numbers: Array) -> str:
-    return f"{np.min(numbers):.2g} to {np.max(numbers):.2g}"
+def tangent() -> dict[str, float]:
+    """Return how fast a spin about the middle axis parts, by the tangent map and in closed form [1/s]."""
+    case, direction, rate = _about_the_middle_axis()
+    return {"middle": _growth_of_tangent(case, direction), "rate": rate}
+
+
+def found(cells: pd.DataFrame) -> dict[str, float]:
+    """Return how far the engines are apart."""
+    rates = cells.set_index("engine").nearby
+    return {"mujoco_off": abs(rates["MuJoCo"] - rates["analytic"])}
 
 
 def _sizes(body: Body) -> Array:
@@ -113,11 +107,10 @@ def _flown(case: Scenario, times: Sequence[float]) -> Array:
     return states
 
 
-def _power(exponents: Array, longest: float) -> float:
+def _power(times: Array, logarithm: Array, longest: float) -> float:
     """Return p of a growth like t^p over the last nine tenths of the time: the slope of λ t over ln t."""
-    t = np.geomspace(0.1, longest, SAMPLES)
-    late = t > longest / 10
-    return float(np.polyfit(np.log(t[late]), (exponents.max(axis=1) * t)[late], 1)[0])
+    late = times > longest / 10
+    return float(np.polyfit(np.log(times[late]), logarithm[late], 1)[0])
 
 
 def _growth_of_difference(engine: Callable[[Scenario], Toss], case: Scenario, direction: Array) -> float:
@@ -155,18 +148,10 @@ def _about_the_middle_axis() -> tuple[Scenario, Array, float]:
     return case.replace("release.angular_velocity", SPIN * axes[:, 1]), direction, float(rate)
 
 
-def _draw(data: Data) -> Figure:
-    picture = Figure(figsize=(9, 3.6))
-    for axes, medium in zip(picture.subplots(1, 2, sharey=True), MEDIA, strict=True):
-        t = data[f"{medium}, time"]
-        for name, (_, color) in MODELS.items():
-            exponents = data[f"{medium}, {name}"]
-            axes.semilogx(t, exponents.max(axis=1), color=color, label=name)
-            axes.semilogx(t, exponents.min(axis=1), "--", color=color)
-        axes.set(title=f"in {medium}", xlabel="time [s]", xlim=(0.5, None), ylim=(-3, 5))
-    picture.axes[0].set_ylabel("largest and smallest (dashed) exponent [1/s]")
-    picture.axes[0].legend()
-    return picture
-
-
-REPRODUCTION = declared(__name__, make, draw={"figure": _draw})
+REPRODUCTION = study(
+    __name__,
+    Cells(falling, {"medium": tuple(MEDIA), "model": tuple(MODELS)}),
+    Cells(nearby, {"engine": ENGINES}),
+    Cells(tangent, {}),
+    found=found,
+)

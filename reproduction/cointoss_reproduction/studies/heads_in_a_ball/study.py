@@ -1,27 +1,17 @@
 """Section 5.2: the probability of heads in a ball about a release, as the ball shrinks."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
+import pandas as pd
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from cointoss import Outcome, Scenario, analytic
-from cointoss.study import (
-    BLUE,
-    GREY,
-    VERMILION,
-    Answers,
-    Array,
-    Estimate,
-    Progress,
-    jackknife,
-    mean_share,
-    rows_from_states,
-    share,
-)
-from cointoss_reproduction.frame.declared import Data, Findings, declared
+from cointoss.study import Answers, Array, Estimate, jackknife, mean_share, rows_from_states, share
+from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.halving import halved
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case, planar_rows, toss_rows_by_mujoco
 
@@ -33,48 +23,65 @@ REACH, SAMPLES = 0.1, 200
 """How far up a boundary is sought [m], and at how many heights."""
 FEW = 20
 """Tosses from each of many balls."""
-KINDS = {"inside a basin": BLUE, "on a boundary": VERMILION}
+INSIDE, BORDER, MANY = "inside a basin", "on a boundary", "of many"
+"""Releases in the middles of balls."""
 
 
-def make(
-    progress: Progress, centers: int = 10, count: int = 150, many: int = 300, tosses_mujoco: int = 100
-) -> Findings:
+def tossed(
+    centers: int = 10, count: int = 150, many: int = 300, tosses_mujoco: int = 100
+) -> Iterator[dict[str, Any]]:
     """Toss from balls about random releases, and about releases on boundaries."""
-    found = Findings()
-    scenario = case(air=True)
-    rng = np.random.default_rng(SEED)
-    inside = np.column_stack([rng.uniform(*HEIGHTS, centers), rng.uniform(*SPINS, centers)])
+    scenario, rng = case(air=True), np.random.default_rng(SEED)
+
+    def heads_in(point: Array, radius: float, tosses: int, toss_rows: _Tossing = analytic.toss_rows) -> float:
+        outcome = toss_rows(ball_about(scenario, point[0], point[1], radius, tosses, rng)).outcome
+        return float(np.mean(outcome == Outcome.HEADS))
+
+    inside = _releases(rng, centers)
     border = np.array([[boundary_above(scenario, z, w), w] for z, w in inside])
-    heads: dict[str, Array] = {}
-    for kind, points in zip(KINDS, (inside, border), strict=True):
-        rows = []
-        for z, w in points:
-            balls = [ball_about(scenario, z, w, radius, count, rng) for radius in RADII]
-            rows.append(_heads_in(balls))
-            progress(len(heads) * centers + len(rows), 2 * centers + 2)
-        heads[kind] = np.array(rows)
-    z, w = inside[0]
-    ball = ball_about(scenario, z, w, MUJOCO_RADIUS, tosses_mujoco, rng)
-    found.mujoco = float(_heads_in([ball], toss_rows_by_mujoco)[0])
-    progress(2 * centers + 1, 2 * centers + 2)
-    others = np.column_stack([rng.uniform(*HEIGHTS, many), rng.uniform(*SPINS, many)])
-    alike = {
-        radius: _heads_in([ball_about(scenario, z, w, radius, FEW, rng) for z, w in others])
+    for kind, points in ((INSIDE, inside), (BORDER, border)):
+        for number, point in enumerate(points):
+            for radius in RADII:
+                yield {
+                    "about": kind,
+                    "release": number,
+                    "radius": radius,
+                    "heads": heads_in(point, radius, count),
+                }
+    yield {"by_mujoco": heads_in(inside[0], MUJOCO_RADIUS, tosses_mujoco, toss_rows_by_mujoco)}
+    others = _releases(rng, many)
+    for radius in (RADII[-1], RADII[0]):
+        for point in others:
+            yield {"about": MANY, "radius": radius, "heads": heads_in(point, radius, FEW)}
+
+
+_Tossing = Callable[[Array], Answers]
+
+
+def _releases(rng: np.random.Generator, count: int) -> Array:
+    """Draw heights and spins of releases of the map, (n, 2)."""
+    return np.column_stack([rng.uniform(*HEIGHTS, count), rng.uniform(*SPINS, count)])
+
+
+def found(cells: pd.DataFrame) -> dict[str, Any]:
+    """Return what the claims name, from prob(heads) in the balls."""
+    smallest, largest = (
+        {about: rows.heads.to_numpy() for about, rows in cells[cells.radius == radius].groupby("about")}
         for radius in (RADII[-1], RADII[0])
+    )
+    pure = cells[cells.about == INSIDE].pivot(index="release", columns="radius", values="heads").isin([0, 1])
+    return {
+        "pure_ball": share(np.isin(smallest[MANY], [0, 1]), "releases"),
+        "by_hand": mean_share(largest[MANY], "releases"),
+        "scatter": _scatter(largest[MANY]),
+        # The largest radius up to which only one side comes up.
+        "first": pure.cumprod(axis=1).mul(pure.columns).max(axis=1),
+        "at_border": mean_share(smallest[BORDER], "boundaries"),
+        "even": smallest[BORDER],
+        "sure": smallest[INSIDE][0],
+        "by_hand_range": largest[INSIDE],
+        "height_mm": 1e3 * RADII[0] * case(air=True).coin.radius,
     }
-    found.pure_ball = share((alike[RADII[-1]] == 0) | (alike[RADII[-1]] == 1), "releases")
-    found.by_hand = mean_share(alike[RADII[0]], "releases")
-    progress(2 * centers + 2, 2 * centers + 2)
-    sure, even = heads.values()
-    pure = (sure == 0) | (sure == 1)
-    # The largest radius up to which only one side comes up.
-    found.first = RADII[[len(RADII) - int(np.argmin([*row[::-1], False])) for row in pure]]
-    found.at_border = mean_share(even[:, -1], "boundaries")
-    found.sure, found.even = sure, even.T
-    found.height_mm, found.by_hand_range = 1e3 * RADII[0] * scenario.coin.radius, sure[:, 0]
-    found.scatter = _scatter(alike[RADII[0]])
-    found.data = {"radius": RADII, "release": inside, "boundary": border, **heads}
-    return found
 
 
 def boundary_above(scenario: Scenario, height: float, spin: float) -> float:
@@ -127,12 +134,6 @@ def ball_about(
     return rows_from_states(scenario, np.hstack(parts))
 
 
-def _heads_in(balls: list[Array], toss_rows: Callable[[Array], Answers] = analytic.toss_rows) -> Array:
-    """Return prob(heads) in each of some balls, from the tosses of each, as many in all."""
-    outcomes = toss_rows(np.concatenate(balls)).outcome
-    return np.mean((outcomes == Outcome.HEADS).reshape(len(balls), -1), axis=1)
-
-
 def _scatter(heads: Array) -> Estimate:
     """Return the standard deviation of prob(heads) between balls, less what counting adds."""
 
@@ -143,15 +144,4 @@ def _scatter(heads: Array) -> Estimate:
     return jackknife(spread, len(heads), "releases")
 
 
-def _draw(data: Data) -> Figure:
-    picture = Figure(figsize=(9, 3.4))
-    for axes, (kind, color) in zip(picture.subplots(1, 2, sharey=True), KINDS.items(), strict=True):
-        axes.semilogx(data["radius"], data[kind].T, ".-", color=color, linewidth=0.7)
-        axes.axhline(0.5, color=GREY, linewidth=0.8)
-        axes.set(title=f"about a release {kind}", xlabel="radius ε of the ball", ylim=(-0.03, 1.03))
-        axes.invert_xaxis()
-    picture.axes[0].set_ylabel("prob(heads)")
-    return picture
-
-
-REPRODUCTION = declared(__name__, make, draw={"figure": _draw})
+REPRODUCTION = study(__name__, Cells(tossed, {}), found=found)

@@ -1,17 +1,20 @@
 """Section 5.2: whether general coins on the boundary between heads and tails come to stand on their edge."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
+import pandas as pd
 from scipy.spatial.transform import Rotation
+from scipy.stats import rankdata
 
 from cointoss import Outcome, Scenario
 from cointoss.analytic import AnalyticSettings
-from cointoss.study import BLUE, GREY, VERMILION, Array, FloorFriction, Pieces, Progress, mean, run, share
-from cointoss_reproduction.frame.declared import Data, Findings, declared
+from cointoss.study import Array, FloorFriction, Pieces, mean, run, share
+from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.frame.threads import all_cores
 from cointoss_reproduction.precision.double_double import pair_of
 from cointoss_reproduction.precision.planar_coin import planar_coin, units
@@ -27,7 +30,6 @@ CHI = 0.3
 """So low that doubles resolve most boundaries."""
 IN_AIR = {"thin, in air": False, "thick, in air": True}
 """Kinds of coin, and whether they are thick."""
-COLORS = dict(zip(IN_AIR, (BLUE, VERMILION), strict=True))
 SPANS = {"height": 0.02, "spin": 2.0, "tilt": 0.05}
 """What varies along a line of releases, and how far [m, rad/s, rad]."""
 POINTS = 40
@@ -62,47 +64,31 @@ class Boundary:
     outcomes: tuple[int, int]
 
 
-def make(progress: Progress, lines: int = 120, flat: int = 2000) -> Findings:
-    """Find boundaries on random lines of releases, and follow the coins at their sides."""
-    data: Data = {}
-    whole, done = (len(IN_AIR) + 1) * lines + 1, 0
+def sides(kind: bool, lines: int = 120) -> list[Mapping[str, Any]]:
+    """Return what the coins at both sides of each boundary in air do, on random lines of releases."""
     with all_cores() as pool:
-        for name, thick in IN_AIR.items():
-            rows = []
-            for row in pool.map(_sides, *_lines(CoinClass(thick=thick, **_OTHERS, air=True), lines)):
-                rows += [row] if row is not None else []
-                progress(done := done + 1, whole)
-            data[name] = np.array(rows)
-        in_vacuum = CoinClass(thick=False, **_OTHERS, air=False)
-        meets = []
-        for boundary in pool.map(boundary_on, *_lines(in_vacuum, lines)):
-            meets += [set(boundary.outcomes) == _HEADS_AND_TAILS] if boundary is not None else []
-            progress(done := done + 1, whole)
-        data["in vacuum heads meet tails"] = np.array(meets)
-    data["flat landings"] = landings = flat_landings(flat)
-    progress(done + 1, whole)
-    differ, near = landings[:, 0] == 1, landings[:, 1]
-    return Findings(
-        data=data,
-        coins={name: _stands(data[name]) for name in IN_AIR},
-        lines=len(meets),
-        beside=float(BESIDE),
-        meeting=np.sum(meets),
-        meets=share(meets, "boundaries"),
-        landings=len(landings),
-        differing=np.sum(differ),
-        off=np.median(near[differ]) if differ.any() else np.nan,
-        differ=share(differ, "releases"),
-    )
+        rows = [row for row in pool.map(_sides, *_lines(lines, thick=kind, air=True)) if row is not None]
+    part = rankdata([row["lack"] for row in rows]) / len(rows)
+    return [{**row, "below": below} for row, below in zip(rows, part, strict=True)]
 
 
-_OTHERS: dict[str, bool] = {"imperfect": False, "coulomb": False}
+def in_vacuum(lines: int = 120) -> list[dict[str, bool]]:
+    """Return of the boundaries of a thin coin in vacuum, on random lines, whether heads meet tails there."""
+    with all_cores() as pool:
+        boundaries = pool.map(boundary_on, *_lines(lines, thick=False, air=False))
+        found = [one for one in boundaries if one is not None]
+    return [{"meets": set(one.outcomes) == _HEADS_AND_TAILS} for one in found]
 
 
-def _lines(kind: CoinClass, count: int) -> tuple[list[Scenario], Array, list[str]]:
+def beside_flat_landings(flat: int = 2000) -> list[dict[str, Any]]:
+    """Return what planar coins do beside each of `flat` releases that land flat."""
+    return [{"differs": bool(differs), "off": off} for differs, off in flat_landings(flat)]
+
+
+def _lines(count: int, *, thick: bool, air: bool) -> tuple[list[Scenario], Array, list[str]]:
     """Return scenarios, states and quantities that vary, of random lines of releases."""
-    scenario = kind.scenario.replace("floor.restitution", CHI)
-    quantities = list(SPANS)
+    kind = CoinClass(thick=thick, imperfect=False, air=air, coulomb=False)
+    scenario, quantities = kind.scenario.replace("floor.restitution", CHI), list(SPANS)
     return [scenario] * count, kind.starts(count), [quantities[i % len(SPANS)] for i in range(count)]
 
 
@@ -152,24 +138,25 @@ def boundary_on(scenario: Scenario, start: Array, quantity: str) -> Boundary | N
     )
 
 
-def _sides(scenario: Scenario, start: Array, quantity: str) -> Array | None:
+def _sides(scenario: Scenario, start: Array, quantity: str) -> Mapping[str, Any] | None:
     """Return what the coins at both sides of a line's boundary do; None where it has none.
 
     Returns:
-        Their largest lack, how far they lean [rad], their energy [m g r], and by how much longer the coin
-        stands at `NEAR` than at `FAR`, times the rate at which it falls, over ln(`FAR`/`NEAR`), (4,).
+        Their largest lack, how far they lean [deg], their energy [m g r], and by how much longer the coin
+        stands at `NEAR` than at `FAR`, times the rate at which it falls, over ln(`FAR`/`NEAR`).
     """
     found = boundary_on(scenario, start, quantity)
     if found is None:
         return None
-    sides = [nearest(*followed(found, place)) for place in found.places]
+    lack, lean, E = max(
+        (nearest(*followed(found, place)) for place in found.places), key=lambda side: side[0]
+    )
     digit = np.spacing(max(np.abs(found.places)))
     stays = [
         _stay(*(followed(found, place + sign * digits * digit) for digits in (NEAR, FAR)))
         for place, sign in zip(found.places, (-1, 1), strict=True)
     ]
-    worse = max(sides, key=lambda side: side[0])
-    return np.array([*worse, float(np.mean(stays))])
+    return {"lack": lack, "lean": np.degrees(np.abs(lean)), "energy": E, "ratio": np.mean(stays)}
 
 
 def followed(found: Boundary, place: float) -> tuple[Array, Standing]:
@@ -253,38 +240,43 @@ def flat_landings(count: int) -> Array:
 _PI = Fraction("3.14159265358979323846264338327950288419716939937510582097494")
 
 
-def _stands(rows: Array) -> dict[str, Any]:
-    """Return how coins in air stand, of which `rows` has what `_sides` gives, (n, 4)."""
-    lack, lean, E, slopes = rows.T
-    stands = lack < STANDS
+def found(cells: pd.DataFrame) -> dict[str, Any]:
+    """Return what the claims name: how coins in air stand, by their kind, and the other boundaries."""
+    meets, beside = cells.meets.dropna().astype(bool), cells[cells.differs.notna()]
+    differs = beside.differs.astype(bool)
     return {
-        "boundaries": len(rows),
-        "lack": (np.median(lack), lack.max()),
-        "stands": share(stands, "boundaries"),
-        "lean": np.degrees(np.abs(lean[stands]).max()),
-        "energy": E[stands],
-        "median": np.median(E[stands]),
-        "at_rest": share(np.abs(E[stands] - 1) < AT_REST, "boundaries"),
-        "ratio": mean(slopes[stands & np.isfinite(slopes)], "boundaries"),
+        "coins": {kind: _stands(rows) for kind, rows in cells.groupby("kind", sort=False)},
+        "boundaries_in_vacuum": len(meets),
+        "beside": float(BESIDE),
+        "meeting": meets.sum(),
+        "meets": share(meets, "boundaries"),
+        "landings": len(beside),
+        "differing": differs.sum(),
+        "off": beside.off[differs].median(),
+        "differ": share(differs, "releases"),
     }
 
 
-def _draw(data: Data) -> Figure:
-    picture = Figure(figsize=(9, 3.6))
-    lacks, energies = picture.subplots(1, 2)
-    for name, color in COLORS.items():
-        lack, lean, E, _ = data[name].T
-        order = np.sort(lack)
-        lacks.loglog(order, np.arange(1, len(order) + 1) / len(order), drawstyle="steps-post", color=color)
-        energies.plot(np.degrees(np.abs(lean)), E, ".", color=color, label=name)
-    lacks.axvline(STANDS, linestyle="--", color=GREY)
-    lacks.annotate("counts as standing ", (STANDS, 0.05), ha="right", color=GREY, fontsize=9)
-    lacks.set(title="how near to standing", xlabel="energy lacking [m g r]", ylabel="share of boundaries")
-    lacks.set_yscale("linear")
-    energies.axhline(1, linestyle=":", color=GREY, label="upright, at rest")
-    energies.set(title="how the coin stands", xlabel="leaning by [deg]", ylabel="its energy [m g r]")
-    picture.legend(loc="outside upper center", ncols=3)
-    return picture
+def _stands(rows: pd.DataFrame) -> dict[str, Any]:
+    """Return how coins of one kind stand in air."""
+    stands = rows.lack < STANDS
+    standing = rows[stands]
+    return {
+        "boundaries": len(rows),
+        "lack": (rows.lack.median(), rows.lack.max()),
+        "stands": share(stands, "boundaries"),
+        "lean": standing.lean.max(),
+        "energy": standing.energy,
+        "median": standing.energy.median(),
+        "at_rest": share(np.abs(standing.energy - 1) < AT_REST, "boundaries"),
+        "ratio": mean(standing.ratio.dropna(), "boundaries"),
+    }
 
 
-REPRODUCTION = declared(__name__, make, draw={"figure": _draw})
+REPRODUCTION = study(
+    __name__,
+    Cells(sides, {"kind": IN_AIR}),
+    Cells(in_vacuum, {}),
+    Cells(beside_flat_landings, {}),
+    found=found,
+)
