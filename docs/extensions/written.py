@@ -13,7 +13,7 @@ from myst_nb.core.read import read_myst_markdown_notebook
 from cointoss.study import table, write_text, written_together
 from cointoss_reproduction.frame import gallery, pages, runner
 from cointoss_reproduction.frame.claim import to_json
-from cointoss_reproduction.frame.result import PAGE, SHEETS, folder_of
+from cointoss_reproduction.frame.files import PAGE, SHEETS, folder_of
 
 DOCS = Path(__file__).parents[1]
 

@@ -8,13 +8,12 @@ from tempfile import TemporaryDirectory
 
 import click
 
-from cointoss.study import Place, completing, plain_errors, refuse
+from cointoss.study import Place, completing, drawing_problem, plain_errors, refuse, require_mujoco, stage
+from cointoss_reproduction.frame import runner
 
 
 def _names() -> list[str]:
-    from cointoss_reproduction.frame.runner import names
-
-    return [*names(), "all"]
+    return [*runner.names(), "all"]
 
 
 @click.command()
@@ -57,26 +56,19 @@ def reproduce(
     status 1: a claim comes out otherwise than known; with --check, a verdict changes or a number
     is off; with --older, something is.
     """
-    from cointoss.study import drawing_problem, require_folder, require_mujoco, stage
-    from cointoss_reproduction.frame import gallery, printing, runner
-    from cointoss_reproduction.frame.claim import unexpected
-
-    with plain_errors("reproduce"):
-        # Figures may hold stills: the back end is chosen before MuJoCo is imported.
-        if names and not os.environ.get("MUJOCO_GL"):
-            drawing_problem()
-        require_mujoco()
     known = runner.names()
-    pages, asked = names == ("all",), " ".join(names)
-    if pages:
-        names = tuple(gallery.of_paper())
+    asked = names
+    if names == ("all",):
+        from cointoss_reproduction.frame.gallery import of_paper
+
+        names = tuple(of_paper())
     for name in names:
         if name not in known:
             ctx.fail(f"{name}: no such name; accepted: {', '.join(known)}")
     if kept_here is not None:
         if out is not None or kept is not None:
             ctx.fail("--older: not with --out or --check; accepted: one of them")
-        sys.exit(_list_older(names or tuple(known), Path(kept_here)))
+        sys.exit(1 if _list_older(names or tuple(known), Path(kept_here)) else 0)
     if kept is not None:
         if not names:
             ctx.fail("--check: comes after the names; accepted: NAME ... --check [DIR]")
@@ -84,22 +76,45 @@ def reproduce(
             ctx.fail("--out: not with --check, which writes nothing; accepted: one of them")
         sys.exit(0 if _agree(names, Path(kept), quick=quick) else 1)
     if not names and out is None:
-        width = max(map(len, known)) + 2
-        for name in known:
-            found = runner.find(name)
-            place = f"{found.paper}: " if found.paper else ""
-            click.echo(f"{name:{width}}{place}{found.title} ({found.seconds:g} s)")
+        _list(known)
         return
     if out is None:
-        ctx.fail(f"--out: missing; accepted: {ctx.command_path} {asked} --out DIR")
+        ctx.fail(f"--out: missing; accepted: {ctx.command_path} {' '.join(asked)} --out DIR")
     if not names:
         ctx.fail(f"NAME: missing; accepted: all, or one of: {', '.join(known)}")
+    sys.exit(1 if _write(names, out, quick=quick, pages=asked == ("all",)) else 0)
+
+
+def _list(known: list[str]) -> None:
+    """Print the names of all that can be reproduced, with what the studies say of themselves."""
+    width = max(map(len, known)) + 2
+    for name in known:
+        said = runner.told(name)
+        place = f"{said['paper']}: " if "paper" in said else ""
+        click.echo(f"{name:{width}}{place}{said['title']} ({said['seconds']:g} s)")
+
+
+def _ready() -> None:
+    """Choose MuJoCo's back end, before MuJoCo is imported: figures may hold stills."""
+    with plain_errors("reproduce"):
+        if not os.environ.get("MUJOCO_GL"):
+            drawing_problem()
+        require_mujoco()
+
+
+def _write(names: tuple[str, ...], out: Path, *, quick: bool, pages: bool) -> list[str]:
+    """Write what is computed and print it; return the claims that come out otherwise than known."""
+    from cointoss.study import require_folder
+    from cointoss_reproduction.frame import gallery, printing
+    from cointoss_reproduction.frame.claim import unexpected
+
+    _ready()
+    width = min(shutil.get_terminal_size((100, 24)).columns, 120)
+    failed: list[str] = []
     with plain_errors(str(out)):
         require_folder(out, gallery.PAGES if pages else ())
         for name in names:
             runner.require_writable(name, out)
-        width = min(shutil.get_terminal_size((100, 24)).columns, 120)
-        failed = []
         for name in names:
             with stage(name, "parts") as progress:
                 result = runner.reproduce(name, out, progress, quick=quick)
@@ -111,46 +126,44 @@ def reproduce(
             gallery.write(out, names, quick=quick)
     for claim in failed:
         click.echo(f"cointoss: {claim}: another verdict than the known one", err=True)
-    sys.exit(1 if failed else 0)
+    return failed
 
 
-def _list_older(names: tuple[str, ...], kept: Path) -> int:
-    """Print which results in a folder are older than the engines here, and return 1 where any is, else 0."""
-    from cointoss_reproduction.frame import checking, provenance, runner
+def _list_older(names: tuple[str, ...], kept: Path) -> bool:
+    """Print which results in a folder are older than the engines here, and return whether any is."""
+    from cointoss_reproduction.frame import checking, provenance
 
-    found = 0
-    for name in names:
-        folder = runner.folder_of(name, kept)
-        try:
-            checking.require_run(folder, quick=None)
-            with plain_errors(name):
-                why = provenance.older(folder)
-        except checking.RunError as error:
-            why = str(error)
-        if why:
-            click.echo(f"{name}: {why}")
-            found = 1
+    found = False
+    with plain_errors("--older"):
+        for name in names:
+            folder = runner.folder_of(name, kept)
+            try:
+                why = provenance.older(checking.read_run(folder, quick=None).made_of)
+            except checking.RunError as error:
+                why = str(error)
+            if why:
+                click.echo(f"{name}: {why}")
+                found = True
     return found
 
 
 def _agree(names: tuple[str, ...], kept: Path, *, quick: bool) -> bool:
     """Compute results anew, print how they compare with those in a folder, and return whether all agree."""
-    from cointoss.study import stage
-    from cointoss_reproduction.frame import checking, runner
+    from cointoss_reproduction.frame import checking
 
-    for name in names:
-        try:
-            checking.require_run(runner.folder_of(name, kept), quick=quick)
-        except checking.RunError as error:
-            refuse(str(error))
+    _ready()
+    try:
+        runs = {name: checking.read_run(runner.folder_of(name, kept), quick=quick) for name in names}
+    except checking.RunError as error:
+        refuse(str(error))
     agree = True
-    for name in names:
+    for name, there in runs.items():
         timed = runner.find(name).timed
         with plain_errors(name), TemporaryDirectory() as aside:
             with stage(name, "parts") as progress:
                 runner.reproduce(name, Path(aside), progress, quick=quick)
-            folder = runner.folder_of(name, kept)
-            found = checking.check(folder, runner.folder_of(name, Path(aside)), timed=timed)
-        click.echo(checking.in_words(name, str(folder), found, timed=timed))
+            here = checking.read_run(runner.folder_of(name, Path(aside)), quick=quick)
+            found = checking.check(there, here, timed=timed)
+        click.echo(checking.in_words(name, str(runner.folder_of(name, kept)), found, timed=timed))
         agree = agree and found.agrees
     return agree

@@ -1,13 +1,18 @@
 """A study run, what it says of a record of numbers, and what a page of docs/ shows of it."""
 
 import re
+import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+import pytest
+
+from cointoss_reproduction import studies
 from cointoss_reproduction.frame import runner
 from cointoss_reproduction.frame.claim import unexpected
-from cointoss_reproduction.frame.result import Result, folder_of
+from cointoss_reproduction.frame.files import folder_of
+from cointoss_reproduction.frame.result import Result
 from cointoss_reproduction.frame.saving import save
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -16,6 +21,27 @@ DOCS = Path(__file__).parents[2] / "docs"
 def unseen(done: int, whole: int) -> None:
     """Hear of a study's progress, and tell nobody."""
     assert done <= whole
+
+
+def fake(monkeypatch: pytest.MonkeyPatch, folder: Path, name: str, code: str, said: str) -> None:
+    """Put a study beside the real ones, until the test ends.
+
+    Args:
+        monkeypatch: of the test.
+        folder: of such studies, made if missing.
+        name: of the study.
+        code: of its module.
+        said: its TOML file.
+    """
+    place = folder / name
+    place.mkdir(parents=True, exist_ok=True)
+    for file, text in (("__init__.py", ""), ("study.py", code), ("study.toml", said)):
+        (place / file).write_text(text)
+    # A module that is written twice in a second would be taken from its bytecode.
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
+    monkeypatch.setattr(studies, "__path__", [*studies.__path__, str(folder)])
+    for module in (f"{studies.__name__}.{name}", f"{studies.__name__}.{name}.study"):
+        sys.modules.pop(module, None)
 
 
 def result_of(study: str, record: Any) -> Result:

@@ -22,6 +22,7 @@ FOUND = {
     "known": None,
     "limits": {"low": 1, "high": 2},
     "rates": {"low": 0.5, "high": 1.5},
+    "heads": {"thin, in air": 7},
 }
 
 
@@ -37,6 +38,7 @@ def claims_of(text):
         ("shares[AIR, thin].low", 0.2),
         ("apart[on a soft floor]", 0.0123),
         ("swing.size", 4),
+        ("heads[thin, in air]", 7),
     ],
 )
 def test_a_field_names_a_part_of_what_was_found(field, value):

@@ -53,6 +53,7 @@ def made(tmp_path, monkeypatch):
     }
     monkeypatch.setattr(runner, "names", lambda: sorted(figures))
     monkeypatch.setattr(runner, "find", figures.__getitem__)
+    monkeypatch.setattr(runner, "told", lambda name: {"paper": figures[name].paper})
     sources = (("missing", "figure.png"), ("first", "figure.png"))
     monkeypatch.setattr(gallery, "MAIN", (gallery.MainClaim(says="two is more", sources=sources),))
     answered = cointoss("reproduce", "all", "--quick", "--out", tmp_path)
@@ -93,7 +94,7 @@ def test_all_makes_a_table_of_verdicts_and_a_gallery(made):
     head, *rows = csv.reader((made / "claims.csv").read_text(encoding="utf-8").splitlines())
     assert [row[head.index("claimed")] for row in rows] == 3 * ["no", "yes"]
     first = (made / "reproduction" / "first" / "index.md").read_text(encoding="utf-8")
-    parts = ("**Claims:** 1 holds.", "1 &lt; 2", "**Beside the claims:**", "0 &lt; 1")
+    parts = ("**Claims:** 1 holds.", "1 &lt; 2", "**Regression tests:**", "0 &lt; 1")
     assert sorted(map(first.index, parts)) == [first.index(part) for part in parts]
     for name in ("first", "second", "third"):
         assert "cointoss reproduce" in (made / "reproduction" / name / "index.md").read_text(encoding="utf-8")

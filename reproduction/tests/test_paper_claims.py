@@ -147,7 +147,7 @@ def test_the_slope_of_a_curve_that_jumps_once_falls_with_the_steps_fitted():
     curve = np.append(0.0, np.full(40, 2.0))
     steps = np.arange(1, 41)
     assert fig27._slopes(curve) == pytest.approx(6 * 2.0 / ((steps + 1) * (steps + 2)))
-    assert fig27._steps_of(fig27._slopes(curve)[None], 12 / (20 * 21)) == (19, 19, 19)
+    assert fig27._steps_of(fig27._slopes(curve), 12 / (20 * 21)) == 19
 
 
 def test_neighbours_on_a_circle_have_near_images_where_there_is_a_map():

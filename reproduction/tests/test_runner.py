@@ -6,48 +6,41 @@ import sys
 
 import pytest
 
-from cointoss_reproduction import studies
-from cointoss_reproduction.frame import runner
+from cointoss_reproduction.frame import provenance, runner
+from saved import fake
 from tests.helpers.command_line import cointoss, refused
 
-FAKE = """
-from dataclasses import dataclass
-from cointoss_reproduction.frame.claim import Claim, Criterion
-from cointoss_reproduction.frame.result import Reproduction, Result
+CODE = """
+from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.study import study
 
-@dataclass
-class Numbers:
-    sum: int
+def cell():
+    return {{"sum": {sum}}}
 
-def make(progress):
-    progress(1, 1)
-    return Result(
-        claims=[Claim(claim="two and two are five", criteria=[Criterion("sum", {sum}, "=", 5, "five")])],
-        data=Numbers({sum}),
-        tables="as **drawn**",
-    )
-
-REPRODUCTION = Reproduction(title="a fake", seconds=0, make=make, draw={{}})
+REPRODUCTION = study(__name__, Cells(cell, {{}}))
 """
-COMPILED = "__import__('cointoss.models.kernel.compiled', fromlist=['by_numba']).by_numba(lambda: 5)()"
-SUMS = {
-    "compiled": COMPILED,
-    "good": "5",
-    "doubtful": "4",
-    "broken": "(_ for _ in ()).throw(KeyboardInterrupt)",
-}
+SAID = """
+title = "a fake"
+seconds = 0
+
+[[table]]
+says = "as **drawn**"
+columns = [["sum", "sum"]]
+
+[measure.sum]
+value = "sum"
+
+[[claim]]
+claim = "two and two are five"
+criteria = [["sum", "sum", "=", 5, "five"]]
+"""
+SUMS = {"good": "5", "doubtful": "4", "broken": "(_ for _ in ()).throw(KeyboardInterrupt)"}
 
 
 @pytest.fixture
 def fakes(tmp_path, monkeypatch):
-    folder = tmp_path / "figures"
-    folder.mkdir()
     for name, value in SUMS.items():
-        (folder / f"fake_{name}.py").write_text(FAKE.format(sum=value))
-    monkeypatch.setattr(studies, "__path__", [*studies.__path__, str(folder)])
-    yield
-    for name in SUMS:
-        sys.modules.pop(f"{studies.__name__}.fake_{name}", None)
+        fake(monkeypatch, tmp_path / "studies", f"fake_{name}", CODE.format(sum=value), SAID)
 
 
 @pytest.mark.usefixtures("fakes")
@@ -56,42 +49,40 @@ def test_without_a_name_it_lists_what_there_is():
     assert answered.exit_code == 0
     lines = answered.stdout.splitlines()
     assert [line.split()[0] for line in lines] == runner.names()
-    for line, name in zip(lines, runner.names(), strict=True):
-        found = runner.find(name)
-        assert found.title in line
-        assert f"({found.seconds:g} s)" in line
     assert "contact-laws" in runner.names()
+    for line, name in zip(lines, runner.names(), strict=True):
+        said = runner.told(name)
+        assert line.endswith(f"{said['title']} ({said['seconds']:g} s)")
+        assert said.get("paper", "") in line
 
 
-def test_names_are_found_without_importing_what_they_name():
-    script = (
-        "import sys\nfrom cointoss_reproduction.frame import runner\n"
-        "assert 'contact-laws' in runner.names()\n"
-        "heavy = {'numba', 'numpy', 'matplotlib', 'cointoss_reproduction.studies.contact_laws'}\n"
-        "print(sorted(heavy & set(sys.modules)))"
-    )
+def test_names_are_listed_without_importing_what_they_name():
+    script = """
+import atexit, sys
+from cointoss.compare.cli import main
+
+heavy = {"numba", "numpy", "matplotlib", "mujoco", "cointoss_reproduction.studies.contact_laws.study"}
+atexit.register(lambda: print(heavy & set(sys.modules)))
+main(["reproduce"])
+"""
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"
+    assert "\ncontact-laws " in done.stdout
+    assert done.stdout.splitlines()[-1] == "set()"
 
 
 @pytest.mark.usefixtures("fakes")
 def test_files_are_written_and_the_results_printed(tmp_path):
     old = tmp_path / "out" / "reproduction" / "fake-good"
     old.mkdir(parents=True)
-    for name in ("numbers.json", "data.npz", "mine.txt"):
+    for name in ("cells.csv", "data.npz", "mine.txt"):
         (old / name).write_text("old")
     answered = cointoss("reproduce", "fake-good", "--out", tmp_path / "out")
     assert (answered.exit_code, answered.stderr) == (0, "")
-    assert answered.stdout.startswith("as drawn\n\n✓ holds: two and two are five\n")
+    assert answered.stdout.startswith("as drawn\n\nsum\n───\n5\n\n✓ holds: two and two are five\n")
     assert answered.stdout.endswith(f"\n\nfake-good: 1 holds\n{old}\n")
-    assert sorted(path.name for path in old.iterdir()) == [
-        "claims.json",
-        "mine.txt",
-        "numbers.json",
-        "provenance.json",
-    ]
-    assert json.loads((old / "numbers.json").read_text()) == {"sum": 5}
-    assert (old / "mine.txt").read_text() == "old"
+    kept = {path.name: path.read_text() for path in old.iterdir()}
+    assert sorted(kept) == ["cells.csv", "claims.json", "mine.txt", "provenance.json"]
+    assert (kept["cells.csv"], kept["mine.txt"]) == ("sum\n5\n", "old")
 
 
 @pytest.mark.usefixtures("fakes")
@@ -102,8 +93,7 @@ def test_a_claim_that_fails_is_exit_status_1_and_keeps_the_evidence(tmp_path):
     assert counts == ["fake-doubtful: 1 does not hold", "fake-good: 1 holds"]
     told = "cointoss: fake-doubtful: two and two are five: another verdict than the known one\n"
     assert answered.stderr == told
-    folder = tmp_path / "out" / "reproduction" / "fake-doubtful"
-    assert json.loads((folder / "numbers.json").read_text()) == {"sum": 4}
+    assert (tmp_path / "out" / "reproduction" / "fake-doubtful" / "cells.csv").read_text() == "sum\n4\n"
 
 
 @pytest.mark.usefixtures("fakes")
@@ -113,14 +103,31 @@ def test_an_interrupted_run_leaves_everything_as_it_was(tmp_path):
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.usefixtures("fakes")
-def test_without_numba_a_study_with_functions_of_its_own_says_in_a_line_what_it_needs(tmp_path, monkeypatch):
-    monkeypatch.delitem(sys.modules, "cointoss.models.kernel.by_numba", raising=False)
-    monkeypatch.setitem(sys.modules, "numba", None)
-    told = refused("reproduce", "fake-compiled", "--out", tmp_path / "out")
-    needs = 'fake-compiled: needs numba: pip install "cointoss-dynamics[reproduce]"'
-    assert told == f"cointoss: {needs}\n"
-    assert not (tmp_path / "out").exists()
+INTERRUPTED = """
+from pathlib import Path
+
+def cell(number):
+    mark = Path(__file__).with_name(f"{number}")
+    if number == 1 and not mark.exists():
+        mark.touch()
+        raise KeyboardInterrupt
+    mark.write_text(mark.read_text() + "x" if mark.exists() else "x")
+    return {"sum": 5}
+"""
+
+
+def test_an_interrupted_study_goes_on_where_it_was_and_a_finished_one_leaves_no_parts(tmp_path, monkeypatch):
+    code = INTERRUPTED + CODE.replace('def cell():\n    return {{"sum": {sum}}}\n', "").format()
+    said = SAID.replace('value = "sum"', 'value = "sum"\ntake = "max"')
+    fake(
+        monkeypatch, tmp_path / "studies", "long", code.replace("cell, {}", "cell, {'number': (0, 1)}"), said
+    )
+    folder = tmp_path / "reproduction" / "long"
+    assert cointoss("reproduce", "long", "--out", tmp_path).exit_code == 130
+    assert [path.name for path in folder.iterdir()] == ["parts"]
+    assert cointoss("reproduce", "long", "--out", tmp_path).exit_code == 0
+    assert (tmp_path / "studies" / "long" / "0").read_text() == "x"
+    assert sorted(path.name for path in folder.iterdir()) == ["cells.csv", "claims.json", "provenance.json"]
 
 
 @pytest.mark.usefixtures("fakes")
@@ -136,9 +143,43 @@ def test_what_is_in_the_way_is_refused_before_any_work(tmp_path):
     ):
         # Run, the good one would print and the broken one would abort.
         assert named in refused("reproduce", "fake-good", "fake-broken", "--out", out)
-    assert (
-        (tmp_path / "file").read_text()
-        == (tmp_path / "out" / "reproduction" / "fake-broken").read_text()
-        == "mine"
-    )
+    for kept in (tmp_path / "file", tmp_path / "out" / "reproduction" / "fake-broken"):
+        assert kept.read_text() == "mine"
     assert not (tmp_path / "out" / "reproduction" / "fake-good").exists()
+
+
+def older(*names):
+    answered = cointoss("reproduce", *names)
+    return answered.exit_code, answered.stdout.splitlines()
+
+
+@pytest.mark.usefixtures("fakes")
+def test_results_of_other_engines_are_listed_as_older(tmp_path, monkeypatch):
+    assert cointoss("reproduce", "fake-good", "--out", tmp_path).exit_code == 0
+    assert older("fake-good", "--older", tmp_path) == (0, [])
+    status, lines = older("fake-good", "fake-doubtful", "--older", tmp_path)
+    assert (status, len(lines)) == (1, 1)
+    assert "fake-doubtful: holds no claims.json" in lines[0]
+    status, lines = older("--older", tmp_path)
+    assert len(lines) == len(runner.names()) - 1
+    monkeypatch.setattr(provenance, "engine_digests", lambda: {"analytic": "new", "mujoco": "new"})
+    assert older("fake-good", "--older", tmp_path) == (1, ["fake-good: is older than analytic and mujoco"])
+    monkeypatch.setattr("platform.machine", lambda: "generic")
+    (line,) = older("fake-good", "--older", tmp_path)[1]
+    assert line.startswith("fake-good: was made on another system, ")
+
+
+@pytest.mark.usefixtures("fakes")
+def test_a_result_that_does_not_say_what_made_it_is_listed_as_older(tmp_path):
+    assert cointoss("reproduce", "fake-good", "--out", tmp_path).exit_code == 0
+    path = tmp_path / "reproduction" / "fake-good" / "provenance.json"
+    made_of = json.loads(path.read_text())
+    del made_of["engines"]
+    path.write_text(json.dumps(made_of))
+    unsaid = (1, ["fake-good: does not say by which engines it was made"])
+    assert older("fake-good", "--older", tmp_path) == unsaid
+    path.unlink()
+    assert older("fake-good", "--older", tmp_path) == unsaid
+    path.write_text("[]")
+    assert "provenance.json: needs sources" in older("fake-good", "--older", tmp_path)[1][0]
+    assert cointoss("reproduce", "fake-good", "--older", tmp_path, "--out", tmp_path).exit_code == 2

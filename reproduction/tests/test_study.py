@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from cointoss.compare.metrics.estimates import share_of
-from cointoss_reproduction.frame.cells import Cells, read_table, table_of, text_of
+from cointoss_reproduction.frame.cells import Cells, column, read_table, table_of, text_of
 from cointoss_reproduction.frame.selection import measured, picture_of, tables_of
 from saved import unseen
 
@@ -33,6 +33,12 @@ def test_a_table_has_a_row_for_each_cell_that_answers_with_the_names_on_its_axes
 def test_a_table_is_read_as_it_was_written(tmp_path):
     (tmp_path / "cells.csv").write_text(text_of(CELLS))
     pd.testing.assert_frame_equal(read_table(tmp_path / "cells.csv"), CELLS)
+
+
+def test_a_column_is_that_of_the_rows_that_have_it():
+    cells = table_of([Cells(counted, AXES), Cells(lambda: {"width": 2.0}, {})], unseen, {})
+    assert column(cells, "heads").tolist() == [15, 30, 40]
+    assert column(cells, "width", "floor.isna()").tolist() == [2.0]
 
 
 def test_a_cell_that_was_kept_is_not_computed_again(tmp_path):
@@ -63,6 +69,7 @@ def test_an_axis_and_a_column_of_one_name_are_refused():
         ({"value": "width", "take": "max", "less": 0.06}, 0.3),
         ({"value": "heads", "take": "sum"}, 850),
         ({"value": "width - 1", "take": "farthest"}, 0.91),
+        ({"value": "heads", "take": "max", "key": ["floor"]}, {"smooth": 300, "rough": 400}),
     ],
 )
 def test_a_measure_selects_numbers(said, found):
@@ -138,3 +145,19 @@ def test_a_picture_may_name_its_rows_and_have_parts():
     assert np.asarray(sides.lines[0].get_xdata()).tolist() == [0.15, 0.3]
     # A number without an interval has no bar.
     assert [len(axes.collections) for axes in (sides, widths)] == [2, 0]
+
+
+def test_kinds_of_a_line_share_its_colour_and_its_place_in_the_legend():
+    said = {"x": "chi", "y": "width", "lines": ["floor"], "kinds": "chi", "style": {0.3: "-", 0.6: "."}}
+    (axes,) = picture_of(CELLS, said).axes
+    first, second, _ = axes.get_lines()
+    assert (first.get_color(), first.get_linestyle(), first.get_marker()) == (second.get_color(), "-", "None")
+    assert second.get_marker() == "."
+    assert axes.get_legend_handles_labels()[1] == ["smooth", "rough"]
+    assert picture_of(CELLS, 4 * [said]).axes[-1].get_subplotspec().get_gridspec().nrows == 2
+
+
+def test_a_cell_may_answer_a_table():
+    cell = Cells(lambda n: pd.DataFrame({"t": np.arange(n), "z": "so"}), {"n": (1, 2)})
+    found = table_of([cell], unseen, {})
+    assert found.to_dict("list") == {"n": [1, 2, 2], "t": [0, 0, 1], "z": ["so", "so", "so"]}

@@ -13,18 +13,18 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from cointoss.study import Estimate, Progress, read_bounded, write_text
+from cointoss_reproduction.frame.files import MOST_BYTES
 from cointoss_reproduction.frame.provenance import sources
 
-Cell = Callable[..., Mapping[str, Any] | Iterable[Mapping[str, Any]] | None]
-"""Answers for a value of each axis, and for the sizes of the run that it names: a row, several, or none."""
-Axis = Sequence[Any] | Mapping[str, Any]
+Rows = Mapping[str, Any] | Iterable[Mapping[str, Any]] | pd.DataFrame | None
+"""A row of a table, several, or none."""
+Cell = Callable[..., Rows]
+"""Answers for a value of each axis, and for the sizes of the run that it names."""
+Axis = Sequence[Any] | Mapping[Any, Any]
 """The values of an axis, by names where they have some."""
-TABLE = "cells.csv"
-"""The file of the table that a run leaves."""
-MOST_BYTES = 1 << 26
-"""Of a table."""
 _WORDS = {"": None, "True": True, "False": False}
 ENDS = (" low", " high", " count", " counted")
 """End the names of columns: of an estimate's interval, the size of its sample, and what that is of."""
@@ -96,6 +96,12 @@ def text_of(table: pd.DataFrame) -> str:
     return table.to_csv(index=False, lineterminator="\n")
 
 
+def column(cells: pd.DataFrame, name: str, where: str = "") -> NDArray[Any]:
+    """Return what the rows that `where` selects, of pandas' query, have in a column; others are left out."""
+    rows = cells.query(where, engine="python") if where else cells
+    return np.array(rows[name].dropna().tolist())
+
+
 def estimate(row: Mapping[str, Any], column: str) -> Any:
     """Return what a row has in a column, with its interval where there is one."""
     value = row[column]
@@ -124,10 +130,10 @@ def _value(text: str) -> Any:
     return text
 
 
-def _rows(found: Mapping[str, Any] | Iterable[Mapping[str, Any]] | None) -> list[Mapping[str, Any]]:
-    if found is None:
-        return []
-    return [found] if isinstance(found, Mapping) else list(found)
+def _rows(found: Rows) -> Sequence[Any]:
+    if isinstance(found, pd.DataFrame):
+        return found.to_dict("records")
+    return [found] if isinstance(found, Mapping) else list(found or ())
 
 
 def _flat(row: Mapping[str, Any]) -> dict[str, Any]:

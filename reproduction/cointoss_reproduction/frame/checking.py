@@ -1,17 +1,20 @@
 """Whether a run finds the numbers of an earlier one: each with what it may differ by, and why."""
 
-import json
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from numbers import Real
 from pathlib import Path
 from typing import Any, TypeGuard
 
-from cointoss.study import read_bounded
-from cointoss_reproduction.frame.cells import ENDS, TABLE, read_table
-from cointoss_reproduction.frame.claim import VERDICTS, read_claims
-from cointoss_reproduction.frame.provenance import PROVENANCE, read_provenance, unlike
+import pandas as pd
+
+from cointoss.study import Estimate
+from cointoss_reproduction.frame.cells import ENDS, estimate, read_table
+from cointoss_reproduction.frame.claim import VERDICTS, Claim, read_claims
+from cointoss_reproduction.frame.files import CLAIMS, PROVENANCE, TABLE
+from cointoss_reproduction.frame.provenance import read_provenance, unlike
 
 CONFIDENCE = 2.58
 """Standard deviations to either side of 99 % of a normal distribution."""
@@ -23,14 +26,38 @@ PRINTED = "within one in the third digit, as they are printed"
 BESIDE = "within a thousandth of the largest number beside it"
 SMALL = "within a hundredth of the threshold: rounding"
 SAME = "equal"
-MOST_BYTES = 1 << 26
-"""Of the numbers of a run."""
-LONGEST = 18
-"""Digits of a whole number."""
-_ENDS = frozenset({"value", "low", "high"})
-"""Of an estimate."""
 _TOLD = ("analytic", "mujoco", "headline")
 """What a claim says in words."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Run:
+    """What a run left in its folder."""
+
+    claims: tuple[Claim, ...]
+    cells: pd.DataFrame
+    """Its table, an empty one where it has none."""
+    made_of: Mapping[str, Any] | None
+    """See `provenance`; None of an earlier run."""
+
+    @property
+    def named(self) -> dict[str, Claim]:
+        """The claims by their words, alike ones numbered."""
+        seen, claims = Counter[str](), dict[str, Claim]()
+        for one in self.claims:
+            seen[one.claim] += 1
+            claims[f"{one.claim} ({seen[one.claim]})" if seen[one.claim] > 1 else one.claim] = one
+        return claims
+
+    @property
+    def columns(self) -> dict[str, list[Any]]:
+        """The table by columns, an estimate with its interval in one."""
+        rows = self.cells.to_dict("records")
+        return {
+            str(name): [estimate(row, name) for row in rows]
+            for name in self.cells
+            if not (str(name).endswith(ENDS) and str(name).rpartition(" ")[0] in self.cells)
+        }
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,240 +102,138 @@ class RunError(ValueError):
     """A folder that is not as a run leaves it; the message names the file and why."""
 
 
-def require_run(folder: Path, *, quick: bool | None) -> None:
-    """Check that a folder holds what a run of this size, or of any, has left.
+def read_run(folder: Path, *, quick: bool | None) -> Run:
+    """Return what a run of this size, or of any, has left in a folder.
 
     Raises:
         RunError: naming the file, why, and what is accepted.
     """
-    if not (folder / "claims.json").is_file():
+    if not (folder / CLAIMS).is_file():
         raise RunError(
-            f"{folder}: holds no claims.json, so no run; accepted: --check DIR after a run with --out DIR"
+            f"{folder}: holds no {CLAIMS}, so no run; accepted: --check DIR after a run with --out DIR"
         )
-    made_of: Any = None
-    for name, read in (
-        ("claims.json", lambda: _require_claims(folder)),
-        ("numbers.json", lambda: _numbers(folder)),
-        (TABLE, lambda: _columns(folder)),
-        (PROVENANCE, lambda: read_provenance(folder)),
-    ):
+    read, found = {CLAIMS: read_claims, TABLE: _read_table, PROVENANCE: read_provenance}, dict[str, Any]()
+    for name, reader in read.items():
         try:
-            made_of = read()
-        except (ValueError, TypeError, LookupError, AttributeError, RecursionError, OSError) as error:
+            found[name] = reader(folder / name)
+        except (ValueError, OSError) as error:
             why = error.strerror if isinstance(error, OSError) else error
             raise RunError(f"{folder / name}: {why}; accepted: the file as a run has written it") from None
+    made_of = found[PROVENANCE]
     if quick is not None and quick is not (made_of is not None and made_of["quick"]):
         size, way = ("full", "without") if quick else ("quick", "with")
         raise RunError(f"{folder}: of the {size} size; accepted: the same {way} --quick")
+    return Run(claims=found[CLAIMS], cells=found[TABLE], made_of=made_of)
 
 
-def _require_claims(folder: Path) -> None:
-    """Check that the claims of a run are claims, with verdicts.
-
-    Raises:
-        ValueError, TypeError, LookupError, AttributeError: where they are not.
-    """
-    listed = json.loads((folder / "claims.json").read_text(encoding="utf-8"))
-    if not isinstance(listed, list):
-        raise ValueError("no list of claims")
-    for number, one in enumerate(listed, start=1):
-        if not (isinstance(one["claim"], str) and "\n" not in one["claim"]):
-            raise ValueError(f"claim {number}: no line of text")
-        if not (one["holds"] is None or isinstance(one["holds"], bool)):
-            raise ValueError(f"claim {number}: holds is {one['holds']!r}")
-        for value in (value for criterion in one["criteria"] for value in _values(criterion)):
-            if not (isinstance(value, float) or (_is_number(value) and abs(value) < 10**LONGEST)):
-                raise ValueError(f"claim {number}: {str(value)[:LONGEST]!r} where a number is due")
-    read_claims(folder / "claims.json")
+def _read_table(path: Path) -> pd.DataFrame:
+    return read_table(path) if path.exists() else pd.DataFrame()
 
 
-def _values(criterion: Mapping[str, Any]) -> list[Any]:
-    """Return the numbers of a criterion."""
-    measured = criterion["measured"]
-    ends = [measured[end] for end in sorted(_ENDS)] if isinstance(measured, dict) else [measured]
-    return [criterion["threshold"], *ends]
-
-
-def _numbers(folder: Path) -> Any:
-    """Return the numbers of a run, None where it keeps none as text.
-
-    Raises:
-        ValueError, OSError: for what no run writes: what is not finite, or a share that is no number.
-    """
-    path = folder / "numbers.json"
-    if not path.exists():
-        return None
-    read = {"parse_int": _whole, "parse_float": _finite, "parse_constant": _finite}
-    return json.loads(read_bounded(path, MOST_BYTES), object_hook=_of_numbers, **read)
-
-
-def _columns(folder: Path) -> dict[str, list[Any]] | None:
-    """Return the table of a run by columns, an estimate as its ends, None where it keeps none.
-
-    Raises:
-        ValueError, OSError: where it is no table.
-    """
-    path = folder / TABLE
-    if not path.exists():
-        return None
-    table = read_table(path).astype(object)
-    columns = {str(name): values.tolist() for name, values in table.where(table.notna(), None).items()}
-    for name in [name for name in columns if f"{name}{ENDS[0]}" in columns]:
-        ends = zip(columns[name], *(columns.pop(name + end) for end in ENDS), strict=True)
-        columns[name] = [{"value": value, "low": low, "high": high} for value, low, high, *_ in ends]
-    return columns
-
-
-def _whole(text: str) -> int:
-    if len(text) > LONGEST:
-        raise ValueError(f"a whole number of {len(text)} digits")
-    return int(text)
-
-
-def _finite(text: str) -> float:
-    number = float(text)
-    if not math.isfinite(number):
-        raise ValueError(f"{text[:LONGEST]}: no finite number")
-    return number
-
-
-def _of_numbers(table: dict[str, Any]) -> dict[str, Any]:
-    if table.keys() >= _ENDS and not all(_is_number(table[end]) for end in _ENDS):
-        raise ValueError(f"{', '.join(f'{end} {table[end]!r}' for end in sorted(_ENDS))}: no numbers")
-    return table
-
-
-def check(there: Path, here: Path, *, timed: bool) -> Check:
-    """Compare the folders of two runs.
+def check(there: Run, here: Run, *, timed: bool) -> Check:
+    """Compare two runs.
 
     Args:
-        there: of the earlier run.
-        here: of the run of this machine.
+        there: the earlier run.
+        here: the run of this machine.
         timed: whether the numbers are times, which no two runs share.
     """
-    ours = read_provenance(here)
-    assert ours is not None
-    other = unlike(read_provenance(there), ours)
-    claims, found = _claims(there), _claims(here)
-    changed = tuple(
-        f"{claim}: {_verdict(claims.get(claim))} there, {_verdict(found.get(claim))} here"
-        for claim in {**claims, **found}
-        if _verdict(claims.get(claim)) != _verdict(found.get(claim))
-    )
-    numbers: list[Compared] = []
-    words: list[str] = []
-    if not timed:
-        words = [
-            f"{claim}: {claims[claim].get(who, 'nothing')} there, {found[claim][who]} here"
-            for claim in claims
-            for who in _TOLD
-            if claim in found and claims[claim].get(who) != found[claim][who]
-        ]
-        for claim in claims.keys() & found.keys():
-            numbers += _criteria(claim, claims[claim]["criteria"], found[claim]["criteria"], exact=not other)
-        if (kept := _numbers(there)) is not None:
-            numbers += compared("numbers.json", kept, _numbers(here), exact=not other)
-        if (columns := _columns(there)) is not None:
-            numbers += compared(TABLE, columns, _columns(here), exact=not other)
+    assert here.made_of is not None
+    other = unlike(there.made_of, here.made_of)
+    claims, found = there.named, here.named
+    verdicts = {one: [_verdict(of.get(one)) for of in (claims, found)] for one in {**claims, **found}}
+    both = [] if timed else [(name, claims[name], found[name]) for name in claims if name in found]
+    exact = not other
+    numbers = [one for pair in both for one in _criteria(*pair, exact=exact)]
+    if not (timed or there.cells.empty):
+        numbers += _columns(there.columns, here.columns, exact=exact)
     return Check(
         unlike=other,
-        verdicts=len({**claims, **found}),
-        changed=changed,
+        verdicts=len(verdicts),
+        changed=tuple(
+            f"{one}: {old} there, {new} here" for one, (old, new) in verdicts.items() if old != new
+        ),
         numbers=tuple(numbers),
-        words=tuple(words),
+        words=tuple(
+            f"{name}: {getattr(old, who)} there, {getattr(new, who)} here"
+            for name, old, new in both
+            for who in _TOLD
+            if getattr(old, who) != getattr(new, who)
+        ),
     )
 
 
-def _claims(folder: Path) -> dict[str, Any]:
-    """Return the claims of a run by their words, alike ones numbered."""
-    listed, seen = json.loads((folder / "claims.json").read_text(encoding="utf-8")), Counter[str]()
-    claims = {}
-    for one in listed:
-        seen[one["claim"]] += 1
-        number = seen[one["claim"]]
-        claims[one["claim"] if number == 1 else f"{one['claim']} ({number})"] = one
-    return claims
+def _verdict(claim: Claim | None) -> str:
+    return "no such claim" if claim is None else VERDICTS[claim.holds]
 
 
-def _verdict(claim: Mapping[str, Any] | None) -> str:
-    return "no such claim" if claim is None else VERDICTS[claim["holds"]]
+def _criteria(name: str, there: Claim, here: Claim, *, exact: bool) -> Iterator[Compared]:
+    yield from _as_many(name, there.criteria, here.criteria, "criteria")
+    for one, other in zip(there.criteria, here.criteria, strict=False):
+        small = min(abs(one.threshold), abs(other.threshold)) / 100
+        place = f"{name}: {other.quantity}"
+        yield compared(place, one.measured, other.measured, exact=exact, small=small)
 
 
-def _criteria(claim: str, there: list[Any], here: list[Any], *, exact: bool) -> Iterator[Compared]:
+def _columns(
+    there: Mapping[str, list[Any]], here: Mapping[str, list[Any]], *, exact: bool
+) -> Iterator[Compared]:
+    for name in {**there, **here}:
+        old, new, place = there.get(name, []), here.get(name, []), f"{TABLE} {name}"
+        yield from _as_many(place, old, new, "rows")
+        largest = max((abs(one) for one in (*old, *new) if isinstance(one, float)), default=0.0)
+        for number, (one, other) in enumerate(zip(old, new, strict=False)):
+            yield compared(f"{place}[{number}]", one, other, exact=exact, beside=largest)
+
+
+def _as_many(place: str, there: Any, here: Any, what: str) -> Iterator[Compared]:
+    """Yield a difference where two runs have not as many."""
     if len(there) != len(here):
-        yield _unequal(claim, f"{len(there)} criteria", f"{len(here)} criteria", PRINTED)
-    for one, other in zip(there, here, strict=False):
-        place = f"{claim}: {other['quantity']}"
-        threshold = min(abs(one["threshold"]), abs(other["threshold"]))
-        yield from compared(place, one["measured"], other["measured"], exact=exact, small=threshold / 100)
+        counts = (f"{len(each)} {what}" for each in (there, here))
+        yield compared(place, *counts, exact=False)
 
 
 def compared(
     place: str, there: Any, here: Any, *, exact: bool, beside: float = 0.0, small: float = 0.0
-) -> Iterator[Compared]:
-    """Yield the numbers of two values as JSON has them, each with what it may differ by.
+) -> Compared:
+    """Return how a number, an estimate or a word of two runs compares, with what it may differ by.
 
     Neither run is preferred: exchanged, they agree in the same places.
 
     Args:
-        place: where the values stand.
+        place: where it stands.
         there: of the earlier run.
         here: of this one.
         exact: whether the bits should be the same.
-        beside: the largest number in the lists that hold them.
+        beside: the largest number in its column.
         small: what rounding may change.
     """
-    if isinstance(there, dict) and isinstance(here, dict):
-        if not exact and _ENDS <= there.keys() & here.keys():
-            agrees = _same(there["value"], here["value"]) or all(
-                one["low"] <= other["value"] <= one["high"] for one, other in ((there, here), (here, there))
-            )
-            yield Compared(
-                place=place, there=there["value"], here=here["value"], reason=ESTIMATE, agrees=agrees
-            )
-            return
-        for key in {**there, **here}:
-            inner = f"{place} {key}"
-            if key in there and key in here:
-                yield from compared(inner, there[key], here[key], exact=exact, small=small)
-            else:
-                yield _unequal(
-                    inner, "given" if key in there else "none", "given" if key in here else "none", SAME
-                )
-    elif isinstance(there, list) and isinstance(here, list):
-        if len(there) != len(here):
-            yield _unequal(place, f"{len(there)} numbers", f"{len(here)} numbers", SAME)
-        largest = max((abs(one) for one in (*there, *here) if isinstance(one, float)), default=0.0)
-        for number, (one, other) in enumerate(zip(there, here, strict=False)):
-            yield from compared(f"{place}[{number}]", one, other, exact=exact, beside=largest, small=small)
-    elif _is_number(there) and _is_number(here):
-        allowed, reason = (0.0, BITS) if exact else _allowed(there, here, beside, small)
-        agrees = _same(there, here) or abs(there - here) <= allowed
-        yield Compared(place=place, there=there, here=here, reason=reason, agrees=agrees)
-    else:
-        yield Compared(place=place, there=there, here=here, reason=SAME, agrees=there == here)
+    agrees, reason = _same(there, here), BITS if exact else SAME
+    if not exact and isinstance(there, Estimate) and isinstance(here, Estimate):
+        reason = ESTIMATE
+        agrees = agrees or (there.low <= here.value <= there.high and here.low <= there.value <= here.high)
+    elif not exact and _is_number(there) and _is_number(here):
+        allowed, reason = _allowed(there, here, beside, small)
+        agrees = agrees or abs(there - here) <= allowed
+    return Compared(place=place, there=there, here=here, reason=reason, agrees=agrees)
 
 
 def _allowed(there: float, here: float, beside: float, small: float) -> tuple[float, str]:
     """Return by how much two numbers may differ, and why; the same whichever is the earlier."""
-    if isinstance(there, int) and isinstance(here, int):
-        return CONFIDENCE * math.sqrt(max(abs(there), abs(here))), COUNT
     size = max(abs(there), abs(here))
+    if isinstance(there, int) and isinstance(here, int):
+        return CONFIDENCE * math.sqrt(size), COUNT
     printed = 10.0 ** (math.floor(math.log10(size)) - 2) if 0 < size < math.inf else 0.0
     return max((printed, PRINTED), (beside / 1000, BESIDE), (small, SMALL), key=lambda pair: pair[0])
 
 
-def _same(there: float, here: float) -> bool:
-    """Return whether two numbers are equal, or both not a number, as the share of no trials."""
-    return there == here or (math.isnan(there) and math.isnan(here))
+def _same(there: Any, here: Any) -> bool:
+    """Return whether two values are the same to the bit, the share of no trials too."""
+    return repr(there) == repr(here)
 
 
 def _is_number(value: Any) -> TypeGuard[float]:
-    return isinstance(value, int | float) and not isinstance(value, bool)
-
-
-def _unequal(place: str, there: str, here: str, reason: str) -> Compared:
-    return Compared(place=place, there=there, here=here, reason=reason, agrees=False)
+    return isinstance(value, Real) and not isinstance(value, bool)
 
 
 def in_words(name: str, where: str, found: Check, *, timed: bool) -> str:
@@ -329,13 +254,20 @@ def in_words(name: str, where: str, found: Check, *, timed: bool) -> str:
     elif found.unlike:
         lines.append(f"  not to the bit: {found.unlike}")
     agreeing = Counter(
-        EQUAL if number.there == number.here else number.reason for number in found.numbers if number.agrees
+        EQUAL if _same(number.there, number.here) else number.reason
+        for number in found.numbers
+        if number.agrees
     )
     lines += [f"  {count} {reason}" for reason, count in agreeing.items()]
     lines += [f"  changes: {words}" for words in found.changed]
     lines += [f"  in other words: {words}" for words in found.words]
     lines += [
-        f"  off: {number.place}: {number.there} there, {number.here} here; accepted: {number.reason}"
+        f"  off: {number.place}: {_told(number.there)} there, {_told(number.here)} here; "
+        f"accepted: {number.reason}"
         for number in found.off
     ]
     return "\n".join(lines)
+
+
+def _told(value: Any) -> Any:
+    return value.value if isinstance(value, Estimate) else value

@@ -9,7 +9,10 @@ from numbers import Integral
 from pathlib import Path
 from typing import Literal
 
-from cointoss.study import Estimate
+from pydantic import TypeAdapter, ValidationError
+
+from cointoss.study import Estimate, read_bounded
+from cointoss_reproduction.frame.files import MOST_BYTES
 
 Relation = Literal["<", "≤", "=", "≥", ">", "within ±"]
 _COMPARE: dict[Relation, Callable[[float, float], bool]] = {
@@ -30,9 +33,9 @@ class Criterion:
 
     quantity: str
     """What is measured, with its unit in brackets."""
-    measured: float | Estimate
+    measured: int | float | Estimate
     relation: Relation
-    threshold: float
+    threshold: int | float
     reason: str
     """Why this is the threshold."""
 
@@ -116,8 +119,10 @@ class Claim:
     """Whether it is a regression test: written after its numbers, it could not come out otherwise."""
 
     def __post_init__(self) -> None:
-        """Keep the criteria as a tuple; refuse a claim that nothing decides."""
+        """Keep the criteria as a tuple; refuse what nothing decides, or is no line."""
         object.__setattr__(self, "criteria", tuple(self.criteria))
+        if "\n" in self.claim:
+            raise ValueError(f"{self.claim!r}: several lines; accepted: one")
         if not self.criteria and not self.missing:
             raise ValueError(f"criteria of {self.claim!r}: none; accepted: one or more, or what is missing")
 
@@ -174,15 +179,16 @@ def to_json(claims: Sequence[Claim]) -> str:
 
 
 def read_claims(path: Path) -> tuple[Claim, ...]:
-    """Read claims that a run wrote; verdicts follow from their numbers."""
-    listed = json.loads(path.read_text(encoding="utf-8"))
-    for one in listed:
-        del one["holds"]
-        for criterion in one["criteria"]:
-            if isinstance(criterion["measured"], dict):
-                criterion["measured"] = Estimate(**criterion["measured"])
-        one["criteria"] = tuple(Criterion(**criterion) for criterion in one["criteria"])
-    return tuple(Claim(**one) for one in listed)
+    """Read claims that a run wrote; verdicts follow from their numbers.
+
+    Raises:
+        ValueError, OSError: in one line, for what no run writes.
+    """
+    try:
+        return TypeAdapter(tuple[Claim, ...]).validate_json(read_bounded(path, MOST_BYTES))
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        raise ValueError(f"{'.'.join(map(str, first['loc']))}: {first['msg']}") from None
 
 
 def _number(value: float) -> str:

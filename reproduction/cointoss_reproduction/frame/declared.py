@@ -1,11 +1,9 @@
 """What a module declares in the TOML file of its name, filled in with what a run of it finds."""
 
 import sys
-import tomllib
 from collections import ChainMap
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cache, partial
-from importlib import resources
+from functools import partial
 from inspect import signature
 from itertools import groupby
 from string import Formatter
@@ -16,6 +14,7 @@ from numpy.typing import NDArray
 
 from cointoss.study import Estimate, in_words, percent
 from cointoss_reproduction.frame.claim import Claim, Criterion
+from cointoss_reproduction.frame.files import said_by
 from cointoss_reproduction.frame.result import Reproduction, Result
 
 if TYPE_CHECKING:  # names are listed without it
@@ -90,13 +89,6 @@ def _constants(module: str) -> dict[str, Any]:
     return {name: value for name, value in vars(sys.modules[module]).items() if name.isupper()}
 
 
-@cache
-def said_by(module: str) -> dict[str, Any]:
-    """Return what the TOML file beside a module declares."""
-    package, _, name = module.rpartition(".")
-    return tomllib.loads((resources.files(package) / f"{name}.toml").read_text(encoding="utf-8"))
-
-
 def filled(claims: Sequence[Mapping[str, Any]], names: ChainMap[str, Any]) -> Iterator[Claim]:
     """Yield declared claims with their numbers.
 
@@ -123,12 +115,18 @@ def value_of(field: str, names: Mapping[str, Any]) -> Any:
     value: Any = names[root]
     for step in steps:
         if step.startswith("["):
-            key, *more = (_key(key, names) for key in step[1:-1].split(", "))
-            value = value[(key, *more) if more else key]
+            value = value[_index(step[1:-1], value, names)]
         else:
             value = getattr(value, step)
             value = value() if callable(value) else value
     return value
+
+
+def _index(text: str, of: Any, names: Mapping[str, Any]) -> Any:
+    if isinstance(of, Mapping) and text in of:
+        return text
+    key, *more = (_key(key, names) for key in text.split(", "))
+    return (key, *more) if more else key
 
 
 def _key(key: str, names: Mapping[str, Any]) -> Any:

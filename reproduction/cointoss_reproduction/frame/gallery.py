@@ -13,8 +13,9 @@ import jinja2
 from cointoss.study import sheet, table, written_together
 from cointoss_reproduction.frame import runner
 from cointoss_reproduction.frame.claim import MARKS, VERDICTS, Claim, criteria_of, read_claims
+from cointoss_reproduction.frame.files import CLAIMS, PAGE
 from cointoss_reproduction.frame.pages import verdicts_of
-from cointoss_reproduction.frame.result import PAGE, Reproduction
+from cointoss_reproduction.frame.result import Reproduction
 
 PAGES = ("REPRODUCTION.md", "claims.csv", "gallery.html")
 _ORDER = ("Table", "Fig", "Section", "Claims")
@@ -111,8 +112,8 @@ class GalleryEntry:
 
 def of_paper() -> list[str]:
     """Return the names of all figures of the paper, in its order."""
-    places = {name: runner.find(name).paper for name in runner.names()}
-    return sorted((name for name, place in places.items() if place), key=lambda name: _place(places[name]))
+    places = {name: runner.told(name).get("paper", "") for name in runner.names()}
+    return sorted(filter(places.get, places), key=lambda name: _place(places[name]))
 
 
 def _place(paper: str) -> tuple[int, list[int], str]:
@@ -139,7 +140,7 @@ def entries(out: Path, names: Sequence[str]) -> list[GalleryEntry]:
         GalleryEntry(
             name=name,
             found=runner.find(name),
-            claims=read_claims(runner.folder_of(name, out) / "claims.json"),
+            claims=read_claims(runner.folder_of(name, out) / CLAIMS),
             picture=runner.folder_of(name, out) / "figure.png",
         )
         for name in names
@@ -223,8 +224,8 @@ def opening(out: Path) -> list[tuple[MainClaim, str, Path]]:
     for main in MAIN:
         for name, picture in main.sources:
             folder = runner.folder_of(name, out)
-            if (folder / "claims.json").exists() and (folder / picture).exists():
-                claims = read_claims(folder / "claims.json")
+            if (folder / CLAIMS).exists() and (folder / picture).exists():
+                claims = read_claims(folder / CLAIMS)
                 headlines = [claim.headline for claim in claims if claim.headline]
                 found.append((main, (headlines or _verdicts(claims))[main.number], folder / picture))
                 break

@@ -8,7 +8,8 @@ from pathlib import Path
 
 from cointoss.study import folded, sheets, table, unfolding, write_text
 from cointoss_reproduction.frame.claim import VERDICTS, Claim
-from cointoss_reproduction.frame.result import PAGE, Reproduction, Result, folder_of
+from cointoss_reproduction.frame.files import PAGE, folder_of
+from cointoss_reproduction.frame.result import Reproduction, Result
 
 _PLURAL = {True: "hold", False: "do not hold", None: "cannot be tested"}
 

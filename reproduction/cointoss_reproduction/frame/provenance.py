@@ -9,13 +9,12 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from cointoss.study import code_digest, engine_digests, versions_of
+from cointoss.study import code_digest, engine_digests, read_bounded, versions_of
+from cointoss_reproduction.frame.files import CLAIMS, MOST_BYTES, PROVENANCE, TABLE
 
-PROVENANCE = "provenance.json"
-"""Lies beside the claims of a run; earlier runs have none."""
 PACKAGES = ("mujoco", "numpy", "scipy")
 """Those whose numbers a result is made of."""
-_OUTPUTS = ("claims.json", "numbers.json", "cells.csv")
+_OUTPUTS = (CLAIMS, "numbers.json", TABLE)
 _BOOK = Path(__file__).parents[1]
 
 
@@ -37,6 +36,12 @@ def provenance(folder: Path, *, quick: bool) -> dict[str, Any]:
     }
 
 
+def keep(folder: Path, *, quick: bool) -> None:
+    """Write what a run was made of into its folder, after all else; see `provenance`."""
+    made_of = json.dumps(provenance(folder, quick=quick), indent=1)
+    (folder / PROVENANCE).write_text(made_of + "\n", encoding="utf-8")
+
+
 @cache
 def sources() -> str:
     """Return the digest of the sources of cointoss and of its studies."""
@@ -46,13 +51,8 @@ def sources() -> str:
     return digest.hexdigest()[:16]
 
 
-def older(folder: Path) -> str:
-    """Return in words by which engines other than those here a run was made, empty where by none.
-
-    Raises:
-        ValueError: as `read_provenance`.
-    """
-    made_of = read_provenance(folder)
+def older(made_of: Mapping[str, Any] | None) -> str:
+    """Return in words by which engines other than those here a run was made, empty where by none."""
     if made_of is None or "engines" not in made_of:
         return "does not say by which engines it was made"
     if made_of["machine"] != machine():
@@ -70,16 +70,15 @@ def machine() -> dict[str, str]:
     }
 
 
-def read_provenance(folder: Path) -> dict[str, Any] | None:
-    """Return what a run in a folder was made of, None where it did not say.
+def read_provenance(path: Path) -> dict[str, Any] | None:
+    """Return what a run was made of, by its file; None where there is none.
 
     Raises:
         ValueError: for a file that is not as `provenance` gives it.
     """
-    path = folder / PROVENANCE
     if not path.exists():
         return None
-    made_of = json.loads(path.read_text(encoding="utf-8"))
+    made_of = json.loads(read_bounded(path, MOST_BYTES))
     kinds = {"sources": str, "quick": bool, "versions": dict, "machine": dict}
     if not (isinstance(made_of, dict) and all(isinstance(made_of.get(key), kinds[key]) for key in kinds)):
         raise ValueError(f"needs {', '.join(kinds)}")

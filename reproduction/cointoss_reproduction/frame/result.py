@@ -6,17 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cointoss_reproduction.frame.claim import Claim
-from cointoss_reproduction.frame.provenance import PROVENANCE
+from cointoss_reproduction.frame.files import CLAIMS, PAGE, PROVENANCE, SHEETS, TABLE
 
 if TYPE_CHECKING:  # names are listed without it
     from matplotlib.figure import Figure
-
-FOLDER = "reproduction"
-"""Holds the folders of all that was reproduced."""
-PAGE = "index.md"
-"""The page of a figure of the paper."""
-SHEETS = tuple(f"table-{number}.csv" for number in range(1, 20))
-"""Long tables that a page shows."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,9 +54,4 @@ class Reproduction:
     def files(self) -> tuple[str, ...]:
         """Names of all files that it may write."""
         pictures = (f"{name}.png" for name in self.draw)
-        return ("claims.json", "data.npz", "numbers.json", "cells.csv", PROVENANCE, PAGE, *SHEETS, *pictures)
-
-
-def folder_of(name: str, out: Path) -> Path:
-    """Return the folder of what one of the `names` writes below `out`."""
-    return out / FOLDER / name
+        return (CLAIMS, "data.npz", "numbers.json", TABLE, PROVENANCE, PAGE, *SHEETS, *pictures)

@@ -2,15 +2,16 @@
 
 import importlib
 import pkgutil
-from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-from cointoss.study import Progress, remove, require_folder, written_together
 from cointoss_reproduction import studies
-from cointoss_reproduction.frame.claim import read_claims
-from cointoss_reproduction.frame.result import FOLDER, Reproduction, Result, folder_of
+from cointoss_reproduction.frame.files import CLAIMS, FOLDER, folder_of, said_by
+
+if TYPE_CHECKING:
+    from cointoss.study import Progress
+    from cointoss_reproduction.frame.result import Reproduction, Result
 
 PARTS = "parts"
 """Holds what an interrupted run had done."""
@@ -21,9 +22,18 @@ def names() -> list[str]:
     return sorted(study.name.replace("_", "-") for study in pkgutil.iter_modules(studies.__path__))
 
 
-def find(name: str) -> Reproduction:
-    """Return what has one of the `names`."""
-    return importlib.import_module(f"{studies.__name__}.{name.replace('-', '_')}.study").REPRODUCTION
+def told(name: str) -> dict[str, Any]:
+    """Return what the TOML file of one of the `names` says; its module is not imported."""
+    return said_by(_module(name))
+
+
+def find(name: str) -> "Reproduction":
+    """Return what has one of the `names`; its module is imported."""
+    return importlib.import_module(_module(name)).REPRODUCTION
+
+
+def _module(name: str) -> str:
+    return f"{studies.__name__}.{name.replace('-', '_')}.study"
 
 
 def require_writable(name: str, out: Path) -> None:
@@ -32,12 +42,14 @@ def require_writable(name: str, out: Path) -> None:
     Raises:
         UnwritableError: naming what is in the way.
     """
+    from cointoss.study import require_folder
+
     for folder in (out, out / FOLDER):
         require_folder(folder, ())
     require_folder(folder_of(name, out), find(name).files)
 
 
-def reproduce(name: str, out: Path, progress: Progress, *, quick: bool = False) -> Result:
+def reproduce(name: str, out: Path, progress: "Progress", *, quick: bool = False) -> "Result":
     """Compute one of the `names` and write its files into its folder, all of them or none.
 
     Args:
@@ -48,10 +60,9 @@ def reproduce(name: str, out: Path, progress: Progress, *, quick: bool = False) 
 
     Raises:
         UnwritableError: naming the folder and why.
-        ImportError: in one line, where numba is missing, by which a study compiles functions of its own.
     """
-    from cointoss_reproduction.frame.pages import write
-    from cointoss_reproduction.frame.saving import keep_provenance, save
+    from cointoss.study import remove, written_together
+    from cointoss_reproduction.frame import pages, provenance, saving
 
     found = find(name)
     require_writable(name, out)
@@ -60,26 +71,18 @@ def reproduce(name: str, out: Path, progress: Progress, *, quick: bool = False) 
     if found.resumes:
         make = partial(make, kept=folder / PARTS)
     with written_together(folder, found.files) as aside:
-        with _numba_named(name):
-            result = make(progress)
-        save(aside, result, found.draw)
-        write(aside, name, found, result, quick=quick)
-        keep_provenance(aside, quick=quick)
+        result = make(progress)
+        saving.save(aside, result, found.draw)
+        pages.write(aside, name, found, result, quick=quick)
+        provenance.keep(aside, quick=quick)
     remove(folder / PARTS)
     return result
 
 
-@contextmanager
-def _numba_named(name: str) -> Iterator[None]:
-    try:
-        yield
-    except ModuleNotFoundError as error:
-        if error.name not in ("numba", "flint"):
-            raise
-        raise ImportError(f"{name}: needs {error.name}: pip install cointoss-reproduction") from None
-
-
-def kept(name: str, out: Path) -> Result:
+def kept(name: str, out: Path) -> "Result":
     """Return what an earlier run of one of the `names` left below `out`: its claims, a study's all."""
+    from cointoss_reproduction.frame.claim import read_claims
+    from cointoss_reproduction.frame.result import Result
+
     found, folder = find(name), folder_of(name, out)
-    return found.read(folder) if found.read else Result(claims=read_claims(folder / "claims.json"), data={})
+    return found.read(folder) if found.read else Result(claims=read_claims(folder / CLAIMS), data={})

@@ -14,9 +14,9 @@ from PIL import Image
 from pydantic import TypeAdapter
 
 from cointoss.study import STYLE
-from cointoss_reproduction.frame.cells import TABLE, text_of
+from cointoss_reproduction.frame.cells import text_of
 from cointoss_reproduction.frame.claim import to_json
-from cointoss_reproduction.frame.provenance import PROVENANCE, provenance
+from cointoss_reproduction.frame.files import CLAIMS, TABLE
 from cointoss_reproduction.frame.result import Result
 
 _COLORS = 128
@@ -25,7 +25,7 @@ Numbers = TypeVar("Numbers")
 
 def save(folder: Path, result: Result, draw: Mapping[str, Callable[[Any], Figure]]) -> None:
     """Write the claims, the data and the pictures into a folder that exists."""
-    (folder / "claims.json").write_text(to_json(result.claims), encoding="utf-8")
+    (folder / CLAIMS).write_text(to_json(result.claims), encoding="utf-8")
     data = result.data
     if isinstance(data, pd.DataFrame):
         (folder / TABLE).write_text(text_of(data), encoding="utf-8")
@@ -35,12 +35,6 @@ def save(folder: Path, result: Result, draw: Mapping[str, Callable[[Any], Figure
         numbers = json.dumps(asdict(data), indent=1, allow_nan=False, default=np.ndarray.tolist)
         (folder / "numbers.json").write_text(numbers, encoding="utf-8")
     draw_all(folder, result.data, draw)
-
-
-def keep_provenance(folder: Path, *, quick: bool) -> None:
-    """Write what a run was made of into its folder, after all else; see `provenance`."""
-    made_of = json.dumps(provenance(folder, quick=quick), indent=1)
-    (folder / PROVENANCE).write_text(made_of + "\n", encoding="utf-8")
 
 
 def draw_all(folder: Path, data: Any, draw: Mapping[str, Callable[[Any], Figure]]) -> None:

@@ -1,12 +1,29 @@
 """What a study declares of its table: measures for its claims, tables for its page, pictures of lines."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from math import ceil
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
 
-from cointoss.study import Estimate, chance_alike, in_words, paragraphs, percent, share_of, table
+from cointoss.study import (
+    BLUE,
+    GREEN,
+    GREY,
+    INK,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILION,
+    Estimate,
+    chance_alike,
+    in_words,
+    paragraphs,
+    percent,
+    share_of,
+    table,
+)
 from cointoss_reproduction.frame.cells import ENDS, estimate
 
 if TYPE_CHECKING:
@@ -21,8 +38,11 @@ TAKEN = {
     "median": lambda values: float(np.median(values)),
     "mean": lambda values: float(np.mean(values)),
     "sum": lambda values: np.sum(values).item(),
+    "range": lambda values: float(np.ptp(values)),
 }
 """What one number may be made of several."""
+COLORS = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY, INK, GREY)
+"""Of the lines of a picture."""
 
 
 def selected(cells: pd.DataFrame, said: Declared) -> pd.DataFrame:
@@ -31,21 +51,21 @@ def selected(cells: pd.DataFrame, said: Declared) -> pd.DataFrame:
     `per` has columns: the numbers of rows that are the same there are added up.
     """
     rows = cells.query(said["where"], engine="python") if "where" in said else cells
-    return (
-        rows.groupby(said["per"], sort=False, as_index=False).sum(numeric_only=True)
-        if "per" in said
-        else rows
-    )
+    return _added(rows, said["per"]) if "per" in said else rows
+
+
+def _added(rows: pd.DataFrame, per: list[str]) -> pd.DataFrame:
+    return pd.DataFrame(rows.groupby(per, sort=False, as_index=False).sum(numeric_only=True))
 
 
 def measured(cells: pd.DataFrame, said: Declared) -> Any:
     """Return what a measure selects: one number or estimate, or several by what tells their rows apart.
 
     A measure has `value`, a column or an expression of columns, or `share`, the columns of a part and of its
-    whole; of them the number `less` is subtracted, and `take` makes one of `TAKEN` of all rows. `key` has the
-    columns that name the rows, by default none where one row is selected. `alike` has columns of counts: the
-    probability by chance that rows of the same `key` differ as they do. A row of another cell, which has no
-    such value, is not selected.
+    whole; of them the number `less` is subtracted, and `take` makes one of `TAKEN` of all rows, or of those
+    of each `key`. `key` has the columns that name the rows, by default none where one row is selected.
+    `alike` has columns of counts: the probability by chance that rows of the same `key` differ as they do. A
+    row of another cell, which has no such value, is not selected.
 
     Raises:
         ValueError: where nothing is selected.
@@ -56,6 +76,9 @@ def measured(cells: pd.DataFrame, said: Declared) -> Any:
     if "alike" in said:
         groups = rows.groupby(said["key"], sort=False)
         return {_name(key): chance_alike(each[said["alike"]].to_numpy(dtype=int)) for key, each in groups}
+    if "take" in said and "key" in said:
+        groups = rows.groupby(said["key"], sort=False)
+        return {_name(key): _shifted(_taken(each, said), said) for key, each in groups}
     if "take" in said:
         return _shifted(_taken(rows, said), said)
     found = [_shifted(_one(row, said), said) for row in rows.to_dict("records")]
@@ -161,23 +184,27 @@ def picture_of(cells: pd.DataFrame, said: Declared | Sequence[Declared]) -> "Fig
 
     In place of `x` there may be `names`, columns that name the rows down the side of the picture. `panels`
     names an axis that has a panel for each name. `levels` are drawn as grey lines, `style` is of Matplotlib;
-    all else is what `Axes.set` takes. Several declarations are drawn side by side.
+    of lines whose rows are of several `kinds`, a column, each kind has its own. `legend` is the title of
+    a panel's own; all else is what `Axes.set` takes. Several declarations are drawn side by side, more than
+    three in two rows.
     """
     from matplotlib.figure import Figure
 
     panels = [
         (name, rows, part)
         for part in ([said] if isinstance(said, Mapping) else said)
-        for name, rows in _panels(_having(selected(cells, part), _drawn(part)), part)
+        for name, rows in _groups(_having(selected(cells, part), _drawn(part)), part.get("panels"))
     ]
-    drawn = Figure(figsize=(7 if len(panels) == 1 else 4.5 * len(panels), 3.8))
-    for axes, (name, rows, part) in zip(
-        drawn.subplots(1, len(panels), squeeze=False)[0], panels, strict=True
-    ):
+    down = 1 if len(panels) < 4 else 2
+    across = ceil(len(panels) / down)
+    drawn = Figure(figsize=(7 if across == 1 else 4.5 * across, 3.8 * down))
+    grid = drawn.subplots(down, across, squeeze=False)
+    for empty in grid.flat[len(panels) :]:
+        empty.remove()
+    for axes, (name, rows, part) in zip(grid.flat, panels, strict=False):
         names = list(dict.fromkeys(_names(rows, part.get("names", []))))
-        for number, (label, line, (value, low, high)) in enumerate(_lines(rows, part)):
+        for number, style, line, (value, low, high) in _lines(rows, part):
             ends = [value - low, high - value] if np.any(low < high) else None
-            style = {"fmt": part.get("style", "o-"), "capsize": 2, "label": label}
             if "names" in part:
                 at = [names.index(name) + number / 5 for name in _names(line, part["names"])]
                 axes.errorbar(value, at, xerr=ends, **style)
@@ -188,29 +215,39 @@ def picture_of(cells: pd.DataFrame, said: Declared | Sequence[Declared]) -> "Fig
             axes.invert_yaxis()
         for level in part.get("levels", ()):
             (axes.axvline if "names" in part else axes.axhline)(level, color="grey", linewidth=0.8)
-        axes.set(**({"title": name} | {key: one for key, one in part.items() if key not in _OF_PICTURES}))
+        axes.set(
+            **({"title": str(name)} | {key: one for key, one in part.items() if key not in _OF_PICTURES})
+        )
+        if "legend" in part:
+            axes.legend(title=part["legend"])
     *others, last = drawn.axes
-    last.legend(loc="upper left", bbox_to_anchor=(1, 1))
+    labels = last.get_legend_handles_labels()[1]
+    if labels and last.get_legend() is None:
+        last.legend(loc="upper left", bbox_to_anchor=(1, 1))
     for axes in others:
-        if axes.get_legend_handles_labels()[1] != last.get_legend_handles_labels()[1]:
+        if axes.get_legend() is None and axes.get_legend_handles_labels()[1] not in ([], labels):
             axes.legend()
     return drawn
 
 
-_OF_PICTURES = {"where", "x", "y", "names", "lines", "panels", "levels", "style"}
+_OF_PICTURES = {"where", "per", "x", "y", "names", "lines", "kinds", "panels", "levels", "style", "legend"}
 
 
-def _panels(rows: pd.DataFrame, said: Declared) -> list[tuple[str, pd.DataFrame]]:
-    if "panels" not in said:
-        return [("", rows)]
-    return [(str(name), of_panel) for name, of_panel in rows.groupby(said["panels"], sort=False)]
+def _lines(rows: pd.DataFrame, said: Declared) -> Iterator[tuple[int, dict[str, Any], pd.DataFrame, Any]]:
+    styles = said.get("style", "o-")
+    for number, (key, line) in enumerate(_groups(rows, said.get("lines"))):
+        label = _name(key)
+        for kind, part in _groups(line, said.get("kinds")):
+            found = [_one(row, _drawn(said)) for row in part.to_dict("records")]
+            ends = [one.ends if isinstance(one, Estimate) else (one, one, one) for one in found]
+            style = styles[kind] if isinstance(styles, Mapping) else styles
+            shown = {"fmt": style, "color": COLORS[number % len(COLORS)], "label": label, "capsize": 2}
+            yield number, shown, part, np.array(ends, dtype=float).T
+            label = ""
 
 
-def _lines(rows: pd.DataFrame, said: Declared) -> Iterator[tuple[str, pd.DataFrame, Any]]:
-    for key, line in rows.groupby(said["lines"], sort=False):
-        found = [_one(row, _drawn(said)) for row in line.to_dict("records")]
-        ends = [one.ends if isinstance(one, Estimate) else (one, one, one) for one in found]
-        yield _name(key), line, np.array(ends, dtype=float).T
+def _groups(rows: pd.DataFrame, by: Any) -> Iterable[tuple[Any, pd.DataFrame]]:
+    return rows.groupby(by, sort=False) if by else [("", rows)]
 
 
 def _drawn(said: Declared) -> Declared:

@@ -7,7 +7,8 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from cointoss.study import Progress
-from cointoss_reproduction.frame.declared import Findings, declared, result, said_by
+from cointoss_reproduction.frame.declared import Findings, declared, result
+from cointoss_reproduction.frame.files import TABLE, said_by
 from cointoss_reproduction.frame.result import Reproduction, Result
 
 if TYPE_CHECKING:  # names are listed without it
@@ -34,7 +35,7 @@ def study(
         found: gives what the claims name and no measure selects, from the table.
         draw: the pictures that are more than lines, by name, each drawn from the table.
     """
-    from cointoss_reproduction.frame.cells import TABLE, read_table, table_of
+    from cointoss_reproduction.frame.cells import read_table, table_of
     from cointoss_reproduction.frame.selection import measured, picture_of, tables_of
 
     said = said_by(module)
@@ -59,4 +60,4 @@ def study(
     pictures = {
         name: (lambda cells, one=one: picture_of(cells, one)) for name, one in said.get("picture", {}).items()
     }
-    return declared(module, make, read=read, draw={**pictures, **draw}, resumes=True)
+    return declared(module, make, read=read, draw={**draw, **pictures}, resumes=True)

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -96,6 +97,13 @@ def sequences(scenario: Scenario, heights: Iterable[float]) -> list[str]:
 def printed_heights() -> list[float]:
     """Return the heights of (a) to (f) [m]."""
     return [load(f"fig24{letter}").release.position[2] for letter in PRINTED]
+
+
+@cache
+def clustering() -> tuple[Reading, ...]:
+    """Return the readings in which the impacts of all six tosses cluster as printed."""
+    heights = printed_heights()
+    return tuple(one for one in READINGS if clusters_as_printed(sequences(one.scenario, heights)))
 
 
 def clusters_as_printed(found: Sequence[str]) -> bool:

@@ -1,6 +1,6 @@
 """The maps of Figs 29 to 31: faces of the planar thin coin over its release height and spin."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
 
@@ -56,6 +56,16 @@ class Grid:
 def whole_grid(points: int) -> Grid:
     """Return the grid of a whole map with so many points along each side."""
     return Grid(heights=np.linspace(*HEIGHTS, points), spins=np.linspace(*SPINS, points))
+
+
+def lines_of(faces: NDArray[np.int8]) -> list[str]:
+    """Return the lines of a map as text, a letter for each outcome: a for 0."""
+    return ["".join(chr(ord("a") + face) for face in line) for line in faces.tolist()]
+
+
+def map_of(lines: Iterable[str]) -> NDArray[np.int8]:
+    """Return the map that has been written as lines."""
+    return np.array([[ord(letter) - ord("a") for letter in line] for line in lines], dtype=np.int8)
 
 
 def planar_rows(scenario: Scenario, heights: Array, spins: Array) -> Array:

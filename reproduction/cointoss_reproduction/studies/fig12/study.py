@@ -1,58 +1,78 @@
 """Fig. 12: the 1D coin, in plane motion by eqs (40)-(48) and by both engines."""
 
+from collections.abc import Iterator
+from typing import Any
+
 import numpy as np
+import pandas as pd
 from matplotlib.figure import Figure
 from scipy.integrate import solve_ivp
 
-from cointoss import Air, Scenario, States, Toss, analytic, coin_mj, load
-from cointoss.study import ANALYTIC, MUJOCO, PALE, Array, Progress, parting_time, rotation_matrix
-from cointoss_reproduction.frame.declared import Data, Findings, declared
+from cointoss import Air, Scenario, States, load
+from cointoss.study import ANALYTIC, MUJOCO, PALE, Array, parting_time, rotation_matrix
+from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.setups.both_engines import by_both, first_touch
 
-ENGINES = {"analytic": (ANALYTIC, "-", 1), "MuJoCo": (MUJOCO, ".", 10)}
+STYLES = {"analytic": (ANALYTIC, "-", 4), "MuJoCo": (MUJOCO, ".", 10)}
+"""Of the path by each engine: its colour, its line, and of how many samples one is drawn."""
 COINS = {"imperfect": "fig12_imperfect", "ideal": "fig12_ideal"}
 IMPACTS = 4
 """The motion is followed until this one."""
+THROUGH = IMPACTS - 1
 OFF_THE_AXIS = (-1e-3, -1e-3, 0.0)
 """A mass centre that makes J_ξη ≠ 0 [m]."""
 DRAWN = 40
 """How often the coin is drawn."""
 
 
-def make(progress: Progress) -> Findings:
-    """Let both 1D coins fall and bounce by both engines, and by eq. (48) until they land."""
-    data: Data = {}
-    found = Findings(data=data)
-    out_of_plane, from_eq_48 = np.zeros((2, 2)), np.zeros((2, 2, 2))
-    for row, (name, file) in enumerate(COINS.items()):
-        scenario = load(file)
-        case = scenario.replace("ending.max_impacts", IMPACTS)
-        tosses = analytic.toss(case), coin_mj.toss(case)
-        t = np.linspace(0, min(toss.impacts.time[-1] for toss in tosses), 600)[:-1]
-        falling = t[t < min(toss.impacts.time[0] for toss in tosses)]
-        exact = _plane_motion(case, falling)
-        for column, toss in enumerate(tosses):
-            states = toss.sample(t)
-            out_of_plane[column, row] = _out_of_plane(case, states)
-            from_eq_48[column, row] = _apart(toss.sample(falling), exact)
-            engine = list(ENGINES)[column]
-            data |= {f"{name}, {engine}, position": states.position, f"{name}, time": t}
-        data |= _edges(name, case, tosses[0], t[-1])
-        progress(row + 1, 3)
-    found.tilt, found.parted = _product_of_inertia()
-    progress(3, 3)
-    found.out_of_plane = out_of_plane
-    found.through = IMPACTS - 1
-    found.from_eq_48, found.distances = from_eq_48, [_distances(each) for each in from_eq_48]
-    return found
+def fall(coin: str) -> Iterator[dict[str, Any]]:
+    """Let a 1D coin fall and bounce by both engines, and by eq. (48) until it lands.
+
+    Yields:
+        How far each engine leaves the plane [r, rad] and eq. (48) [m, rad]; its path; and the ends of the
+        coin at equal intervals [m].
+    """
+    case = load(coin).replace("ending.max_impacts", IMPACTS)
+    tosses = by_both(case)
+    t = np.linspace(0, min(toss.impacts.time[-1] for toss in tosses.values()), 600)[:-1]
+    falling = t[t < first_touch(tosses)]
+    exact = _plane_motion(case, falling)
+    for engine, toss in tosses.items():
+        states = toss.sample(t)
+        off, turned = _apart(toss.sample(falling), exact)
+        out = _out_of_plane(case, states)
+        yield {"engine": engine, "out_of_plane": out, "off_m": off, "off_rad": turned}
+        for y, z in states.position[:: STYLES[engine][2], 1:]:
+            yield {"engine": engine, "y": y, "z": z}
+    for number, ends in enumerate(_edges(case, tosses["analytic"].sample(np.linspace(0, t[-1], DRAWN)))):
+        for y, z in ends:
+            yield {"edge": number, "y": y, "z": z}
 
 
-def _distances(found: Array) -> str:
-    return f"within {found[:, 0].max():.0e} m and {found[:, 1].max():.0e} rad until the coin lands"
+def tilt() -> Iterator[dict[str, Any]]:
+    """Let a coin with J_ξη ≠ 0 fall without air.
+
+    Yields:
+        How far ξ tilts by each engine [degrees], and when it passes 1° [s].
+    """
+    scenario = load(COINS["imperfect"])
+    case = scenario.replace("coin.center_of_mass", OFF_THE_AXIS, "air", Air(), "ending.max_impacts", 1)
+    tosses = by_both(case)
+    t = np.linspace(0, first_touch(tosses), 400)[:-1]
+    for engine, toss in tosses.items():
+        tilted = np.degrees(np.abs(np.arcsin(_axes(toss.sample(t))[:, 2, 0])))
+        yield {"engine": engine, "tilt": tilted.max(), "parted": parting_time(t, tilted, 1.0)}
+
+
+def _axes(states: States) -> Array:
+    """Return the rotation matrices of states, (n, 3, 3)."""
+    return np.array([rotation_matrix(tuple(e)) for e in states.quaternion])
 
 
 def _out_of_plane(case: Scenario, states: States) -> float:
     """Return how far C, in radii, and ξ, in radians, leave the plane yz and the x axis."""
-    xi = np.array([np.array(rotation_matrix(tuple(e)))[:, 0] for e in states.quaternion])
+    xi = _axes(states)[:, :, 0]
     return float(
         max(np.abs(states.position[:, 0]).max() / case.coin.radius, np.hypot(xi[:, 1], xi[:, 2]).max())
     )
@@ -88,43 +108,31 @@ def _apart(states: States, exact: Array) -> tuple[float, float]:
     return float(np.abs(states.position[:, 1:] - exact[:, :2]).max()), float(np.abs(turned).max())
 
 
-def _product_of_inertia() -> tuple[Array, float]:
-    """Let a coin with J_ξη ≠ 0 fall without air; return how far ξ tilts by both engines [degrees], and
-    when it passes 1° by the analytic one [s]."""
-    scenario = load(COINS["imperfect"])
-    case = scenario.replace("coin.center_of_mass", OFF_THE_AXIS, "air", Air(), "ending.max_impacts", 1)
-    tosses = analytic.toss(case), coin_mj.toss(case)
-    t = np.linspace(0, min(toss.impacts.time[0] for toss in tosses), 400)[:-1]
-    tilts = [np.degrees(np.abs(_height_of_xi(toss.sample(t)))) for toss in tosses]
-    return np.max(tilts, axis=1), parting_time(t, tilts[0], 1.0) or np.nan
-
-
-def _height_of_xi(states: States) -> Array:
-    e0, e1, e2, e3 = states.quaternion.T
-    return np.arcsin(2 * (e1 * e3 - e0 * e2))
-
-
-def _edges(name: str, case: Scenario, toss: Toss, until: float) -> dict[str, Array]:
-    """Return the ends of the coin in the plane yz at equal intervals, to be drawn, (n, 2, 2) [m]."""
-    states = toss.sample(np.linspace(0, until, DRAWN))
-    eta = np.array([np.array(rotation_matrix(tuple(e)))[1:, 1] for e in states.quaternion])
+def _edges(case: Scenario, states: States) -> Array:
+    """Return the ends of the coin in the plane yz, (n, 2, 2) [m]."""
+    eta = _axes(states)[:, 1:, 1]
     B = states.position[:, 1:] - case.coin.center_of_mass[1] * eta
-    ends = np.stack([B - case.coin.radius * eta, B + case.coin.radius * eta], axis=1)
-    return {f"{name}, edge": ends}
+    return np.stack([B - case.coin.radius * eta, B + case.coin.radius * eta], axis=1)
 
 
-def _draw(data: Data) -> Figure:
+def _draw(cells: pd.DataFrame) -> Figure:
     picture = Figure(figsize=(9, 3.8))
-    for axes, name in zip(picture.subplots(1, 2, sharey=True), COINS, strict=True):
-        for ends in data[f"{name}, edge"]:
-            axes.plot(*(100 * ends.T), color=PALE, linewidth=1.6)
-        for engine, (color, line, part) in ENGINES.items():
-            _, y, z = 100 * data[f"{name}, {engine}, position"][::part].T
-            axes.plot(y, z, line, color=color, markersize=4, label=f"C, {engine}")
-        axes.set(title=f"{name} coin", xlabel="y [cm]", aspect="equal")
-    picture.axes[0].set_ylabel("z [cm]")
+    coins = cells.dropna(subset=["y"]).groupby("coin", sort=False)
+    for axes, (name, coin) in zip(picture.subplots(1, 2, sharey=True), coins, strict=True):
+        for _, ends in coin.groupby("edge"):
+            axes.plot(100 * ends["y"], 100 * ends["z"], color=PALE, linewidth=1.6)
+        for engine, path in coin.groupby("engine"):
+            color, line, _ = STYLES[str(engine)]
+            axes.plot(100 * path["y"], 100 * path["z"], line, color=color, markersize=4, label=f"C, {engine}")
+        axes.set(title=f"{name} coin", xlabel="y [cm]", ylabel="z [cm]", aspect="equal")
     picture.axes[0].legend()
     return picture
 
 
-REPRODUCTION = declared(__name__, make, draw={"figure": _draw})
+def _found(cells: pd.DataFrame) -> dict[str, Any]:
+    return {"off": pd.DataFrame(cells.groupby("engine")[["off_m", "off_rad"]].max()).T}
+
+
+REPRODUCTION = study(
+    __name__, Cells(fall, {"coin": COINS}), Cells(tilt, {}), found=_found, draw={"figure": _draw}
+)

@@ -1,75 +1,69 @@
 """Figs 18-20: four models of the coin in free fall, without and with air, and MuJoCo's coin over them."""
 
-import numpy as np
-from matplotlib.figure import Figure
+from collections.abc import Iterator
+from typing import Any
 
-from cointoss import analytic, coin_mj, load
-from cointoss.study import Progress, attitude_angle, distance
-from cointoss_reproduction.frame.declared import Data, Findings, declared
+import numpy as np
+
+from cointoss import Air, States, load
+from cointoss.study import Array, attitude_angle, distance
+from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.setups.both_engines import by_both, first_touch
 from cointoss_reproduction.setups.free_fall import MEDIA, MODELS
 
 SAME = 1e-9 * 0.0125
 """Paths nearer to each other are the same, but for rounding [m]."""
 REFERENCE = "3D ideal"
-"""The coin that the others are compared with in the picture."""
-STYLES = {"vacuum": ":", "air": "-"}
+"""The coin that the others are compared with."""
 ROUNDING = 1e-13
 """The least distance that is drawn [mm]."""
 
 
-def make(progress: Progress) -> Findings:
-    """Toss the four coins in vacuum and in air, by both engines, until the first of them lands."""
-    data: Data = {}
-    found = Findings(data=data, apart={}, by_mujoco={})
-    for medium, air in MEDIA.items():
-        cases = {name: load(file).replace("air", air) for name, (file, _) in MODELS.items()}
-        pairs = {name: (analytic.toss(case), coin_mj.toss(case)) for name, case in cases.items()}
-        t = np.linspace(0, min(toss.impacts.time[0] for pair in pairs.values() for toss in pair), 400)
-        paths = {name: toss.sample(t) for name, (toss, _) in pairs.items()}
-        data[f"{medium}, time"] = t
-        for name, path in paths.items():
-            data |= {f"{medium}, {name}, position": path.position, f"{medium}, {name}, normal": path.normal}
-        found.apart[medium] = max(distance(paths["3D ideal"], path).max() for path in paths.values())
-        found.by_mujoco[medium] = (
-            f"within {max(distance(paths[name], pairs[name][1].sample(t)).max() for name in MODELS):.1g} m "
-            f"and {max(attitude_angle(paths[name], pairs[name][1].sample(t)).max() for name in MODELS):.1g} "
-            "rad of the analytic engine"
-        )
-        progress(1 + list(MEDIA).index(medium), len(MEDIA))
-    found.time = t = data["air, time"]
+def fall(medium: Air) -> Iterator[dict[str, Any]]:
+    """Toss the four coins by both engines, until the first of them lands.
+
+    Yields:
+        How far each is from the ideal one, and MuJoCo from the analytic engine [m, rad]; how far the ideal
+        one is held back [m] and until when [s]; the path of that, and distance [mm] and angle [°] of others.
+    """
+    tosses = {name: by_both(load(file).replace("air", medium)) for name, (file, _) in MODELS.items()}
+    t = np.linspace(0, min(map(first_touch, tosses.values())), 400)
+    paths = {name: both["analytic"].sample(t) for name, both in tosses.items()}
+    ideal = paths[REFERENCE]
+    ballistic = _ballistic(t)
+    held_back = np.linalg.norm(ideal.position - ballistic, axis=1).max()
+    yield {
+        "held_back": held_back,
+        "part": held_back / np.linalg.norm(np.diff(ballistic, axis=0), axis=1).sum(),
+        "end": t[-1],
+    }
+    for name, path in paths.items():
+        mujoco = tosses[name]["MuJoCo"].sample(t)
+        off = distance(ideal, path)
+        yield {
+            "model": name,
+            "apart": off.max(),
+            "off_m": distance(path, mujoco).max(),
+            "off_rad": attitude_angle(path, mujoco).max(),
+        }
+        yield from _curve(name, t, path, off, ideal)
+
+
+def _ballistic(t: Array) -> Array:
+    """Return where the ideal coin would be without air, (n, 3) [m]."""
     v = np.array(load("fig18_3d_ideal").release.velocity)
-    ballistic = np.outer(t, v) - np.outer(t**2, [0, 0, 9.81 / 2]) + [0, 0, 1]
-    found.held_back = np.linalg.norm(data["air, 3D ideal, position"] - ballistic, axis=1).max()
-    found.part = found.held_back / np.linalg.norm(np.diff(ballistic, axis=0), axis=1).sum()
-    return found
+    return np.outer(t, v) - np.outer(t**2, [0, 0, 9.81 / 2]) + [0, 0, 1]
 
 
-def _draw(data: Data) -> Figure:
-    picture = Figure(figsize=(10, 3.8))
-    paths, apart, tilts = picture.subplots(1, 3)
-    for medium, style in STYLES.items():
-        x, _, z = data[f"{medium}, {REFERENCE}, position"].T
-        paths.plot(100 * x, z, style, color=MODELS[REFERENCE][1], label=f"in {medium}")
-    paths.set(title=f"path of the {REFERENCE} coin", xlabel="x [cm]", ylabel="z [m]")
-    paths.legend()
-    for name, (_, color) in MODELS.items():
-        if name == REFERENCE:
-            continue
-        for medium, style in STYLES.items():
-            off, leaning = (
-                data[f"{medium}, {name}, {part}"] - data[f"{medium}, {REFERENCE}, {part}"]
-                for part in ("position", "normal")
-            )
-            t, distance = data[f"{medium}, time"], np.linalg.norm(off, axis=1)
-            apart.semilogy(t, np.maximum(1e3 * distance, ROUNDING), style, color=color)
-            # Between unit vectors, of the chord between them.
-            angle = 2 * np.arcsin(np.minimum(np.linalg.norm(leaning, axis=1) / 2, 1))
-            if medium == "air":
-                tilts.plot(t, np.degrees(angle), color=color, label=name)
-    apart.set(title=f"distance from the {REFERENCE} coin", xlabel="time [s]", ylabel="mass centres [mm]")
-    tilts.set(title=f"angle to the {REFERENCE} coin, in air", xlabel="time [s]", ylabel="normals [°]")
-    tilts.legend()
-    return picture
+def _curve(name: str, t: Array, path: States, off: Array, ideal: States) -> Iterator[dict[str, Any]]:
+    # Between unit vectors, of the chord between them.
+    chord = np.linalg.norm(path.normal - ideal.normal, axis=1)
+    angle = np.degrees(2 * np.arcsin(np.minimum(chord / 2, 1)))
+    for i in range(0, len(t), 8):
+        at = {"x": 100 * path.position[i, 0], "z": path.position[i, 2]}
+        far = {"distance": max(1e3 * off[i], ROUNDING), "angle": angle[i]}
+        yield {"model": name, "time": t[i], **(at if name == REFERENCE else far)}
 
 
-REPRODUCTION = declared(__name__, make, draw={"figure": _draw})
+REPRODUCTION = study(__name__, Cells(fall, {"medium": MEDIA}))

@@ -1,28 +1,20 @@
 """Figs 24-26: six tosses released 10 micrometres apart: paths, sequences, and how fast they part."""
 
 import itertools
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from cointoss import Face, Toss, analytic, coin_mj, load
-from cointoss.study import (
-    BLUE,
-    GREEN,
-    HEADS,
-    ORANGE,
-    PALE,
-    PURPLE,
-    SKY,
-    TAILS,
-    VERMILION,
-    Array,
-    Progress,
-    common_prefix,
-    mean,
-    share,
-)
-from cointoss_reproduction.frame.declared import Data, Findings, declared
+from cointoss import Toss, analytic, load
+from cointoss.study import HEADS, INK, PALE, SKY, TAILS, VERMILION, Array, common_prefix, mean, share
+from cointoss_reproduction.frame.cells import Cells, column
+from cointoss_reproduction.frame.selection import COLORS
+from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.setups.both_engines import by_both
 from cointoss_reproduction.setups.fig24_readings import (
     APART,
     CLUSTER,
@@ -30,16 +22,13 @@ from cointoss_reproduction.setups.fig24_readings import (
     NEARBY,
     PRINTED,
     READINGS,
+    Reading,
     clusters_as_printed,
     marked,
     printed_heights,
     sequences,
     shared,
 )
-from cointoss_reproduction.studies.fig24.scores import draw_scores
-
-COLORS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY)
-
 
 SEED = 24
 SHOWN = "ideal, 2 mm, smooth"
@@ -48,139 +37,149 @@ SEARCHES = 4000
 """Searches through all readings at random heights, for how good the best is by chance."""
 DETAIL = (1.0, 1.5)
 """Times of Fig. 25 [s]."""
+SEQUENCES, NUMBER = len(PRINTED), len(READINGS)
+SAMPLES = 300
+"""Of a path, which is drawn."""
 
 
-def make(progress: Progress, random: int = 16) -> Findings:
-    """Toss the six coins by both engines, and all readings of them, also from `random` other heights."""
-    found = Findings()
-    by_analytic: dict[str, Toss] = {}
-    mujoco: dict[str, Toss] = {}
-    whole = len(PRINTED) + len(READINGS)
-    for done, letter in enumerate(PRINTED, start=1):
-        scenario = load(f"fig24{letter}")
-        by_analytic[letter], mujoco[letter] = analytic.toss(scenario), coin_mj.toss(scenario)
-        progress(done, whole)
-    rng = np.random.default_rng(SEED)
-    scores, by_chance, clustering = {}, [], []
-    for done, reading in enumerate(READINGS, start=len(PRINTED) + 1):
-        printed = sequences(reading.scenario, printed_heights())
-        scores[reading.name] = sum(shared(printed))
-        if clusters_as_printed(printed):
-            clustering.append(reading.name)
-        by_chance.append(
-            [sum(shared(sequences(reading.scenario, low + APART))) for low in rng.uniform(*NEARBY, random)]
-        )
-        progress(done, whole)
-    growth = _growth(by_analytic)
-    agreed = {
-        letter: common_prefix(by_analytic[letter].sequence, mujoco[letter].sequence) for letter in PRINTED
+def toss(letter: str) -> Iterator[dict[str, Any]]:
+    """Toss one of the six coins by both engines.
+
+    Yields:
+        The faces by each engine and how many are alike, trusted and printed; each touch [s]; the path [m];
+        log10 of the growth per impact of the difference from the next of the six.
+    """
+    tossed, mujoco = by_both(load(f"fig24{letter}")).values()
+    yield {
+        "sequence": tossed.sequence,
+        "mujoco": mujoco.sequence,
+        "agreed": common_prefix(tossed.sequence, mujoco.sequence),
+        "trusted": tossed.trusted_impacts,
+        "trusted_mujoco": mujoco.trusted_impacts,
+        "printed": len(PRINTED[letter].replace(MARK, "")),
+        "title": marked(tossed.impacts.time, tossed.impacts.face),
     }
-    trusted = {letter: toss.trusted_impacts for letter, toss in by_analytic.items()}
-    found.short_of = sum(
-        agreed[letter] < min(trusted[letter], mujoco[letter].trusted_impacts) for letter in PRINTED
+    for time, face in zip(tossed.impacts.time, tossed.sequence, strict=True):
+        yield {"touch": time, "face": face}
+    t = np.linspace(0, tossed.end_time, SAMPLES)
+    for time, (x, _, z) in zip(t, tossed.sample(t).position, strict=True):
+        yield {"time": round(time, 5), "x": round(x, 6), "z": round(z, 6)}
+    following = dict(itertools.pairwise(PRINTED))
+    if letter in following:
+        for rate in _growth(tossed, analytic.toss(load(f"fig24{following[letter]}"))):
+            yield {"growth": rate}
+
+
+def _growth(p: Toss, q: Toss) -> Iterator[float]:
+    """Yield the growth per impact of the difference of two tosses' contact points, as log10."""
+    n = common_prefix(p.sequence, q.sequence)
+    apart = np.linalg.norm(p.impacts.point[:n] - q.impacts.point[:n], axis=1)
+    for before, after in itertools.pairwise(apart):
+        if 0 < before < 1e-3 and after > 0:
+            yield float(np.log10(after / before))
+
+
+def read(reading: Reading, random: int = 16) -> Iterator[dict[str, Any]]:
+    """Yield how many printed faces a reading shares, at the printed heights and at random ones."""
+    printed = sequences(reading.scenario, printed_heights())
+    yield {"score": sum(shared(printed)), "clusters": int(clusters_as_printed(printed))}
+    number = READINGS.index(reading)
+    heights = np.random.default_rng(SEED).uniform(*NEARBY, (number + 1) * random)[-random:]
+    for low in heights:
+        yield {"by_chance": sum(shared(sequences(reading.scenario, low + APART)))}
+
+
+def _found(cells: pd.DataFrame) -> dict[str, Any]:
+    scores = dict(zip(*(column(cells, name, "score.notna()") for name in ("reading", "score")), strict=True))
+    agreed, trusted, mujoco, printed = (
+        column(cells, name) for name in ("agreed", "trusted", "trusted_mujoco", "printed")
     )
+    chance = _by_chance(cells)
+    best_by_chance = chance.max(axis=0)
     first = min(
-        next((i for i, (a, b) in enumerate(zip(p.sequence, q.sequence, strict=False)) if a != b), 99)
-        for p, q in itertools.combinations(by_analytic.values(), 2)
+        next((i for i, (a, b) in enumerate(zip(p, q, strict=False)) if a != b), 99)
+        for p, q in itertools.combinations(column(cells, "sequence"), 2)
     )
-    lengths = {letter: len(text.replace(MARK, "")) for letter, text in PRINTED.items()}
-    # A search takes one of a reading's random heights, and keeps the best of all readings.
-    chance = np.array([rng.choice(one, SEARCHES) for one in by_chance])
-    found.best = max(scores, key=scores.__getitem__)
-    found.as_good = share(chance.max(axis=0) >= scores[found.best], "searches")
-    times = np.concatenate([toss.impacts.time for toss in by_analytic.values()])
-    shown = np.concatenate([np.diff(toss.impacts.time) for toss in by_analytic.values()])
-    later = np.concatenate([toss.impacts.time[1:] for toss in by_analytic.values()])
-    hidden = shown[(later > DETAIL[0]) & (later < DETAIL[1])] < CLUSTER
-    found.first, found.fold = first + 1, 10 ** np.median(growth)
-    found.agreed, found.trusted = _listed(agreed), _listed(trusted)
-    found.different = len({toss.sequence for toss in by_analytic.values()})
-    found.growth, found.hidden = mean(growth, "impacts"), share(hidden, "impacts")
-    found.impacts, found.readings, found.printed = len(times), len(READINGS), len(PRINTED)
-    found.scores, found.faces = scores, sum(lengths.values())
-    found.best_by_chance = chance.max(axis=0).mean()
-    found.shown_by_chance = chance[list(scores).index(SHOWN)].mean()
-    found.by_mujoco = ", ".join(f"({a}) {toss.sequence}" for a, toss in mujoco.items())
-    found.number_clustering, found.clustering = len(clustering), "; ".join(clustering)
-    found.trusted_whole = sum(trusted[a] >= lengths[a] for a in PRINTED)
-    found.data = _paths(by_analytic) | {
-        "growth": growth,
-        "scores": np.array(list(scores.values())),
-        "clustering": np.array([name in clustering for name in scores]),
-        "by chance": chance,
+    gaps = cells.groupby("letter")["touch"].diff()
+    in_detail = gaps.notna() & cells["touch"].between(*DETAIL, inclusive="neither")
+    growth = column(cells, "growth")
+    clustering = column(cells, "reading", "clusters == 1")
+    best = max(scores, key=scores.__getitem__)
+    return {
+        "first": first + 1,
+        "fold": 10 ** np.median(growth),
+        "growth": mean(growth, "impacts"),
+        "different": len(set(column(cells, "sequence"))),
+        "agreed": ", ".join(map(str, agreed)),
+        "trusted": ", ".join(map(str, trusted)),
+        "short_of": int(np.sum(agreed < np.minimum(trusted, mujoco))),
+        "trusted_whole": int(np.sum(trusted >= printed)),
+        "by_mujoco": ", ".join(f"({a}) {b}" for a, b in zip(PRINTED, column(cells, "mujoco"), strict=True)),
+        "hidden": share(np.array(gaps[in_detail] < CLUSTER), "impacts"),
+        "impacts": len(column(cells, "touch")),
+        "faces": int(printed.sum()),
+        "best": best,
+        "scores": scores,
+        "as_good": share(best_by_chance >= scores[best], "searches"),
+        "best_by_chance": best_by_chance.mean(),
+        "shown_by_chance": chance[list(scores).index(SHOWN)].mean(),
+        "number_clustering": len(clustering),
+        "clustering": "; ".join(clustering),
     }
-    return found
 
 
-def _listed(numbers: dict[str, int]) -> str:
-    return ", ".join(map(str, numbers.values()))
+def _by_chance(cells: pd.DataFrame) -> Array:
+    """Return the scores of searches, each at one of a reading's random heights, (readings, searches)."""
+    readings = cells.groupby("reading", sort=False)["by_chance"]
+    scores = [one.dropna().to_numpy(dtype=int) for _, one in readings]
+    rng = np.random.default_rng(SEED)
+    rng.uniform(size=sum(map(len, scores)))  # gave the heights
+    return np.array([rng.choice(one, SEARCHES) for one in scores])
 
 
-def _growth(tosses: dict[str, Toss]) -> Array:
-    """Return the growth per impact of the difference of neighbours' contact points, as log10, (n,)."""
-    rates = []
-    for p, q in itertools.pairwise(tosses.values()):
-        n = common_prefix(p.sequence, q.sequence)
-        apart = np.linalg.norm(p.impacts.point[:n] - q.impacts.point[:n], axis=1)
-        close = (apart > 0) & (apart < 1e-3)
-        rates += [
-            np.log10(b / a) for a, b, near in zip(apart, apart[1:], close, strict=False) if near and b > 0
-        ]
-    return np.array(rates)
-
-
-def _paths(tosses: dict[str, Toss]) -> Data:
-    data: Data = {}
-    for letter, toss in tosses.items():
-        t = np.linspace(0, toss.end_time, 3000)
-        data |= {f"({letter}) time": t, f"({letter}) position": toss.sample(t).position}
-        data |= {f"({letter}) impacts": toss.impacts.time, f"({letter}) faces": toss.impacts.face}
-    return data
-
-
-def _draw(data: Data) -> Figure:
+def _draw(cells: pd.DataFrame) -> Figure:
     picture = Figure(figsize=(11, 8.5))
     halves = picture.add_gridspec(1, 2, width_ratios=(2.1, 1))
     paths, others = (picture.add_subfigure(half) for half in halves)
     grid = paths.subplots(len(PRINTED), 2, sharex="col", width_ratios=(1.4, 1))
-    for row, letter, color in zip(grid, PRINTED, COLORS, strict=True):
-        t, z = data[f"({letter}) time"], data[f"({letter}) position"][:, 2]
-        times, faces = data[f"({letter}) impacts"], data[f"({letter}) faces"]
-        for axes in row:
-            axes.plot(t, 100 * z, color=color, linewidth=1)
-            for face, shade in ((Face.HEADS, HEADS), (Face.TAILS, TAILS)):
-                at = times[faces == face]
-                axes.plot(at, 0 * at - 1.5, "|", color=shade, markersize=9, markeredgewidth=1.2)
-            axes.set_ylim(-4, None)
-        row[0].set(ylabel="z [cm]", xlim=(0, 2.4))
-        row[0].set_title(f"({letter}) {marked(times, faces)}", fontsize=9)
-        row[1].set(xlim=DETAIL, ylim=(-4, 16))
-        row[1].set_title(f"printed: {PRINTED[letter]}", fontsize=9)
-    for axes, name in zip(grid[-1], ("Fig. 24: time [s]", "Fig. 25: time [s]"), strict=True):
-        axes.set_xlabel(name)
     plan, score = others.subplots(2, 1)
-    for letter, color in zip(PRINTED, COLORS, strict=True):
-        x, _, z = data[f"({letter}) position"].T
-        plan.plot(1e3 * x, 100 * z, color=color, linewidth=1, label=f"({letter})")
+    for row, color, (letter, of) in zip(grid, COLORS, cells.groupby("letter"), strict=False):
+        for axes in row:
+            axes.plot(of["time"], 100 * of["z"], color=color, linewidth=1)
+            for face, shade in (("H", HEADS), ("T", TAILS)):
+                at = of.loc[of["face"] == face, "touch"]
+                axes.plot(at, 0 * at - 1.5, "|", color=shade, markersize=9, markeredgewidth=1.2)
+        row[0].set(ylabel="z [cm]", xlim=(0, 2.4), ylim=(-4, None), xlabel="Fig. 24: time [s]")
+        row[0].set_title(f"({letter}) {of['title'].dropna().item()}", fontsize=9)
+        row[1].set(xlim=DETAIL, ylim=(-4, 16), xlabel="Fig. 25: time [s]")
+        row[1].set_title(f"printed: {PRINTED[str(letter)]}", fontsize=9)
+        plan.plot(1e3 * of["x"], 100 * of["z"], color=color, linewidth=1, label=f"({letter})")
+    for axes in grid.flat:
+        axes.label_outer()
     plan.set(title="Fig. 26", xlabel="x [mm]", ylabel="z [cm]")
     plan.legend()
-    chance, names = data["by chance"], ("begins as printed", "other")
-    bins = (np.arange(0, 64, 4) - 0.5).tolist()
-    draw_scores(score, data["scores"], data["clustering"], names, chance, bins)
-    best = np.quantile(chance.max(axis=0), (0.05, 0.95))
-    score.axvspan(*best, color=PALE, alpha=0.4, linewidth=0)
-    score.annotate(
-        "best by\nchance, 90 %",
-        (best.mean(), 0.5),
-        (0, 0),
-        xycoords=("data", "axes fraction"),
-        textcoords="offset points",
-        ha="center",
-        fontsize=8,
-    )
-    score.set(xlabel="leading faces shared with the printed 94", ylabel="readings of coin and floor")
-    score.legend()
+    _draw_scores(score, cells)
     return picture
 
 
-REPRODUCTION = declared(__name__, make, draw={"figure": _draw})
+def _draw_scores(axes: Axes, cells: pd.DataFrame) -> None:
+    """Draw how often the readings have each score, and how often at random heights, scaled to as many."""
+    bins = (np.arange(0, 64, 4) - 0.5).tolist()
+    kinds = [column(cells, "score", f"clusters == {begins}") for begins in (1, 0)]
+    axes.hist(kinds, bins, stacked=True, color=[VERMILION, SKY], label=["begins as printed", "other"])
+    chance = _by_chance(cells)
+    weights = np.full(chance.size, len(chance) / chance.size)
+    axes.hist(chance.ravel(), bins, weights=weights, histtype="step", color=INK, label="at random heights")
+    best = np.quantile(chance.max(axis=0), (0.05, 0.95))
+    axes.axvspan(*best, color=PALE, alpha=0.4, linewidth=0, label="best by chance, 90 %")
+    axes.set(xlabel="leading faces shared with the printed 94", ylabel="readings of coin and floor")
+    axes.legend()
+
+
+REPRODUCTION = study(
+    __name__,
+    Cells(toss, {"letter": tuple(PRINTED)}),
+    Cells(read, {"reading": {one.name: one for one in READINGS}}),
+    found=_found,
+    draw={"figure": _draw},
+)

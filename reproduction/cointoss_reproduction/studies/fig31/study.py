@@ -1,29 +1,19 @@
 """Fig. 31, section 5.3: the face after 0, 2, 5 and 9 impacts, and how fast the boundaries multiply."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cointoss import EndingCriteria, Outcome, Scenario, analytic
-from cointoss.study import (
-    GREY,
-    INK,
-    PALE,
-    VERMILION,
-    Array,
-    Estimate,
-    Progress,
-    draw_panel,
-    quotient,
-    share,
-    share_of,
-)
-from cointoss_reproduction.frame.declared import Data, Findings, declared
+from cointoss.study import Array, Estimate, draw_panel, quotient, share, share_of
+from cointoss_reproduction.frame.cells import Cells, column, estimate
+from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.planar_maps import (
     HEIGHT,
     HEIGHTS,
@@ -32,6 +22,8 @@ from cointoss_reproduction.setups.planar_maps import (
     SPINS,
     case,
     faces_after,
+    lines_of,
+    map_of,
     planar_rows,
     toss_rows_by_mujoco,
     touched_faces,
@@ -65,6 +57,8 @@ NARROW = 1e-9
 """At which stripes are looked for that are narrower than a hand is accurate [m]."""
 HALF = 0.4
 """A share of twins that differ: nearly chance."""
+ALIKE, AT_LEAST = "alike", "at least"
+"""Whether ten times finer twins count as many boundaries."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,58 +78,73 @@ class Boundaries:
         return self.growth.high < 1 + CONVERGED
 
 
-def make(
-    progress: Progress, points: int = 64, tosses: int = 240_000, elastic: int = 1000, tosses_mujoco: int = 100
-) -> Findings:
-    """Map the face after each number of impacts, and count twins, tosses ε apart, that differ."""
+def map_faces(medium: str, impacts: int, points: int = 64) -> Iterator[dict[str, str]]:
+    """Yield the lines of a map of the face after some impacts."""
     grid = whole_grid(points)
-    rng = np.random.default_rng(SEED)
-    heights, spins = rng.uniform(*HEIGHTS, tosses), rng.uniform(*SPINS, tosses)
-    data: Data = {"resolution": RESOLUTIONS}
-    media: dict[str, dict[str, Any]] = {}
-    most = [round(PARTS.get(n, PARTS_BEYOND) * tosses) for n in range(TOUCHES)]
-    done, whole = 0, len(MEDIA) * (sum(most) + tosses) + 2 * tosses
-    same = _same_by_mujoco(case(air=True), heights[:tosses_mujoco], spins[:tosses_mujoco])
-    progress(done := done + tosses, whole)
-    for medium in MEDIA:
-        scenario = case(air=medium == "air")
-        for n in SHOWN:
-            data[f"{medium}, map {n}"] = faces_after(grid.rows(scenario), n).reshape(grid.shape)
-        progress(done := done + tosses, whole)
-        twins = []
-        for n, limit in enumerate(most):
-            twins.append(_differing(scenario, np.random.default_rng([SEED, n]), limit, n))
-            progress(done := done + limit, whole)
-        counted = [_boundaries(one) for one in twins]
-        media[medium] = _growth(counted) | {"mujoco": same if medium == "air" else "-"}
-        data |= {
-            f"{medium}, boundaries": (LENGTH / RESOLUTIONS)[:, None]
-            * np.array([differ / made for differ, made in twins]).T,
-            f"{medium}, counted": np.array([one.count.ends for one in counted]),
-            f"{medium}, converged": np.array([one.is_converged for one in counted]),
-        }
+    for line in lines_of(faces_after(grid.rows(_case(medium)), impacts).reshape(grid.shape)):
+        yield {"faces": line}
+
+
+def count_twins(medium: str, impacts: int, tosses: int = 240_000) -> Iterator[dict[str, Any]]:
+    """Yield how many boundaries twins count on a line, and how many they see at each of `RESOLUTIONS`."""
+    most = round(PARTS.get(impacts, PARTS_BEYOND) * tosses)
+    differ, made = twins = _differing(_case(medium), np.random.default_rng([SEED, impacts]), most, impacts)
+    found = _boundaries(twins)
+    counted = ALIKE if found.is_converged else AT_LEAST
+    yield {"boundaries": found.count, "counted": counted}
+    for step, number in zip(RESOLUTIONS, LENGTH / RESOLUTIONS * differ / made, strict=True):
+        if number > 0:
+            yield {"resolution": step, "seen": number, "counted": counted}
+
+
+def compare_engines(tosses: int = 240_000, tosses_mujoco: int = 100) -> dict[str, str]:
+    """Return how many faces agree with MuJoCo's after each of `SHOWN` impacts, in words."""
+    scenario, (heights, spins) = _case("air"), _random(tosses, tosses_mujoco)
+    faces = touched_faces(scenario, heights, spins, TOUCHES)
+    rows = planar_rows(scenario.replace("ending", EndingCriteria()), heights, spins)
+    same = [int(np.sum(faces_after(rows, n, toss_rows_by_mujoco) == faces[:, n])) for n in SHOWN]
+    impacts = ", ".join(map(str, SHOWN))
+    return {"mujoco": f"{', '.join(map(str, same))} of {len(rows)} faces alike after {impacts} impacts"}
+
+
+def end(tosses: int = 240_000) -> dict[str, Any]:
+    """Return how long tosses in air last, and how wide stripes are after the last of the touches [m]."""
+    scenario, (heights, spins) = _case("air"), _random(tosses)
     few = slice(round(PARTS_BEYOND * tosses))
     last, narrow = (
-        faces_after(planar_rows(case(air=True), heights[few] + step, spins[few]), TOUCHES - 1)
+        faces_after(planar_rows(scenario, heights[few] + step, spins[few]), TOUCHES - 1)
         for step in (0.0, NARROW)
     )
-    lasting = analytic.toss_rows(planar_rows(case(air=True), heights, spins)).impacts
-    data["elastic"] = shares = _elastic_shares(heights[:elastic], spins[:elastic])
-    progress(whole, whole)
-    return Findings(
-        data=data,
-        media=media,
-        median=np.median(lasting),
-        more=np.mean(lasting > SHOWN[-1]),
-        beyond=share(lasting > MOST),
-        width=_inverse(share(narrow != last), NARROW),
-        ended=_ended(heights[:elastic], spins[:elastic]),
-        mixed=_mixed(shares),
-        elastic_share={
-            f"{step:.0e}": share_of(round(row[-1] * elastic), elastic, "twins") - 1 / 2
-            for step, row in zip(ELASTIC_STEPS, shares, strict=True)
-        },
-    )
+    lasting = analytic.toss_rows(planar_rows(scenario, heights, spins)).impacts
+    return {
+        "median": np.median(lasting),
+        "more": np.mean(lasting > SHOWN[-1]),
+        "beyond": share(lasting > MOST),
+        "width": _inverse(share(narrow != last), NARROW),
+    }
+
+
+def lose_nothing(tosses: int = 240_000, elastic: int = 1000) -> Iterator[dict[str, Any]]:
+    """Yield how many twins have different faces where impacts lose nothing, in vacuum, and how many end."""
+    heights, spins = _random(tosses, elastic)
+    scenario = case(air=False, restitution=1.0, max_impacts=MOST)
+    outcome = analytic.toss_rows(planar_rows(scenario, heights, spins)).outcome
+    yield {"ended": int(np.sum((outcome == Outcome.HEADS) | (outcome == Outcome.TAILS)))}
+    faces = touched_faces(scenario, heights, spins, ELASTIC + 1)
+    for step in ELASTIC_STEPS:
+        differ = np.sum(touched_faces(scenario, heights + step, spins, ELASTIC + 1) != faces, axis=0)
+        for after, number in enumerate(differ.tolist()):
+            yield {"apart": f"{step:.0e} m", "after": after, "differ": number, "twins": elastic}
+
+
+def _case(medium: str) -> Scenario:
+    return case(air=medium == "air")
+
+
+def _random(tosses: int, first: int | None = None) -> tuple[Array, Array]:
+    """Return heights [m] and spins [rad/s] in the ranges of the maps, of all or of the first."""
+    rng = np.random.default_rng(SEED)
+    return rng.uniform(*HEIGHTS, tosses)[:first], rng.uniform(*SPINS, tosses)[:first]
 
 
 def _inverse(estimate: Estimate, factor: float) -> Estimate:
@@ -156,7 +165,8 @@ def _differing(scenario: Scenario, rng: np.random.Generator, most: int, n: int) 
         most: twins at one ε.
         n: impacts.
     """
-    differ, made = np.zeros((2, len(RESOLUTIONS)), dtype=np.int64)
+    twins = np.zeros((2, len(RESOLUTIONS)), dtype=np.int64)
+    differ, made = twins
     made[:] = most
     for i, step in enumerate(RESOLUTIONS):
         made[i] = 0
@@ -166,9 +176,9 @@ def _differing(scenario: Scenario, rng: np.random.Generator, most: int, n: int) 
             faces = [faces_after(planar_rows(scenario, at, spin), n) for at in (z, z + step)]
             differ[i] += np.sum(faces[0] != faces[1])
             made[i] += block
-        if differ[i] < FEWEST or (i and _boundaries(np.stack([differ, made])).is_converged):
+        if differ[i] < FEWEST or (i and _boundaries(twins).is_converged):
             break
-    return np.stack([differ, made])
+    return twins
 
 
 def _boundaries(twins: NDArray[np.int64]) -> Boundaries:
@@ -184,12 +194,16 @@ def _boundaries(twins: NDArray[np.int64]) -> Boundaries:
     return Boundaries(count=finer, resolution=float(RESOLUTIONS[finest]), growth=quotient(finer, coarser))
 
 
-def _growth(found: Sequence[Boundaries]) -> dict[str, Any]:
-    """Return how the number of boundaries grows, as far as it is counted, by the names of the claims."""
-    known = next((n for n, one in enumerate(found) if not one.is_converged), len(found))
-    steps = [quotient(found[n + 1].count, found[n].count) for n in range(known - 1)]
-    numbers = ", ".join(f"{float(f'{one.count.value:.2g}'):,.0f}" for one in found[:known])
-    beyond = f"; after {known} at least {found[known].count.low:.1g}" if known < len(found) else ""
+def _growth(counts: Sequence[Estimate], known: int) -> dict[str, Any]:
+    """Return how the number of boundaries grows, as far as it is counted, by the names of the claims.
+
+    Args:
+        counts: boundaries after 0, 1, ... impacts.
+        known: how many of these are more than lower bounds.
+    """
+    steps = [quotient(later, earlier) for earlier, later in pairwise(counts[:known])]
+    numbers = ", ".join(f"{float(f'{one.value:.2g}'):,.0f}" for one in counts[:known])
+    beyond = f"; after {known} at least {counts[known].low:.1g}" if known < len(counts) else ""
     told = (
         f"a line through the map crosses {numbers} after 0 to {known - 1} impacts, where twins at two "
         f"resolutions count alike{beyond}",
@@ -207,88 +221,38 @@ def _growth(found: Sequence[Boundaries]) -> dict[str, Any]:
     }
 
 
-def _elastic_shares(heights: Array, spins: Array) -> Array:
-    """Return the shares of twins with different faces where impacts lose nothing, in vacuum, (ε, touches)."""
-    scenario = case(air=False, restitution=1.0)
-    faces = touched_faces(scenario, heights, spins, ELASTIC + 1)
-    return np.array(
-        [
-            np.mean(touched_faces(scenario, heights + step, spins, ELASTIC + 1) != faces, axis=0)
-            for step in ELASTIC_STEPS
-        ]
-    )
+def _found(cells: pd.DataFrame) -> dict[str, Any]:
+    media: dict[str, dict[str, Any]] = {}
+    for medium, told in (("air", column(cells, "mujoco").item()), ("vacuum", "-")):
+        rows = cells.query(f"medium == '{medium}' and boundaries.notna()", engine="python")
+        counts = [estimate(row, "boundaries") for row in rows.to_dict("records")]
+        known = int(np.cumprod(column(rows, "counted") == ALIKE).sum())
+        media[medium] = _growth(counts, known) | {"mujoco": told}
+    half = cells.query(f"differ > {HALF} * twins", engine="python").drop_duplicates("apart")
+    mixed = [f"{step} after {n}" for step, n in half[["apart", "after"]].itertuples(index=False)]
+    return {"media": media, "mixed": ", ".join(mixed)}
 
 
-def _ended(heights: Array, spins: Array) -> int:
-    """Return how many tosses end within `MOST` impacts where these lose nothing, in vacuum."""
-    scenario = case(air=False, restitution=1.0, max_impacts=MOST)
-    outcome = analytic.toss_rows(planar_rows(scenario, heights, spins)).outcome
-    return int(np.sum((outcome == Outcome.HEADS) | (outcome == Outcome.TAILS)))
-
-
-def _mixed(shares: Array) -> str:
-    """Return after how many impacts `HALF` of the twins differ, in words."""
-    halves = [int(np.argmax(row > HALF)) if np.any(row > HALF) else -1 for row in shares]
-    mixed = [f"{step:.0e} m after {n}" for step, n in zip(ELASTIC_STEPS, halves, strict=True) if n >= 0]
-    return ", ".join(mixed)
-
-
-def _same_by_mujoco(scenario: Scenario, heights: Array, spins: Array) -> str:
-    """Return how many faces agree with MuJoCo's after each of `SHOWN` impacts, in words."""
-    faces = touched_faces(scenario, heights, spins, TOUCHES)
-    rows = planar_rows(scenario.replace("ending", EndingCriteria()), heights, spins)
-    same = [int(np.sum(faces_after(rows, n, toss_rows_by_mujoco) == faces[:, n])) for n in SHOWN]
-    impacts = ", ".join(map(str, SHOWN))
-    return f"{', '.join(map(str, same))} of {len(heights)} faces alike after {impacts} impacts"
-
-
-def _draw(data: Data) -> Figure:
-    picture = Figure(figsize=(11, 7.5))
-    halves = picture.add_gridspec(2, 1, height_ratios=(1.9, 1.1))
-    maps, numbers = (picture.add_subfigure(half) for half in halves)
-    for row, medium in zip(maps.subplots(2, len(SHOWN), sharex=True, sharey=True), MEDIA, strict=True):
-        for axes, n in zip(row, SHOWN, strict=True):
-            draw_panel(axes, data[f"{medium}, map {n}"], x=HEIGHT, y=SPIN)
-            axes.set_title(f"n = {n}, in {medium}")
-            axes.grid(visible=False)
-            axes.label_outer()
-    seen, growth, elastic = numbers.subplots(1, 3)
-    resolution = data["resolution"]
-    for n in range(TOUCHES):
-        N = np.where(data["air, boundaries"][:, n] > 0, data["air, boundaries"][:, n], np.nan)
-        solid = bool(data["air, converged"][n])
-        color = MEDIA["air"] if solid else PALE
-        seen.loglog(resolution, N, ".-", color=color, linewidth=1.2 if solid else 0.7, markersize=4)
-        if solid:
-            at = int(np.flatnonzero(N > 0)[-1])
-            seen.annotate(f"{n}", (resolution[at], N[at]), (-6, 0), textcoords="offset points", va="center")
-    seen.loglog(resolution, LENGTH / resolution / 2, ":", color=INK)
-    seen.annotate("all that ε can show", (1e-7, LENGTH / 1e-7 / 2), (6, 4), textcoords="offset points")
-    seen.set(title="N(n) seen by twins ε apart, in air", xlabel="ε [m]", ylabel="boundaries on a line")
-    seen.set_xlim(RESOLUTIONS[-1] / 3, None)
-    for medium, color in MEDIA.items():
-        value, low, high = data[f"{medium}, counted"].T
-        known = data[f"{medium}, converged"]
-        n = np.arange(TOUCHES)
-        growth.errorbar(
-            n[known],
-            value[known],
-            [(value - low)[known], (high - value)[known]],
-            fmt="o-",
-            color=color,
-            label=medium,
-        )
-        growth.plot(n[~known], low[~known], "^", color=color, markerfacecolor="none")
-    growth.set_yscale("log")
-    growth.plot([], [], "^", color=INK, markerfacecolor="none", label="at least")
-    growth.set(title="counted alike at two ε", xlabel="impacts n", ylabel="boundaries on a line")
-    growth.legend()
-    for step, row, shade in zip(ELASTIC_STEPS, data["elastic"], np.linspace(0.3, 1, 5), strict=True):
-        elastic.plot(row, color=VERMILION, alpha=shade, label=f"{step:.0e} m")
-    elastic.axhline(0.5, color=GREY, linewidth=0.8)
-    elastic.set(title="χ = 1 in vacuum", xlabel="impacts n", ylabel="twins that differ", ylim=(0, 0.65))
-    elastic.legend(fontsize=7, ncols=2, loc="lower right")
+def _draw(cells: pd.DataFrame) -> Figure:
+    picture = Figure(figsize=(11, 5))
+    panels = picture.subplots(2, len(SHOWN), sharex=True, sharey=True).flat
+    for axes, (medium, n) in zip(panels, product(MEDIA, SHOWN), strict=True):
+        lines = column(cells, "faces", f"medium == '{medium}' and impacts == {n}")
+        draw_panel(axes, map_of(lines), x=HEIGHT, y=SPIN)
+        axes.set_title(f"n = {n}, in {medium}")
+        axes.grid(visible=False)
+        axes.label_outer()
     return picture
 
 
-REPRODUCTION = declared(__name__, make, draw={"figure": _draw})
+MEDIUM = {"medium": tuple(MEDIA)}
+REPRODUCTION = study(
+    __name__,
+    Cells(map_faces, {**MEDIUM, "impacts": SHOWN}),
+    Cells(count_twins, {**MEDIUM, "impacts": range(TOUCHES)}),
+    Cells(compare_engines, {}),
+    Cells(end, {}),
+    Cells(lose_nothing, {}),
+    found=_found,
+    draw={"figure": _draw},
+)

@@ -1,137 +1,103 @@
 """Fig. 4 and section 2: the angle between angular momentum and normal, and the faces that it keeps."""
 
+from collections.abc import Iterator
+from typing import Any
+
 import numpy as np
-from matplotlib.figure import Figure
+import pandas as pd
 from scipy.spatial.transform import Rotation
 
-from cointoss import Air, EndingCriteria, Release, Scenario, States, analytic, coin_mj, load
-from cointoss.study import (
-    BLUE,
-    GREY,
-    ORANGE,
-    PALE,
-    SKY,
-    VERMILION,
-    Array,
-    Progress,
-    by_numba,
-    sample_flight,
-    vector,
-)
-from cointoss_reproduction.frame.declared import Data, Findings, declared
+from cointoss import Air, EndingCriteria, Release, Scenario, coin_mj, load
+from cointoss.study import Array, by_numba, sample_flight, vector
+from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.setups.both_engines import by_both, first_touch
 
 sample_flight = by_numba(sample_flight)
 
-AIR = Air(normal=0.8, tangential=0.2)
 CASES = {
-    "ideal, vacuum": ("fig4_ideal", Air(), BLUE),
-    "ideal, air": ("fig4_ideal", AIR, SKY),
-    "imperfect, vacuum": ("fig4_imperfect", Air(), VERMILION),
+    "ideal in vacuum": ("fig4_ideal", Air()),
+    "ideal in air": ("fig4_ideal", Air(normal=0.8, tangential=0.2)),
+    "imperfect in vacuum": ("fig4_imperfect", Air()),
 }
 DURATION, SAMPLES = 0.5, 400
 """Of a random toss [s], and how often its face is sampled."""
+DRAWN = 300
+"""Random tosses that are drawn."""
 MUJOCO_TOSSES = 10
 TURNS = 4000
 """Samples of one turn of the normal about the angular momentum."""
-DIACONIS = np.radians(79.95), 0.51
-"""The angle ψ and the probability of the first side there, by Diaconis, Holmes and Montgomery 2007."""
+TWO_SAMPLES = 2 / TURNS
+AT, P = 79.95, 0.51
+"""The angle ψ [degrees] and the probability of the first side there, by Diaconis, Holmes, Montgomery 2007."""
+PSI = {angle: np.radians(angle) for angle in (*range(40, 80, 4), AT, 80, 84, 88)}
 
 
-def make(progress: Progress, count: int = 1000) -> Findings:
-    """Follow γ in three flights; toss `count` coins from flat, and as many from any attitude, at random."""
-    found = Findings()
-    followed = {name: _follow(load(file), air) for name, (file, air, _) in CASES.items()}
-    progress(1, 4)
-    rng = np.random.default_rng(4)
-    flat, leaning = (_random_tosses(rng, count, anyhow) for anyhow in (False, True))
-    progress(2, 4)
-    psi, counted, found.by_mujoco = _first_side()
-    progress(3, 4)
-    found.swing = np.array([[np.ptp(gamma) for gamma in gammas] for _, *gammas in followed.values()])
-    below = [tosses["gamma"] < np.pi / 4 for tosses in (flat, leaning)]
-    changed = [tosses["lowest"] < 0 for tosses in (flat, leaning)]
-    found.below = [int(chosen.sum()) for chosen in below]
-    found.changed = [int(np.sum(both & chosen)) for both, chosen in zip(changed, below, strict=True)]
-    foretold = np.abs(leaning["L"][:, 2]) > np.sin(leaning["gamma"])
-    found.apart = max(tosses["apart"].max() for tosses in (flat, leaning))
-    found.mujoco_apart, found.quarter = _mujoco_apart(flat), count / 4
-    found.foretold = np.mean(foretold == (leaning["lowest"] > 0))
-    angle, p = DIACONIS
-    found.psi, found.p = np.degrees(angle), p
-    found.counted = counted[-1]
-    found.closed_form = first_side(angle)
-    found.off = np.abs(counted - first_side(psi)).max()
-    found.two_samples = 2 / TURNS
-    found.mujoco_off = abs(found.by_mujoco - counted[-1])
-    found.printed_off = float(abs(found.closed_form - p))
-    found.data = {
-        f"{name}, {part}": row
-        for name, rows in followed.items()
-        for part, row in zip(("time", "analytic", "MuJoCo"), rows, strict=True)
-    }
-    for name, tosses in (("flat", flat), ("leaning", leaning)):
-        found.data |= {f"{name}, {part}": tosses[part] for part in ("gamma", "lowest")}
-    found.data |= {"psi": psi, "counted": counted}
-    progress(4, 4)
-    return found
-
-
-def first_side(psi: Array | float) -> Array:
-    """Return the probability that the first side is up; Diaconis, Holmes and Montgomery 2007, theorem 2.
-
-    The ideal coin is released flat, and caught after a time that leaves every phase of its turn about the
-    angular momentum as likely.
-
-    Args:
-        psi: ψ, between normal and angular momentum, from 0 to π/2 [rad].
-    """
-    cotangent = np.minimum(1 / np.tan(psi), 1)
-    return 1 / 2 + np.arcsin(cotangent**2) / np.pi
-
-
-def _follow(scenario: Scenario, air: Air) -> tuple[Array, Array, Array]:
-    """Return times [s], and γ by both engines [degrees], until the coin lands."""
-    case = scenario.replace("air", air, "ending", EndingCriteria(max_impacts=1))
-    tosses = analytic.toss(case), coin_mj.toss(case)
+def follow(case: tuple[str, Air]) -> pd.DataFrame:
+    """Return γ by both engines until the coin lands, and by how much it changes [degrees]."""
+    file, air = case
+    scenario = load(file).replace("air", air, "ending", EndingCriteria(max_impacts=1))
+    tosses = by_both(scenario)
     # At the touch itself the state is that after the impact.
-    t = np.linspace(0, min(toss.impacts.time[0] for toss in tosses), 301)[:-1]
-    by_analytic, mujoco = (np.degrees(_gamma(case, toss.sample(t))) for toss in tosses)
-    return t, by_analytic, mujoco
+    t = np.linspace(0, first_touch(tosses), 301)[:-1]
+    gamma = {engine: _gamma(scenario, toss.sample(t).angular_velocity) for engine, toss in tosses.items()}
+    found = pd.DataFrame({"time": t, **gamma}).melt("time", var_name="engine", value_name="gamma")
+    return found.assign(swing=found.groupby("engine")["gamma"].transform(np.ptp)).iloc[::3]
 
 
-def _gamma(case: Scenario, states: States) -> Array:
-    """Return the angle between the angular momentum and the normal, (n,) [rad]."""
-    L = states.angular_velocity @ case.coin.inertia_about_C
-    return np.arctan2(np.hypot(L[:, 0], L[:, 1]), L[:, 2])
+def _gamma(scenario: Scenario, w: Array) -> Array:
+    """Return the angle between the angular momentum and the normal, (n,) [degrees]."""
+    L = w @ scenario.coin.inertia_about_C
+    return np.degrees(np.arctan2(np.hypot(L[:, 0], L[:, 1]), L[:, 2]))
 
 
-def _random_tosses(rng: np.random.Generator, count: int, anyhow: bool) -> dict[str, Array]:
-    """Toss the ideal coin at random, flat or `anyhow`; γ is up to π/2, the turn up to 100 rad/s.
+def toss_at_random(count: int = 1000) -> Iterator[dict[str, Any]]:
+    """Toss the ideal coin from flat, and as often from any attitude; γ is up to π/2, the turn to 100 rad/s.
 
-    Returns:
-        For each toss its start, γ, the least |n_z| while its first side is up, or less than 0 where it turns
-        over, and how far n_z is from the closed form.
+    Yields:
+        Of all tosses how many have γ < π/4 and change their face, and how far n_z is from the closed form;
+        of some γ [degrees] and the lowest n_z of their first side.
     """
+    rng = np.random.default_rng(4)
     scenario = load("fig4_ideal")
     J = np.diag(scenario.coin.inertia_about_C)
-    gamma, turn = rng.uniform(0, np.pi / 2, count), rng.uniform(20, 100, count)
-    around = rng.uniform(0, 2 * np.pi, count)
-    L = np.stack([np.sin(gamma) * np.cos(around), np.sin(gamma) * np.sin(around), np.cos(gamma)], axis=1)
-    w = L * (turn * J[0])[:, None] / J
-    attitude = Rotation.random(count, rng=rng) if anyhow else Rotation.identity(count)
-    e = attitude.as_quat(scalar_first=True)
-    starts = np.hstack([np.zeros((count, 6)), e, w])
-    times, states = np.linspace(0, DURATION, SAMPLES), np.empty((SAMPLES, 13))
-    found = np.empty((count, 2))
-    L_space = attitude.apply(L)
-    n_0 = attitude.apply([0, 0, 1])
-    for i in range(count):
-        sample_flight(scenario.body, starts[i], 0.0, times, states)
-        heights = 1 - 2 * (states[:, 7] ** 2 + states[:, 8] ** 2)
-        apart = np.abs(heights - _closed_form(n_0[i], L_space[i], turn[i], times)).max()
-        found[i] = (np.sign(heights[0]) * heights).min(), apart
-    lowest, apart = found.T
-    return {"w": w, "L": L_space, "turn": turn, "gamma": gamma, "lowest": lowest, "apart": apart}
+    for released in ("flat", "leaning"):
+        gamma, turn = rng.uniform(0, np.pi / 2, count), rng.uniform(20, 100, count)
+        around = rng.uniform(0, 2 * np.pi, count)
+        L = np.stack([np.sin(gamma) * np.cos(around), np.sin(gamma) * np.sin(around), np.cos(gamma)], axis=1)
+        w = L * (turn * J[0])[:, None] / J
+        any_attitude = released == "leaning"
+        attitude = Rotation.random(count, rng=rng) if any_attitude else Rotation.identity(count)
+        starts = np.hstack([np.zeros((count, 6)), attitude.as_quat(scalar_first=True), w])
+        tossed = attitude.apply([0, 0, 1]), attitude.apply(L), turn
+        lowest, apart = np.array([_tossed(scenario, *one) for one in zip(starts, *tossed, strict=True)]).T
+        below = gamma < np.pi / 4
+        yield {
+            "released": released,
+            "tosses": count,
+            "below": int(below.sum()),
+            "changed": int(np.sum((lowest < 0) & below)),
+            "apart": apart.max(),
+            "foretold": np.mean((np.abs(tossed[1][:, 2]) > np.sin(gamma)) == (lowest > 0)),
+            "mujoco_apart": None if any_attitude else _mujoco_apart(scenario, w, *tossed),
+        }
+        for one in range(min(count, DRAWN)):
+            yield {"released": released, "angle": np.degrees(gamma[one]), "lowest": lowest[one]}
+
+
+def _tossed(scenario: Scenario, start: Array, n: Array, L: Array, turn: float) -> tuple[float, float]:
+    """Return the least |n_z| while the first side is up, less than 0 where it turns over, and its error."""
+    times = np.linspace(0, DURATION, SAMPLES)
+    heights = _heights(scenario, start, times)
+    apart = np.abs(heights - _closed_form(n, L, turn, times)).max()
+    return (np.sign(heights[0]) * heights).min(), apart
+
+
+def _heights(scenario: Scenario, start: Array, times: Array) -> Array:
+    """Return n_z of a flight by the analytic engine, (n,)."""
+    states = np.empty((len(times), 13))
+    sample_flight(scenario.body, start, 0.0, times, states)
+    return 1 - 2 * (states[:, 7] ** 2 + states[:, 8] ** 2)
 
 
 def _closed_form(n: Array, L: Array, turn: float, times: Array) -> Array:
@@ -147,67 +113,54 @@ def _closed_form(n: Array, L: Array, turn: float, times: Array) -> Array:
     return along[2] + (n - along)[2] * np.cos(turn * times) + np.cross(L, n)[2] * np.sin(turn * times)
 
 
-def _mujoco_apart(tosses: dict[str, Array]) -> float:
+def _mujoco_apart(scenario: Scenario, w: Array, n: Array, L: Array, turn: Array) -> float:
     """Return how far n_z by MuJoCo is from the closed form in the first tosses from flat."""
-    scenario, times = load("fig4_ideal"), np.linspace(0, DURATION, 50)
-    apart = []
+    times, apart = np.linspace(0, DURATION, 50), []
     for i in range(MUJOCO_TOSSES):
-        release = Release(position=(0.0, 0.0, 2.0), angular_velocity=vector(tosses["w"][i]))
-        case = scenario.replace("release", release, "ending", EndingCriteria(max_time=DURATION))
-        heights = coin_mj.toss(case).sample(times).normal[:, 2]
-        exact = _closed_form(np.array([0, 0, 1.0]), tosses["L"][i], tosses["turn"][i], times)
-        apart.append(np.abs(heights - exact).max())
+        release = Release(position=(0.0, 0.0, 2.0), angular_velocity=vector(w[i]))
+        heights = _mujoco_heights(scenario, release, DURATION, times)
+        apart.append(np.abs(heights - _closed_form(n[i], L[i], turn[i], times)).max())
     return float(max(apart))
 
 
-def _first_side() -> tuple[Array, Array, float]:
-    """Count for how much of a turn the first side is up.
+def _mujoco_heights(scenario: Scenario, release: Release, lasts: float, times: Array) -> Array:
+    case = scenario.replace("release", release, "ending", EndingCriteria(max_time=lasts))
+    return coin_mj.toss(case).sample(times).normal[:, 2]
 
-    Returns:
-        Angles ψ [rad], the parts by the analytic engine, and that by MuJoCo at the last angle.
+
+def turn(psi: float) -> Iterator[dict[str, Any]]:
+    """Yield for how much of a turn the first side is up: in closed form, counted, and by MuJoCo.
+
+    The closed form is Diaconis, Holmes and Montgomery 2007, theorem 2: the ideal coin is released flat, and
+    caught after a time that leaves every phase of its turn about the angular momentum as likely.
+
+    Args:
+        psi: ψ, between normal and angular momentum, from 0 to π/2 [rad].
     """
-    scenario = load("fig4_ideal")
-    psi = np.array([*np.radians(np.arange(40, 90, 4)), DIACONIS[0]])
-    J, turn = np.diag(scenario.coin.inertia_about_C), 60.0
+    scenario, rate = load("fig4_ideal"), 60.0
+    J = np.diag(scenario.coin.inertia_about_C)
     # In the middles of equal parts of the turn.
-    times = (np.arange(TURNS) + 0.5) / TURNS * 2 * np.pi / turn
-    counted, states = [], np.empty((TURNS, 13))
-    w = np.zeros(3)
-    for angle in psi:
-        w = turn * J[0] * np.array([0, np.sin(angle), np.cos(angle)]) / J
-        sample_flight(scenario.body, np.array([0, 0, 0, 0, 0, 0, 1.0, 0, 0, 0, *w]), 0.0, times, states)
-        counted.append(np.mean(1 - 2 * (states[:, 7] ** 2 + states[:, 8] ** 2) > 0))
+    times = (np.arange(TURNS) + 0.5) / TURNS * 2 * np.pi / rate
+    w = rate * J[0] * np.array([0, np.sin(psi), np.cos(psi)]) / J
+    heights = _heights(scenario, np.array([0, 0, 0, 0, 0, 0, 1.0, 0, 0, 0, *w]), times)
     release = Release(position=(0.0, 0.0, 1.0), velocity=(0.0, 0.0, 2.0), angular_velocity=vector(w))
-    ending = EndingCriteria(max_time=2 * np.pi / turn)
-    mujoco = coin_mj.toss(scenario.replace("release", release, "ending", ending))
-    return psi, np.array(counted), float(np.mean(mujoco.sample(times).normal[:, 2] > 0))
+    mujoco = float(np.mean(_mujoco_heights(scenario, release, 2 * np.pi / rate, times) > 0))
+    exact = float(1 / 2 + np.arcsin(np.minimum(1 / np.tan(psi), 1) ** 2) / np.pi)
+    counted = float(np.mean(heights > 0))
+    yield {"by": "closed form", "p": exact, "off": abs(exact - P)}
+    yield {"by": "counted", "p": counted, "off": abs(counted - exact)}
+    yield {"by": "MuJoCo", "p": mujoco, "off": abs(mujoco - counted)}
 
 
-def _draw(data: Data) -> Figure:
-    picture = Figure(figsize=(10, 3.5))
-    angle, heights, sides = picture.subplots(1, 3)
-    for name, (_, _, color) in CASES.items():
-        t = data[f"{name}, time"]
-        angle.plot(t, data[f"{name}, analytic"], color=color, label=name)
-        angle.plot(t[::20], data[f"{name}, MuJoCo"][::20], "o", color=color, markersize=3)
-    angle.set(title="lines: analytic; dots: MuJoCo", xlabel="time [s]", ylabel="γ [°]")
-    angle.legend()
-    for name, color in (("leaning", ORANGE), ("flat", BLUE)):
-        gamma = np.degrees(data[f"{name}, gamma"])
-        heights.plot(gamma, data[f"{name}, lowest"], ".", color=color, markersize=2)
-        heights.plot([], [], "o", color=color, label=f"released {name}")
-    heights.axvline(45, color=GREY, linewidth=0.8)
-    heights.axhline(0, color=GREY, linewidth=0.8)
-    heights.set(
-        title="random tosses", xlabel="γ [°]", ylabel="lowest n_z of the first side", xticks=range(0, 91, 15)
-    )
-    heights.legend(loc="upper right")
-    psi = np.radians(np.linspace(40, 90, 300))
-    sides.plot(np.degrees(psi), first_side(psi), color=PALE, label="closed form")
-    sides.plot(np.degrees(data["psi"]), data["counted"], "o", color=BLUE, markersize=4, label="counted")
-    sides.set(title="first side up", xlabel="ψ [°]", ylabel="p")
-    sides.legend()
-    return picture
+def _found(cells: pd.DataFrame) -> dict[str, Any]:
+    swings = cells.groupby(["engine", "case"])["swing"].first().unstack("case")
+    return {"swing": swings, "quarter": cells["tosses"].max() / 4}
 
 
-REPRODUCTION = declared(__name__, make, draw={"figure": _draw})
+REPRODUCTION = study(
+    __name__,
+    Cells(follow, {"case": CASES}),
+    Cells(toss_at_random, {}),
+    Cells(turn, {"psi": PSI}),
+    found=_found,
+)

@@ -1,19 +1,17 @@
 """Table 1: where each sequence of three angles is singular, and what that costs near θ = 0."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
+from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
+import pandas as pd
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from cointoss import EndingCriteria, Release, Scenario, analytic, coin_mj, load
+from cointoss import EndingCriteria, Release, Scenario, load
 from cointoss.study import (
-    BLUE,
-    VERMILION,
     Array,
-    Progress,
     Sequence,
     derivative,
     quaternion_from_angles,
@@ -23,7 +21,9 @@ from cointoss.study import (
     state_at_release,
     vector,
 )
-from cointoss_reproduction.frame.declared import Data, Findings, declared
+from cointoss_reproduction.frame.cells import Cells, column
+from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.setups.both_engines import by_both
 
 PRINTED = {
     "121": ("sin", -1, 0.0),
@@ -40,9 +40,10 @@ PRINTED = {
     "323": ("sin", -1, 0.0),
 }
 """Table 1: the function of φ_2 that vanishes, its sign, and the first angle where it does [rad]."""
+ROWS = len(PRINTED)
 CLASSICAL = Sequence.ZETA_XI_ZETA
 
-LEAST = np.array([0.3 * 10.0**-k for k in range(11)])
+LEAST = tuple(0.3 * 10.0**-k for k in range(11))
 """Smallest θ of the motions [rad]."""
 CONE, ACROSS = np.radians(40), 40.0
 """Angle between the normal and the angular momentum; spin across the normal [rad/s]."""
@@ -52,35 +53,17 @@ STEPS = 1000
 """In the turn of the solver that does not."""
 
 
-def make(progress: Progress) -> Findings:
-    """Check the table; fly past θ = 0 in Euler angles, in Euler parameters, and by both engines."""
-    vanish = {sequence.value: singularity(sequence) for sequence in Sequence}
-    found = Findings(rows=len(PRINTED))
-    found.right = sum((at.function, at.sign, at.angle) == PRINTED[name] for name, at in vanish.items())
-    rows = []
-    for done, least in enumerate(LEAST, start=1):
-        rows.append(_fly(least))
-        progress(done, len(LEAST))
-    angles, parameters, fixed_angles, fixed_parameters, engine, mujoco = np.array(rows).transpose(1, 0, 2)
-    found.errors = np.array([angles[:, 0], parameters[:, 0], fixed_angles[:, 0], fixed_parameters[:, 0]])
-    found.steps = np.array([angles[:, 1], parameters[:, 1]])
-    found.engines = np.array([engine[:, 0].max(), mujoco[:, 0].max()])
-    found.spread, found.three_times = np.ptp(parameters[:, 1]), 3 * angles[0, 1]
-    found.thousand_times, found.twice = 1e3 * fixed_angles[0, 0], 2 * fixed_parameters[:, 0].min()
-    found.data = {
-        "least angle": LEAST,
-        "angles, fixed steps": fixed_angles[:, 0],
-        "parameters, fixed steps": fixed_parameters[:, 0],
-        "angles, chosen steps": angles,
-        "parameters, chosen steps": parameters,
-        "engine": engine[:, 0],
-        "MuJoCo": mujoco[:, 0],
-    }
-    return found
+ENGINES = ("analytic", "MuJoCo")
 
 
-def _fly(least: float) -> list[tuple[float, float]]:
-    """Return error [rad] and steps of all ways to fly a turn about the angular momentum past a least θ."""
+def follow(sequence: str) -> dict[str, int]:
+    """Return whether a row of the table follows from det B."""
+    at = singularity(Sequence(sequence))
+    return {"follows": int((at.function, at.sign, at.angle) == PRINTED[sequence])}
+
+
+def fly(least: float) -> Iterator[dict[str, Any]]:
+    """Yield error [rad] and steps of all ways to fly a turn about the angular momentum past a least θ."""
     case, L, turn = _case(least)
     release = case.release
     J = case.coin.inertia_about_C
@@ -89,20 +72,13 @@ def _fly(least: float) -> list[tuple[float, float]]:
     spin = (1 - J[2, 2] / J[0, 0]) * release.angular_velocity[2]
     # The free symmetric top turns about L and, in the body, about its normal.
     end = Rotation.from_rotvec(L * turn * period) * begin * Rotation.from_rotvec([0, 0, spin * period])
-
-    def error_of_angles(y: Array) -> float:
-        return (end.inv() * Rotation.from_matrix(rotation_of(CLASSICAL, y[6:9]))).magnitude()
-
-    def error_of_parameters(y: Array) -> float:
-        return (end.inv() * Rotation.from_quat(y[6:10], scalar_first=True)).magnitude()
-
-    by_angles = partial(_rate_in_angles, case)
-    by_parameters = partial(_rate_in_parameters, case)
     of_parameters = state_at_release(release)
     of_angles = np.array([*of_parameters[:6], *(release.angles or ()), *of_parameters[10:]])
-    answers = []
-    ways = ((by_angles, of_angles, error_of_angles), (by_parameters, of_parameters, error_of_parameters))
-    for rate, start, error in ways:
+    ways = {
+        "angles": (partial(_rate_in_angles, case), of_angles, _by_angles),
+        "parameters": (partial(_rate_in_parameters, case), of_parameters, _by_parameters),
+    }
+    for way, (rate, start, attitude) in ways.items():
         found = solve_ivp(
             lambda _, y, rate=rate: rate(y),
             (0, period),
@@ -111,12 +87,21 @@ def _fly(least: float) -> list[tuple[float, float]]:
             rtol=TOLERANCE,
             atol=TOLERANCE,
         )
-        answers.append((error(found.y[:, -1]), len(found.t) - 1))
-    answers += [(error(_runge_kutta(rate, start, period)), STEPS) for rate, start, error in ways]
-    for engine in (analytic.toss, coin_mj.toss):
-        e = engine(case).sample(period).quaternion[0]
-        answers.append(((end.inv() * Rotation.from_quat(e, scalar_first=True)).magnitude(), np.nan))
-    return answers
+        fixed = _runge_kutta(rate, start, period)
+        for steps, y, many in (("chosen", found.y[:, -1], len(found.t) - 1), ("fixed", fixed, STEPS)):
+            error = (end.inv() * attitude(y)).magnitude()
+            yield {"way": f"{way}, {steps} steps", "error": error, "steps": many}
+    for engine, toss in by_both(case).items():
+        e = toss.sample(period).quaternion[0]
+        yield {"way": engine, "error": (end.inv() * Rotation.from_quat(e, scalar_first=True)).magnitude()}
+
+
+def _by_angles(y: Array) -> Rotation:
+    return Rotation.from_matrix(rotation_of(CLASSICAL, y[6:9]))
+
+
+def _by_parameters(y: Array) -> Rotation:
+    return Rotation.from_quat(y[6:10], scalar_first=True)
 
 
 def _case(least: float) -> tuple[Scenario, Array, float]:
@@ -163,22 +148,22 @@ def _runge_kutta(rate: Callable[[Array], Array], y: Array, duration: float) -> A
     return y
 
 
-def _draw(data: Data) -> Figure:
-    picture = Figure(figsize=(8.4, 3.4))
-    errors, steps = picture.subplots(1, 2)
-    theta = data["least angle"]
-    errors.loglog(theta, data["angles, fixed steps"], "o-", color=VERMILION, label="Euler angles")
-    errors.loglog(theta, data["parameters, fixed steps"], "o-", color=BLUE, label="Euler parameters")
-    errors.set(
-        title=f"{STEPS} fixed steps in a turn", xlabel="least θ [rad]", ylabel="error of the attitude [rad]"
+def _found(cells: pd.DataFrame) -> dict[str, Any]:
+    errors, steps = (
+        {str(way): of[column].to_numpy() for way, of in cells.groupby("way")} for column in ("error", "steps")
     )
-    errors.legend()
-    steps.loglog(theta, data["angles, chosen steps"][:, 1], "o-", color=VERMILION)
-    steps.loglog(theta, data["parameters, chosen steps"][:, 1], "o-", color=BLUE)
-    steps.set(title=f"steps chosen to {TOLERANCE:g}", xlabel="least θ [rad]", ylabel="number of steps")
-    for axes in (errors, steps):
-        axes.invert_xaxis()
-    return picture
+    return {
+        "errors": errors,
+        "steps": steps,
+        "right": int(column(cells, "follows").sum()),
+        "engines": np.array([errors[engine].max() for engine in ENGINES]),
+        "spread": np.ptp(steps["parameters, chosen steps"]),
+        "three_times": 3 * steps["angles, chosen steps"][0],
+        "thousand_times": 1e3 * errors["angles, fixed steps"][0],
+        "twice": 2 * errors["parameters, fixed steps"].min(),
+    }
 
 
-REPRODUCTION = declared(__name__, make, draw={"figure": _draw})
+REPRODUCTION = study(
+    __name__, Cells(follow, {"sequence": tuple(PRINTED)}), Cells(fly, {"least": LEAST}), found=_found
+)
