@@ -12,8 +12,8 @@ import pandas as pd
 from cointoss.study import Estimate, in_words
 from cointoss_reproduction.frame import gallery
 from cointoss_reproduction.frame.claim import VERDICTS, Criterion, read_claims
-from cointoss_reproduction.frame.pages import verdicts_of
 from cointoss_reproduction.frame.files import folder_of
+from cointoss_reproduction.frame.pages import verdicts_of
 
 TOP = Path(__file__).parents[2]
 DOCS = TOP / "docs"

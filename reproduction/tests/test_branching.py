@@ -1,18 +1,18 @@
 """The branching: against a map whose f is known, against pairs of tosses, and what its dead parts hold."""
 
 from fractions import Fraction
-from itertools import product
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
 import pytest
 
+from cointoss.models.records import Outcome
 from cointoss_reproduction.precision import branching
 from cointoss_reproduction.precision.branching import PARTS, branch, chances, expand, what_lies_there
-from cointoss_reproduction.precision.double_double import exact, pair_of
-from cointoss_reproduction.precision.planar_coin import planar_coin, units
-from cointoss_reproduction.precision.planar_state import HEIGHT, release, spread
-from cointoss_reproduction.precision.planar_toss import PlanarOutcomes, toss_many
+from cointoss_reproduction.precision.planar_coin import PlanarRelease, planar_coin, units
+from cointoss_reproduction.precision.planar_numbers import Toss, spread, toss_many
+from cointoss_reproduction.precision.planar_state import Impact
 from cointoss_reproduction.setups.planar_maps import case
 from cointoss_reproduction.setups.uncertain_shares import uncertain_shares
 
@@ -27,10 +27,10 @@ def coin_of(chi, law="smooth"):
     return planar_coin(scenario), units(scenario)
 
 
-def drawn(units, number, seed=1):
+def drawn(number, seed=1):
     rng = np.random.default_rng(seed)
     z, w = rng.uniform(0.2, 0.6, number), rng.uniform(20, 60, number)
-    return np.array([release(units, height=a, spin=b) for a, b in zip(z, w, strict=True)])
+    return [PlanarRelease(Fraction(a), Fraction(b)) for a, b in zip(z, w, strict=True)]
 
 
 def ends_at(digits):
@@ -38,29 +38,28 @@ def ends_at(digits):
     return next((n for n, digit in enumerate(digits) if digit < 5), len(digits) - 1)
 
 
-def toss_by_digits(_coin, states, *, to_contact=False):
+def toss_by_digits(_coin, _units, releases, *, to_contact=False):
     """Toss by the map: each decade ends half of the tosses, and the others go on with more energy."""
     assert not to_contact
-    found = []
-    for state in states:
-        number = int(exact(tuple(state[HEIGHT])) * 10**LAST)
-        digits = [int(x) for x in f"{number:0{LAST}d}"[-LAST:]]
-        end = ends_at(digits)
-        found.append((1 + digits[end] % 2, number // 10 ** (LAST - 1 - end), 1.0 + end))
-    outcome, itinerary, energy = (np.array(values) for values in zip(*found, strict=True))
-    left = np.zeros(len(states))
-    parted = itinerary[1:] != itinerary[:-1]
-    left[1:][parted] = np.maximum(energy[1:], energy[:-1])[parted]
-    nothing = np.zeros(len(states))
-    return PlanarOutcomes(
-        outcome=outcome.astype(np.int8),
-        impacts=np.zeros(len(states), dtype=np.int64),
-        itinerary=itinerary,
-        contacts=np.zeros(len(states), dtype=np.int64),
-        energy=nothing,
-        from_upright=nothing,
-        flattest=nothing,
-        left=left,
+    return [by_digits(release) for release in releases]
+
+
+def by_digits(release):
+    number = int(release.height * 10**LAST)
+    digits = [int(x) for x in f"{number:0{LAST}d}"[-LAST:]]
+    end = ends_at(digits)
+    return tossed(Outcome(1 + digits[end] % 2), number // 10 ** (LAST - 1 - end), 1.0 + end)
+
+
+def tossed(outcome, itinerary, energy):
+    """Return a toss of one impact that parts from all of another itinerary."""
+    return Toss(
+        outcome=outcome,
+        impacts=(Impact(heads=True, corner=1, impulse=0, state=(itinerary, 0, 0), energy=energy),),
+        contacts=(),
+        energy=0.0,
+        from_upright=0.0,
+        flattest=0.0,
     )
 
 
@@ -79,19 +78,20 @@ def share_by_digits(decades):
     return total / 10**decades
 
 
+def branched(heights, rng, **sizes):
+    starts = [PlanarRelease(Fraction(z)) for z in heights]
+    return branch(NO_COIN, NO_COIN, starts, quantity="height", largest=Fraction(1, 100), rng=rng, **sizes)
+
+
 def test_a_map_whose_share_is_known(monkeypatch):
     """f is exact at first; then it halves each decade but for 10^-k, so that α tends to log10 2."""
     monkeypatch.setattr(branching, "toss_many", toss_by_digits)
     found = []
     for seed in range(8):
         rng = np.random.default_rng(seed)
-        starts = np.zeros((120, 5, 2))
-        starts[:, HEIGHT, 0] = rng.uniform(0.1, 0.9, 120)
-        starts[:, HEIGHT, 0] -= np.round(starts[:, HEIGHT, 0], 1) - rng.integers(0, 10, 120) / 10
-        starts[:, HEIGHT, 0] %= 1
-        made = branch(
-            NO_COIN, starts, row=HEIGHT, largest=Fraction(1, 100), levels=16, population=40, rng=rng
-        )
+        heights = rng.uniform(0.1, 0.9, 120)
+        heights -= np.round(heights, 1) - rng.integers(0, 10, 120) / 10
+        made = branched(heights % 1, rng, levels=16, population=40)
         assert np.all((made.parted <= made.energy) & (made.energy <= (LAST + 1) * made.parted))
         found.append(made.shares.mean(axis=0))
     shares, errors = np.mean(found, axis=0), np.std(found, axis=0, ddof=1) / len(found) ** 0.5
@@ -103,19 +103,11 @@ def test_a_map_whose_share_is_known(monkeypatch):
 
 
 def test_where_no_toss_parts_all_weight_is_in_dead_parts(monkeypatch):
-    def toss_alike(coin, states):
-        made = toss_by_digits(coin, states)
-        return made._replace(
-            outcome=np.ones_like(made.outcome),
-            itinerary=np.zeros_like(made.itinerary),
-            left=np.zeros_like(made.left),
-        )
+    def toss_alike(_coin, _units, releases):
+        return [tossed(Outcome.HEADS, 0, 1.0) for _ in releases]
 
     monkeypatch.setattr(branching, "toss_many", toss_alike)
-    made = branch(
-        NO_COIN, np.zeros((20, 5, 2)), row=HEIGHT, largest=Fraction(1, 100), levels=4, population=5,
-        rng=np.random.default_rng(0),
-    )  # fmt: skip
+    made = branched(np.zeros(20), np.random.default_rng(0), levels=4, population=5)
     assert made.whole == pytest.approx(1)
     assert not made.shares.any()
 
@@ -133,15 +125,10 @@ class Told(np.random.Generator):
 def test_boundaries_are_drawn_by_weight(monkeypatch):
     """A part has the weight of one over the chances by which it came so far, and no two have the same."""
     monkeypatch.setattr(branching, "toss_many", toss_by_digits)
-    nothing = np.zeros(7, dtype=bool)
-    monkeypatch.setattr(branching, "what_lies_there", lambda *_: (nothing, nothing))
+    monkeypatch.setattr(branching, "what_lies_there", lambda *_: (False, False))
     rng = Told(np.random.PCG64(1))
     rng.chances = []
-    starts = np.zeros((120, 5, 2))
-    starts[:, HEIGHT, 0] = rng.uniform(0.1, 0.9, 120)
-    branch(
-        NO_COIN, starts, row=HEIGHT, largest=Fraction(1, 100), levels=8, population=20, rng=rng, followed=7
-    )
+    branched(rng.uniform(0.1, 0.9, 120), rng, levels=8, population=20, followed=7)
     first, *_, last = (np.unique(p[p > 0]) for p in rng.chances)
     assert len(rng.chances) == 8
     assert np.ptp(first) == pytest.approx(0)
@@ -165,48 +152,57 @@ def test_chances_sum_to_the_population_and_follow_the_scores(scores, population)
     assert np.ptp(found[below] / np.array(scores)[below]) == pytest.approx(0) if below.any() else True
 
 
-@pytest.mark.parametrize(("chi", "law"), [(0.0, "smooth"), (0.6, "smooth"), (0.3, "perfectly_rough")])
-def test_no_dead_part_holds_a_boundary(chi, law):
+@pytest.mark.parametrize(
+    ("chi", "law", "intervals"), [(0.0, "smooth", 60), (0.6, "smooth", 16), (0.3, "perfectly_rough", 16)]
+)
+def test_no_dead_part_holds_a_boundary(chi, law, intervals):
     """Parts of it, and parts of these, are tossed."""
     coin, own = coin_of(chi, law)
     rng, count = np.random.default_rng(5), 0
-    parents = drawn(own, 150)
+    parents = drawn(intervals)
+
+    def some(releases, most):
+        return [releases[i] for i in rng.permutation(len(releases))[:most]]
+
     for level in range(6):
-        step = Fraction(1, 1000 * PARTS**level) / own.length
-        made = expand(coin, parents, HEIGHT, step)
-        low = made.points[:, :-1].reshape(-1, 5, 2)
-        dead, living = low[~made.lives.ravel()], low[made.lives.ravel()]
-        dead = dead[rng.permutation(len(dead))[:60]]
+        step = Fraction(1, 1000 * PARTS**level)
+        made = [expand(coin, own, "height", step, parent) for parent in parents]
+        parts = [pair for one in made for pair in zip(one.points[:-1], one.lives, strict=True)]
+        dead = some([low for low, lives in parts if not lives], 8)
         count += len(dead)
-        if len(dead):
-            inside = expand(coin, dead, HEIGHT, step / PARTS)
+        for part in dead:
+            inside = expand(coin, own, "height", step / PARTS, part)
             assert not inside.differs.any()
-            finer = inside.points[:, :-1].reshape(-1, 5, 2)
-            finer = finer[rng.permutation(len(finer))[:60]]
-            assert not expand(coin, finer, HEIGHT, step / PARTS**2).differs.any()
-        parents = living[rng.permutation(len(living))[:150]]
-    assert count > 200
+            (finer,) = some(inside.points[:-1], 1)
+            assert not expand(coin, own, "height", step / PARTS**2, finer).differs.any()
+        parents = some([low for low, lives in parts if lives], intervals)
+    assert count > 30
 
 
 def test_branching_finds_the_shares_that_pairs_of_tosses_show():
     coin, own = coin_of(0.6)
     rng = np.random.default_rng(11)
     runs = []
-    for seed in range(10):
-        largest = Fraction(1, 1000) / own.length
+    for seed in range(6):
         found = branch(
-            coin, drawn(own, 100, seed=seed), row=HEIGHT, largest=largest, levels=7, population=40, rng=rng
-        )
+            coin, own, drawn(80, seed=seed), quantity="height", largest=Fraction(1, 1000), levels=5,
+            population=12, rng=rng,
+        )  # fmt: skip
         runs.append(found.shares.mean(axis=0))
         whole = found.whole.mean(axis=0)
         assert whole[0] == pytest.approx(1)
         assert 0.5 < whole[-1] < 2
         assert (found.parted[:, 1:].sum(axis=0) > found.shares[:, 1:].sum(axis=0)).all()
-    shares, errors = np.mean(runs, axis=0), np.std(runs, axis=0) / np.sqrt(9)
-    starts = drawn(own, 3000, seed=12)
-    for level in (0, 3, 6):
-        step = pair_of(Fraction(1, 1000 * 10**level) / own.length)
-        outcome = toss_many(coin, spread(starts, HEIGHT, step, 3)).outcome.reshape(-1, 3)
+    shares, errors = np.mean(runs, axis=0), np.std(runs, axis=0) / np.sqrt(5)
+    starts = drawn(800, seed=12)
+    for level in (0, 2, 4):
+        step = Fraction(1, 1000 * 10**level)
+        outcome = np.array(
+            [
+                [toss.outcome for toss in toss_many(coin, own, spread(one, "height", step, 3))]
+                for one in starts
+            ]
+        )
         uncertain = (outcome[:, 1] != outcome[:, 0]) | (outcome[:, 1] != outcome[:, 2])
         p = uncertain.mean()
         assert p * len(uncertain) > 20
@@ -215,12 +211,12 @@ def test_branching_finds_the_shares_that_pairs_of_tosses_show():
         assert sigma < 0.3 * p
 
 
-def test_runs_agree_at_the_quantum_width():
+def test_runs_agree_at_an_atoms_size():
     """Without any preference they scatter more."""
     scenario = case(air=False, restitution=0.6)
     runs = [
-        uncertain_shares(scenario, np.random.default_rng([9, run]), levels=14, population=40)
-        for run in range(8)
+        uncertain_shares(scenario, np.random.default_rng([9, run]), levels=7, population=20)
+        for run in range(5)
     ]
     found = [run.shares[:, -1].mean() for run in runs]
     assert 0.05 < np.log10(found).std() < 0.5
@@ -230,16 +226,18 @@ def test_boundaries_are_told_apart_by_what_the_coin_does_there():
     """A coin that lands flat at its first touch: the height at which either rim point is first."""
     coin, own = coin_of(0.6)
     rng = np.random.default_rng(3)
-    found = uncertain_shares(case(air=False, restitution=0.6), rng, levels=4, population=30, followed=20)
-    assert (found.boundaries.sum(axis=0) > 15).all()
-    assert (found.flat.sum(axis=0) < 10).all()
+    found = uncertain_shares(case(air=False, restitution=0.6), rng, levels=2, population=8, followed=4)
+    assert (found.boundaries.sum(axis=0) > 2).all()
+    assert (found.flat.sum(axis=0) < 3).all()
     assert (found.flat <= found.boundaries).all()
     # Both kinds are met on a fine line of the paper's coin that bounces much.
     coin, own = coin_of(0.8)
-    line = spread(drawn(own, 1, seed=2), HEIGHT, pair_of(Fraction(1, 10**5) / own.length), 3000)
-    outcome = toss_many(coin, line).outcome
-    low = line[:-1][outcome[1:] != outcome[:-1]][:100]
-    stands, lands = what_lies_there(coin, low, HEIGHT, Fraction(1, 10**5) / own.length)
+    step = Fraction(1, 10**5)
+    line = spread(drawn(1, seed=2)[0], "height", step, 800)
+    tosses = toss_many(coin, own, line)
+    changes = [n for n, (one, other) in enumerate(pairwise(tosses)) if one.outcome != other.outcome][:20]
+    found = [what_lies_there(coin, own, "height", step, line[n]) for n in changes]
+    stands, lands = np.array(found).T
     assert not (stands & lands).any()
-    assert stands.sum() > 0.7 * len(low)
-    assert 0 < lands.sum() < 0.25 * len(low)
+    assert stands.sum() > 0.7 * len(changes)
+    assert 0 < lands.sum() < 0.25 * len(changes)

@@ -1,6 +1,7 @@
 """A proof is of the toss that a scenario describes: each field is honoured, refused, or without use to it."""
 
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from cointoss.compare.metrics.margin import QUANTITIES, margins, offered_proofs,
 from cointoss.models.batch import rows_from_states
 from cointoss.models.records import Ending, Outcome
 from cointoss_reproduction.precision.certified import certified_toss
-from cointoss_reproduction.precision.planar_coin import planar_coin, units
+from cointoss_reproduction.precision.planar_coin import PlanarRelease, planar_coin, units
 from cointoss_reproduction.precision.planar_ending import planar_ending
 from cointoss_reproduction.precision.proved_change import PROVED, proved_change, refusal
 from tests.helpers.command_line import cointoss
@@ -241,8 +242,7 @@ def test_each_test_of_the_ending_ends_the_proof_at_the_impact_that_it_ends_the_t
             proof = certified_toss(
                 planar_coin(case),
                 units(case),
-                height=case.release.position[2],
-                spin=spin,
+                PlanarRelease(Fraction(case.release.position[2]), Fraction(spin)),
                 ending=planar_ending(by_test),
             )
             if not len(toss.contacts) and proof.outcome != Outcome.UNDECIDED:

@@ -12,20 +12,22 @@ shared by weight alone, some with preference for energy, and some among parts wh
 for a landing that is exactly flat parts tosses, too, and often to no effect.
 """
 
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
+from itertools import compress, pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.study import Array
-from cointoss_reproduction.precision.double_double import pair_of
-from cointoss_reproduction.precision.planar_coin import PlanarCoin
-from cointoss_reproduction.precision.planar_state import spread
-from cointoss_reproduction.precision.planar_toss import toss_many
+from cointoss_reproduction.precision.planar_coin import PlanarCoin, PlanarRelease, Units
+from cointoss_reproduction.precision.planar_numbers import energy_left, spread, toss_many
 
 PARTS = 10
-GROUPS = 10
+GROUPS = 20
 """Of ancestors; what is found of one does not depend on the others, so they show how sure a number is."""
 PREFERENCES = (0, 2, 5)
 """Powers of the energy that is left; each has an equal share of the places, and so have different ends."""
@@ -35,8 +37,8 @@ EARLY = (4, 4, 3, 3, 2, 2)
 """How many times the population there is at the first levels: most of the scatter comes of ancestors."""
 NEAR = 1e-3
 """A coin this near stands or lands flat [m g r, rad]."""
-NARROWEST = 1e-28
-"""Two releases this far apart are taken for the sides of a boundary [the state's unit]."""
+NARROWEST = 1e-30
+"""Two releases this far apart are taken for the sides of a boundary [SI]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,38 +63,40 @@ class Branches:
 
 @dataclass(frozen=True)
 class Expanded:
-    """Intervals of release cut into parts, and what the tosses from their ends do."""
+    """An interval of release cut into parts, and what the tosses from their ends do."""
 
-    points: Array
-    """Releases, (n, PARTS + 1, 5, 2)."""
+    points: list[PlanarRelease]
+    """Releases, (PARTS + 1,)."""
     outcomes: NDArray[np.int8]
-    """Theirs, (n, PARTS + 1)."""
+    """Theirs, (PARTS + 1,)."""
     lives: NDArray[np.bool_]
-    """Whether the tosses from the ends of a part have parted, (n, PARTS)."""
+    """Whether the tosses from the ends of a part have parted, (PARTS,)."""
     energy: Array
-    """That is left where they part, (n, PARTS) [m g r]."""
+    """That is left where they part, (PARTS,) [m g r]."""
 
     @property
     def differs(self) -> NDArray[np.bool_]:
-        """Whether the ends of a part have different outcomes, (n, PARTS)."""
-        return self.outcomes[:, 1:] != self.outcomes[:, :-1]
+        """Whether the ends of a part have different outcomes, (PARTS,)."""
+        return self.outcomes[1:] != self.outcomes[:-1]
 
     @property
-    def uncertain(self) -> Array:
-        """Share of the inner releases one of whose neighbours has another outcome, (n,)."""
-        return (self.differs[:, 1:] | self.differs[:, :-1]).mean(axis=1)
+    def uncertain(self) -> float:
+        """Share of the inner releases one of whose neighbours has another outcome."""
+        return float((self.differs[1:] | self.differs[:-1]).mean())
 
 
 def branch(
     coin: PlanarCoin,
-    starts: Array,
+    units: Units,
+    starts: Sequence[PlanarRelease],
     *,
-    row: int,
+    quantity: str,
     largest: Fraction,
     levels: int,
     population: int,
     rng: np.random.Generator,
     followed: int = 0,
+    each: Callable[..., Iterable[Any]] = map,
 ) -> Branches:
     """Estimate f(ε) for ε = `largest` and every tenth of it.
 
@@ -100,47 +104,49 @@ def branch(
 
     Args:
         coin: the coin.
-        starts: releases drawn at random, the ancestors, (n, 5, 2).
-        row: of the state: what varies.
-        largest: ε [its unit in the state].
+        units: of it.
+        starts: releases drawn at random, the ancestors.
+        quantity: of a release: what varies.
+        largest: ε [SI].
         levels: how many ε.
         population: intervals that go on at each level, about; more at the first levels.
         rng: draws them.
         followed: boundaries that are followed at each level.
+        each: applies a function to each of several things, as `map` does, or on several cores.
     """
-    parents, group = starts.copy(), np.arange(len(starts)) % GROUPS
+    parents, group = list(starts), np.arange(len(starts)) % GROUPS
     weights = GROUPS / np.full(len(parents), float(len(parents)))
     shares, whole, parted, energies, boundaries, flat = np.zeros((6, GROUPS, levels))
     tosses, undecided, dead = 0, 0, np.zeros(GROUPS)
     for level in range(levels):
         step = largest / PARTS**level
-        made = expand(coin, parents, row, step)
-        tosses, undecided = tosses + made.outcomes.size, undecided + int(np.sum(made.outcomes == 0))
-        shares[:, level] = _by_group(group, weights * made.uncertain)
+        made = list(each(partial(expand, coin, units, quantity, step), parents))
+        outcomes = np.array([one.outcomes for one in made])
+        tosses, undecided = tosses + outcomes.size, undecided + int(np.sum(outcomes == 0))
+        shares[:, level] = _by_group(group, weights * [one.uncertain for one in made])
         whole[:, level] = _by_group(group, weights) + dead
         weights, group = np.repeat(weights / PARTS, PARTS), np.repeat(group, PARTS)
-        low, lives, differs = (
-            made.points[:, :-1].reshape(-1, *starts.shape[1:]),
-            made.lives.ravel(),
-            made.differs.ravel(),
+        low = [point for one in made for point in one.points[:-1]]
+        lives, differs, energy = (
+            np.concatenate([getattr(one, name) for one in made]) for name in ("lives", "differs", "energy")
         )
         if followed and differs.any():
             chance = weights * differs
             drawn = rng.choice(len(low), followed, p=chance / chance.sum())
-            stands, lands = what_lies_there(coin, low[drawn], row, step)
+            found = each(partial(what_lies_there, coin, units, quantity, step), [low[i] for i in drawn])
+            stands, lands = np.array(list(found)).T
             boundaries[:, level] = _by_group(group[drawn], stands | lands)
             flat[:, level] = _by_group(group[drawn], lands)
         dead += _by_group(group[~lives], weights[~lives])
-        parents, group, weights, differs = low[lives], group[lives], weights[lives], differs[lives]
-        energy = made.energy.ravel()[lives]
+        low, group, weights, differs, energy = _of(lives, low, group, weights, differs, energy)
         parted[:, level], energies[:, level] = _by_group(group, weights), _by_group(group, weights * energy)
-        if len(parents) == 0:
+        if not low:
             whole[:, level + 1 :] = dead[:, None]
             break
         here = population * (EARLY[level] if level < len(EARLY) else 1)
         chance = chances(_scores(weights, energy, differs), here)
         goes_on = rng.random(len(chance)) < chance
-        parents, group, weights = parents[goes_on], group[goes_on], weights[goes_on] / chance[goes_on]
+        parents, group, weights = _of(goes_on, low, group, weights / chance)
     return Branches(
         shares=shares,
         whole=whole,
@@ -153,58 +159,62 @@ def branch(
     )
 
 
+def _of(chosen: NDArray[np.bool_], releases: list[PlanarRelease], *numbers: Any) -> tuple[Any, ...]:
+    """Return the chosen ones of several lists."""
+    return list(compress(releases, chosen)), *(each[chosen] for each in numbers)
+
+
 def _by_group(group: NDArray[np.intp], numbers: Array | NDArray[np.bool_] | None = None) -> Array:
     """Return the sum of numbers, or how many there are, by group, (n,) to (GROUPS,)."""
     return np.bincount(group, numbers, GROUPS).astype(float)
 
 
-def expand(coin: PlanarCoin, parents: Array, row: int, step: Fraction) -> Expanded:
-    """Cut intervals into parts and toss from their ends.
+def expand(coin: PlanarCoin, units: Units, quantity: str, step: Fraction, parent: PlanarRelease) -> Expanded:
+    """Cut an interval into parts and toss from their ends.
 
     Args:
         coin: the coin.
-        parents: lower ends, (n, 5, 2).
-        row: of the state: what varies.
-        step: length of a part [its unit in the state].
+        units: of it.
+        quantity: of a release: what varies.
+        step: length of a part [SI].
+        parent: lower end.
     """
-    points = spread(parents, row, pair_of(step), PARTS + 1)
-    ends = toss_many(coin, points)
-    outcomes = ends.outcome.reshape(-1, PARTS + 1)
-    itineraries, left = ends.itinerary.reshape(-1, PARTS + 1), ends.left.reshape(-1, PARTS + 1)
-    parted = (left[:, 1:] > 0) | (itineraries[:, 1:] != itineraries[:, :-1])
+    points = spread(parent, quantity, step, PARTS + 1)
+    ends = toss_many(coin, units, points)
+    left = np.array([energy_left(one, other) for one, other in pairwise(ends)])
     return Expanded(
-        points=points.reshape(-1, PARTS + 1, *points.shape[1:]),
-        outcomes=outcomes,
-        lives=parted | (outcomes[:, 1:] != outcomes[:, :-1]),
-        energy=np.maximum(left[:, 1:], LITTLE),
+        points=points,
+        outcomes=np.array([end.outcome for end in ends], dtype=np.int8),
+        lives=(left > 0) | [one.itinerary != other.itinerary for one, other in pairwise(ends)],
+        energy=np.maximum(left, LITTLE),
     )
 
 
 def what_lies_there(
-    coin: PlanarCoin, low: Array, row: int, width: Fraction
-) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return whether at a boundary in each interval lies a coin that stands, and one that lands flat, (n,).
+    coin: PlanarCoin, units: Units, quantity: str, width: Fraction, low: PlanarRelease
+) -> tuple[bool, bool]:
+    """Return whether at a boundary in an interval lies a coin that stands, and one that lands flat.
 
     The boundary is found by bisection. The tosses at its sides come as near to standing, or to landing flat,
     as they have been stretched apart; where that is not near neither is known.
 
     Args:
         coin: the coin.
-        low: lower ends of intervals whose ends have different outcomes, (n, 5, 2).
-        row: of the state: what varies.
-        width: of the intervals [its unit in the state].
+        units: of it.
+        quantity: of a release: what varies.
+        width: of the interval [SI].
+        low: its lower end; its ends have different outcomes.
     """
-    low, outcome = low.copy(), toss_many(coin, low).outcome
+    (at_low,) = toss_many(coin, units, [low])
     while width > NARROWEST:
         width /= 2
-        middle = spread(low, row, pair_of(width), 2)[1::2]
-        same = toss_many(coin, middle).outcome == outcome
-        low[same] = middle[same]
-    sides = toss_many(coin, spread(low, row, pair_of(width), 2), to_contact=True)
-    nearest = np.where(np.isnan(sides.from_upright), np.inf, sides.from_upright)
-    lands = (sides.flattest < np.minimum(nearest, NEAR)).reshape(-1, 2)
-    stands = (nearest < np.minimum(sides.flattest, NEAR)).reshape(-1, 2)
-    return stands[:, 0] & stands[:, 1], lands[:, 0] & lands[:, 1]
+        _, middle = spread(low, quantity, width, 2)
+        if toss_many(coin, units, [middle])[0].outcome == at_low.outcome:
+            low = middle
+    sides = toss_many(coin, units, spread(low, quantity, width, 2), to_contact=True)
+    lands = all(side.flattest < min(side.from_upright, NEAR) for side in sides)
+    stands = all(side.from_upright < min(side.flattest, NEAR) for side in sides)
+    return stands, lands
 
 
 def _scores(weights: Array, energy: Array, differs: NDArray[np.bool_]) -> Array:

@@ -1,40 +1,22 @@
-"""A planar toss in interval arithmetic of any length: its face is proved, or the toss is undecided.
+"""Planar tosses whose face is proved, one of them or all about it, or which are undecided.
 
-python-flint's `arb` encloses every number. The first touch of a flight is proved to be the first: a bound on
-the gap's second derivative keeps the gap positive from each point to the next. A toss is undecided where
-an enclosure holds both signs of what decides; more bits then decide, but for tosses on a boundary.
+More bits decide what is undecided, but for tosses on a boundary.
 """
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, NamedTuple
-
-from flint import arb, ctx
+from typing import Any
 
 from cointoss import Outcome
-from cointoss_reproduction.precision.enclosed_toss import Enclosed, EnclosedState, EnclosedToss, ball
-from cointoss_reproduction.precision.planar_coin import PlanarCoin, Units, square_root
+from cointoss_reproduction.precision.planar_coin import PlanarCoin, PlanarRelease, Units
 from cointoss_reproduction.precision.planar_ending import PlanarEnding
+from cointoss_reproduction.precision.planar_state import Impact, in_own_units, precision, released
+from cointoss_reproduction.precision.planar_toss import UNTIL_SETTLED, PlanarToss
 from cointoss_reproduction.precision.taylor_models import ORDER, UndecidedError, varying
 
 LEAST = Fraction(1, 2**40)
 """Part of a change that is still tried."""
-
-
-UNTIL_SETTLED = PlanarEnding()
-
-
-class PlanarRelease(NamedTuple):
-    """A release, or how far one is from another."""
-
-    height: Fraction = Fraction(0)
-    """[m]."""
-    spin: Fraction = Fraction(0)
-    """[rad/s]."""
-    tilt: Fraction = Fraction(0)
-    """[rad]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,20 +25,18 @@ class Certified:
 
     outcome: Outcome
     """Heads or tails, proved; else undecided."""
-    impacts: tuple[Enclosed, ...]
+    impacts: tuple[Impact, ...]
     """Those that are proved to happen, in this order."""
     energy: Any
-    """An enclosure of the energy with which it was settled [m g r]; see `planar_toss.PlanarOutcomes`."""
+    """An enclosure of the energy with which it was settled [m g r]; see `planar_toss.PlanarToss`."""
     bits: int
 
 
 def certified_toss(
     coin: PlanarCoin,
     units: Units,
+    release: PlanarRelease,
     *,
-    height: Fraction | float,
-    spin: Fraction | float,
-    tilt: Fraction | float = 0.0,
     bits: int = 200,
     most_bits: int = 1600,
     ending: PlanarEnding = UNTIL_SETTLED,
@@ -66,9 +46,7 @@ def certified_toss(
     Args:
         coin: the coin.
         units: of it.
-        height: of C at the release [m].
-        spin: there [rad/s].
-        tilt: there, within ±π/2 [rad].
+        release: heads up.
         bits: to begin with; doubled while the toss is undecided.
         most_bits: where that ends.
         ending: of a toss in vacuum, what ends it before its face is settled.
@@ -79,11 +57,8 @@ def certified_toss(
     if ending != UNTIL_SETTLED:
         _require_vacuum(coin)
     while True:
-        with _precision(bits):
-            release = _in_own_units(
-                units, PlanarRelease(Fraction(height), Fraction(spin), Fraction(tilt)), bits
-            )
-            toss = _toss(coin, release, bits, ending)
+        with precision(bits, ORDER + 1):
+            toss = _toss(coin, in_own_units(units, release), ending)
         if toss.outcome != Outcome.UNDECIDED or 2 * bits > most_bits:
             return toss
         bits *= 2
@@ -115,9 +90,9 @@ def outcome_within(
         ValueError: of a coin in air.
     """
     _require_vacuum(coin)
-    with _precision(bits):
-        middles, changes = (_in_own_units(units, numbers, bits) for numbers in (release, change))
-        return _toss(coin, [*map(varying, middles, changes)], bits, ending).outcome
+    with precision(bits, ORDER + 1):
+        middles, changes = (in_own_units(units, numbers) for numbers in (release, change))
+        return _toss(coin, [*map(varying, middles, changes)], ending).outcome
 
 
 def proved_part(
@@ -144,8 +119,7 @@ def proved_part(
         ValueError: of a coin in air.
     """
     _require_vacuum(coin)
-    height, spin, tilt = release
-    toss = certified_toss(coin, units, height=height, spin=spin, tilt=tilt, ending=ending)
+    toss = certified_toss(coin, units, release, ending=ending)
     part = Fraction(1)
     while toss.outcome != Outcome.UNDECIDED and part >= LEAST:
         within = PlanarRelease(*(part * x for x in change))
@@ -161,29 +135,9 @@ def _require_vacuum(coin: PlanarCoin) -> None:
         raise ValueError("air: releases about another one are enclosed in vacuum only")
 
 
-@contextmanager
-def _precision(bits: int) -> Iterator[None]:
-    before = ctx.prec, ctx.cap
-    ctx.prec, ctx.cap = bits, ORDER + 1
-    try:
-        yield
-    finally:
-        ctx.prec, ctx.cap = before
-
-
-def _in_own_units(units: Units, release: PlanarRelease, bits: int) -> tuple[Any, Any, Any]:
-    """Return height, spin and tilt."""
-    time = square_root(units.length / units.gravity, 2 * bits)
-    return ball(release.height / units.length), ball(release.spin * time), ball(release.tilt)
-
-
-def _toss(coin: PlanarCoin, release: Sequence[Any], bits: int, ending: PlanarEnding) -> Certified:
+def _toss(coin: PlanarCoin, release: list[Any], ending: PlanarEnding) -> Certified:
     """Toss a coin whose height, spin and tilt are enclosures, or vary."""
-    z, w, tilt = release
-    state = EnclosedState(z=z, v=arb(0), tilt=tilt, w=w, u=arb(0))
-    impacts: list[Enclosed] = []
-    toss = EnclosedToss(coin, bits, ending)
-    outcome = Outcome.UNDECIDED
+    toss, outcome = PlanarToss(coin, ending), Outcome.UNDECIDED
     with suppress(UndecidedError):
-        outcome = toss.run(state, impacts)
-    return Certified(outcome=outcome, impacts=tuple(impacts), energy=toss.last_energy, bits=bits)
+        outcome = toss.run(released(*release))
+    return Certified(outcome=outcome, impacts=tuple(toss.impacts), energy=toss.last_energy, bits=toss.bits)

@@ -2,15 +2,14 @@
 
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.study import Array
-from cointoss_reproduction.precision.double_double import exact, pair_of
-from cointoss_reproduction.precision.planar_coin import PlanarCoin
-from cointoss_reproduction.precision.planar_state import spread
-from cointoss_reproduction.precision.planar_toss import toss_many
+from cointoss_reproduction.precision.planar_coin import PlanarCoin, PlanarRelease, Units
+from cointoss_reproduction.precision.planar_numbers import spread, toss_many
 
 MAGNIFICATION = 10
 
@@ -35,31 +34,31 @@ class Magnified:
 
 
 def magnify(
-    coin: PlanarCoin, start: Array, *, row: int, length: Fraction, windows: int, points: int
+    coin: PlanarCoin, units: Units, start: PlanarRelease, *, length: Fraction, windows: int, points: int
 ) -> Magnified:
-    """Follow the middle one of the boundaries in a window.
+    """Follow the middle one of the boundaries in a window of heights.
 
     Args:
         coin: the coin.
-        start: release at the lower end of the first window, (5, 2).
-        row: of the state: what varies.
-        length: of the first window [its unit in the state].
+        units: of it.
+        start: release at the lower end of the first window.
+        length: of the first window [m].
         windows: how many.
         points: releases in each.
     """
     counts, nearest, impacts = [], [], []
     for _ in range(windows):
         step = length / (points - 1)
-        states = spread(start[None], row, pair_of(step), points)
-        outcomes = toss_many(coin, states)
-        changes = np.flatnonzero(outcomes.outcome[1:] != outcomes.outcome[:-1])
-        if len(changes) == 0:
+        line = spread(start, "height", step, points)
+        tosses = toss_many(coin, units, line)
+        changes = [n for n, (one, other) in enumerate(pairwise(tosses)) if one.outcome != other.outcome]
+        if not changes:
             raise ValueError("no boundary: accepted: a window whose tosses differ")
         counts.append(len(changes))
         at = changes[len(changes) // 2]
-        nearest.append(toss_many(coin, states[at : at + 2], to_contact=True).from_upright)
-        impacts.append(outcomes.impacts[at : at + 2])
+        sides = toss_many(coin, units, line[at : at + 2], to_contact=True)
+        nearest.append([side.from_upright for side in sides])
+        impacts.append([len(toss.impacts) for toss in tosses[at : at + 2]])
         length /= MAGNIFICATION
-        start = states[at].copy()
-        start[row] = pair_of(exact(tuple(start[row])) + step / 2 - length / 2)
+        start = line[at]._replace(height=line[at].height + step / 2 - length / 2)
     return Magnified(counts=np.array(counts), from_upright=np.array(nearest), impacts=np.array(impacts))

@@ -6,26 +6,25 @@ from typing import NamedTuple
 
 from cointoss import ContactLaw, Scenario
 from cointoss.study import RESISTANCES, in_vacuum
-from cointoss_reproduction.precision.double_double import Pair, pair_of
 
 LAWS = (ContactLaw.SMOOTH, ContactLaw.PERFECTLY_ROUGH)
 
 
 class PlanarCoin(NamedTuple):
-    """Coin, air and floor; the unit of time is sqrt(r/g). A pair is a number of 106 bits."""
+    """Coin, air and floor; the unit of time is sqrt(r/g)."""
 
-    inertia: Pair
+    inertia: Fraction
     """J_ξ."""
-    restitution: Pair
+    restitution: Fraction
     """χ."""
     rough: bool
     """Whether the floor stops the contact point, eq. (c) of Fig. 17, or is smooth."""
     in_air: bool
-    drag_mean: Pair
+    drag_mean: Fraction
     """(c_t + c_n)/2: the drag is -(mean) v - (difference) e^(2iθ) v*, v = v_y + i v_z."""
-    drag_difference: Pair
+    drag_difference: Fraction
     """(c_t - c_n)/2."""
-    slowing: Pair
+    slowing: Fraction
     """d_t/J_ξ: at this rate air slows the spin."""
     sliding_share: float
     """Of the energy of horizontal motion, what air can still turn into height; see `cointoss.models.drag`."""
@@ -38,6 +37,17 @@ class Units(NamedTuple):
     """r [m]."""
     gravity: Fraction
     """g [m/s²]."""
+
+
+class PlanarRelease(NamedTuple):
+    """A release of a coin at rest but for its spin, or how far one is from another."""
+
+    height: Fraction = Fraction(0)
+    """Of C [m]."""
+    spin: Fraction = Fraction(0)
+    """[rad/s]."""
+    tilt: Fraction = Fraction(0)
+    """Within ±π/2 [rad]."""
 
 
 def planar_coin(scenario: Scenario) -> PlanarCoin:
@@ -70,13 +80,13 @@ def planar_coin(scenario: Scenario) -> PlanarCoin:
     tangential, normal = (Fraction(c) * time / mass for c in (drag.force_tangential, drag.force_normal))
     turning = Fraction(drag.moment_tangential) * time / Fraction(body.inertia[0][0])
     return PlanarCoin(
-        inertia=pair_of(inertia),
-        restitution=pair_of(Fraction(scenario.floor.restitution)),
+        inertia=inertia,
+        restitution=Fraction(scenario.floor.restitution),
         rough=scenario.floor.contact == ContactLaw.PERFECTLY_ROUGH,
         in_air=bool(drag.force_tangential or drag.force_normal),
-        drag_mean=pair_of((tangential + normal) / 2),
-        drag_difference=pair_of((tangential - normal) / 2),
-        slowing=pair_of(turning),
+        drag_mean=(tangential + normal) / 2,
+        drag_difference=(tangential - normal) / 2,
+        slowing=turning,
         sliding_share=body.sliding_share,
     )
 

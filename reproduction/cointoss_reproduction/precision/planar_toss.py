@@ -1,198 +1,347 @@
-"""Whole tosses of a planar coin in 106 bits, one and many."""
+"""The toss of a planar coin in interval arithmetic of any length, from its release to a proved face.
 
-from typing import NamedTuple
+python-flint's `arb` encloses every number. The first touch of a flight is proved to be the first: a bound on
+the gap's second derivative keeps the gap positive from each point to the next. A toss is undecided where
+an enclosure holds both signs of what decides.
+"""
 
-import numpy as np
-from numpy.typing import NDArray
+import math
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any
+
+from flint import acb, arb, ctx
 
 from cointoss import Outcome
-from cointoss.study import Array
-from cointoss_reproduction.precision.compiled import compiled
 from cointoss_reproduction.precision.planar_coin import PlanarCoin
-from cointoss_reproduction.precision.planar_contact import (
-    LIES,
-    LIFTS,
-    drawn_up,
-    hit,
-    keep_contact,
-    lift_off,
-    nearest_upright,
-    slap,
-    stop,
-)
-from cointoss_reproduction.precision.planar_flight import Series, fly, room_for_series
-from cointoss_reproduction.precision.planar_slide import slide
-from cointoss_reproduction.precision.planar_state import (
-    FALL,
-    HEIGHT,
-    SIZE,
-    SPIN,
-    TILT,
-    copy_state,
-    energy,
-    is_settled,
-    rim_velocity,
-    turned_within,
-)
+from cointoss_reproduction.precision.planar_ending import PlanarEnding
+from cointoss_reproduction.precision.planar_gap import Gap, polynomial, slopes
+from cointoss_reproduction.precision.planar_state import Impact, State, ball, sign
+from cointoss_reproduction.precision.taylor_models import TaylorModel, UndecidedError, middle, whole, zero
 
-MOST_IMPACTS = 20_000
-CHATTERING, CHATTERING_ROUGH = 1e-10, 1e-15
-"""The coin stays on the floor when all bounces to come last so short against what else changes. Contact errs
-by the third power of it on a smooth floor, by the second on a rough one."""
-COMPARED = 400
-"""Touches that are compared with those of a neighbour, at most."""
-APART = 0.1
-"""Two tosses have diverged when height, velocity and spin differ by so much in all, or the faces do."""
-_SLOW = 1e-25
-"""What rounding leaves of a rim point that was stopped."""
-_FLYING, _LIFTING, _CHATTERING = 0, 1, 2
-_HEADS, _TAILS, _UNDECIDED = int(Outcome.HEADS), int(Outcome.TAILS), int(Outcome.UNDECIDED)
+MOST_IMPACTS = 5000
+MOST_TURNED = 5000
+"""By a flight [rad]."""
+SLAPS = 1000
+"""Impacts of a flat coin on its two rim points in turn, at most."""
+IN_HAND = 0
+"""No rim point: the coin is caught."""
+TURN = 4.0
+"""At most this angle is flown on one series in air [rad]."""
+TERMS = 8
+"""Of a series, after which it is seen whether they suffice."""
+UNTIL_SETTLED = PlanarEnding()
 
 
-class PlanarOutcomes(NamedTuple):
-    """How tosses end, a number each."""
+class PlanarToss:
+    """The coin's numbers as enclosures, its motion, and what is proved of its course."""
 
-    outcome: NDArray[np.int8]
-    """`Outcome`: heads, tails, or undecided where a limit was met."""
-    impacts: NDArray[np.int64]
-    """In all, those of bounces that die away included."""
-    itinerary: NDArray[np.int64]
-    """A hash of the rim points that touch and of how contacts end, up to the end."""
-    contacts: NDArray[np.int64]
-    """Contacts that lasted."""
-    energy: Array
-    """With which it was settled [m g r]: after its last impact, or in the contact that came before lying."""
-    from_upright: Array
-    """How near it came to standing in its last contact [m g r]; see `planar_state.from_upright`. NaN where
-    none lasted before it was settled."""
-    flattest: Array
-    """The smallest tilt of a touch before it was settled [rad]."""
-    left: Array
-    """The larger energy of this toss and the one before it in the row after the first impact at which they
-    have diverged, 0 where they have not [m g r]; see `toss_many`."""
+    def __init__(self, coin: PlanarCoin, ending: PlanarEnding = UNTIL_SETTLED) -> None:
+        """Enclose the numbers of a coin, and of what ends its toss."""
+        self.coin, self.bits, self.ending = coin, ctx.prec, ending
+        numbers = coin.inertia, coin.restitution, coin.slowing, coin.drag_mean, coin.drag_difference
+        self.J, self.chi, self.k, self.a, self.b = map(ball, numbers)
+        drifts = 1.0 if coin.rough else (coin.sliding_share if coin.in_air else 0.0)
+        self.share = arb(drifts if ending.counts_drift else 0.0)
+        self.hand, self.max_time = (None if x is None else ball(x) for x in (ending.caught, ending.max_time))
+        self.impacts: list[Impact] = []
+        self.contacts: list[tuple[int, ...]] = []
+        """Those that lasted: how many impacts came before, and the rim points that leave the floor."""
+        self.last_energy: Any = None
+        """With which the toss was settled [m g r]: after its last impact, or in contact before it lay."""
 
+    def run(self, state: State) -> Outcome:
+        """Toss until the face is proved.
 
-def toss_many(
-    coin: PlanarCoin, starts: Array, most_impacts: int = MOST_IMPACTS, *, to_contact: bool = False
-) -> PlanarOutcomes:
-    """Toss coins; the releases of a line in a row, so that neighbours are compared.
+        Raises:
+            UndecidedError: where it is not.
+        """
+        corners: tuple[int, ...] = ()
+        start = None
+        while len(self.impacts) < (self.ending.max_impacts or MOST_IMPACTS):
+            corner = self.fly(state, corners, start)
+            start = None
+            corner = corner * self.turn_within(state)
+            if corner == IN_HAND:
+                break
+            self.touched(state)
+            impulse = self.hit(state, corner)
+            e = self.energy(state)
+            self.impacts.append(Impact(state.heads, corner, impulse, (state.z, state.v, state.w), e))
+            corners = (corner,)
+            if self.is_over(e):
+                self.last_energy = e
+                break
+            loss = self.chatter(state, corner)
+            if loss is None and self.coin.restitution == 0:
+                start = self.lift_off(state)
+            elif loss is not None:
+                corners, start = self.contact(state, corner, loss)
+                self.contacts.append((len(self.impacts), *corners))
+                if not corners:
+                    break
+        else:
+            raise UndecidedError
+        return Outcome.HEADS if state.heads else Outcome.TAILS
 
-    Args:
-        coin: the coin.
-        starts: as of `planar_state.release`, (n, 5, 2).
-        most_impacts: a toss that makes more is undecided.
-        to_contact: whether a settled coin is followed until it lies.
-    """
-    n = len(starts)
-    outcomes = PlanarOutcomes(
-        outcome=np.empty(n, dtype=np.int8),
-        impacts=np.empty(n, dtype=np.int64),
-        itinerary=np.empty(n, dtype=np.int64),
-        contacts=np.empty(n, dtype=np.int64),
-        energy=np.empty(n),
-        from_upright=np.empty(n),
-        flattest=np.empty(n),
-        left=np.zeros(n),
-    )
-    _toss_all(coin, np.ascontiguousarray(starts), most_impacts, to_contact, outcomes)
-    return outcomes
+    def kept(self, x: Any) -> Any:
+        """Return a number of the state; one that varies forgets what is no longer true of its enclosure."""
+        return x.tightened() if isinstance(x, TaylorModel) else x
 
+    def touched(self, state: State) -> None:
+        """Take note of a touch."""
 
-@compiled
-def _toss_all(
-    coin: PlanarCoin, starts: Array, most_impacts: int, to_contact: bool, outcomes: PlanarOutcomes
-) -> None:
-    outcome, impacts, itinerary, contacts, last_energy, nearest, flattest, left = outcomes
-    series, state, touches = room_for_series(), np.empty((SIZE, 2)), np.empty((2, COMPARED, 5))
-    for i in range(len(starts)):
-        copy_state(state, starts[i])
-        outcome[i], impacts[i], itinerary[i], contacts[i], last_energy[i], nearest[i], flattest[i] = toss(
-            coin, state, most_impacts, to_contact, series, touches[i % 2]
-        )
-        if i > 0:
-            left[i] = _energy_left(touches, min(impacts[i - 1], impacts[i], COMPARED))
+    def energy(self, state: State) -> Any:
+        """Return the energy that counts against the barrier 1, in m g r.
 
+        On a smooth floor that of drift cannot lift the coin; in air no more than a share of it can.
+        """
+        return state.z + (state.v**2 + self.J * state.w**2 + self.share * state.u**2) / 2
 
-@compiled
-def _energy_left(touches: Array, compared: int) -> float:
-    for n in range(compared):
-        a, b = touches[0, n], touches[1, n]
-        apart = abs(a[0] - b[0]) + abs(a[1] - b[1]) + abs(a[2] - b[2]) > APART
-        if apart or a[3] != b[3]:
-            return max(a[4], b[4])
-    return 0.0
+    def is_over(self, e: Any) -> bool:
+        """Return whether a coin in flight whose energy is proved to be below the barrier needs no more."""
+        if e < 1 and self.hand is not None:
+            raise UndecidedError
+        return e < 1
 
+    def turn_within(self, state: State) -> int:
+        """Reduce the tilt to ±π/2; return -1 where the other face is up and the corners change names."""
+        pi = arb.pi()
+        if not abs(state.tilt).upper() < MOST_TURNED:
+            raise UndecidedError
+        halves = round(float((state.tilt / pi).mid()))
+        state.tilt = state.tilt - halves * pi
+        if not abs(state.tilt) < pi / 2:
+            raise UndecidedError
+        if halves % 2:
+            state.heads = not state.heads
+            return -1
+        return 1
 
-@compiled
-def toss(
-    coin: PlanarCoin, state: Array, most_impacts: int, to_contact: bool, series: Series, touches: Array
-) -> tuple[int, int, int, int, float, float, float]:
-    """Toss a coin; the state becomes the last.
+    def rim_velocity(self, state: State, corner: int) -> Any:
+        """Return the upward velocity of a rim point."""
+        return state.v + corner * state.tilt.cos() * state.w
 
-    Args:
-        coin: the coin.
-        state: at the release, heads up, (5, 2).
-        most_impacts: when to stop.
-        to_contact: whether a settled coin is followed until it lies.
-        series: work space.
-        touches: room for states after the first impacts, (n, 5): height, fall, spin, face, energy.
+    def hit(self, state: State, corner: int) -> Any:
+        """Change the state by Newton's law at a rim point that comes down; return the upward impulse."""
+        down = self.rim_velocity(state, corner)
+        if not down < 0:
+            raise UndecidedError
+        return self.push(state, corner, -(1 + self.chi) * down)
 
-    Returns:
-        Outcome, impacts, itinerary, contacts, energy, nearness to standing and flattest touch; see
-        `PlanarOutcomes`.
-    """
-    heads, corner, start, before = True, 0, 0.0, state.copy()
-    itinerary, contacts, last, nearest, flattest = 0, 0, np.nan, np.nan, np.inf
-    for n in range(most_impacts):
-        corner = fly(coin, state, corner, start, series)
-        start = 0.0
-        if corner == 0:
-            return _UNDECIDED, n, itinerary, contacts, last, nearest, flattest
-        if turned_within(state):
-            heads, corner = not heads, -corner
-        itinerary = itinerary * 31 + (3 if heads else 5) + corner
-        if not is_settled(coin, state):
-            flattest = min(flattest, abs(state[TILT, 0]))
-        hit(coin, state, float(corner), coin.restitution)
-        if n < len(touches):
-            touches[n, 0], touches[n, 1], touches[n, 2] = state[HEIGHT, 0], state[FALL, 0], state[SPIN, 0]
-            touches[n, 3], touches[n, 4] = (1.0 if heads else 0.0), energy(coin, state)[0]
-        if is_settled(coin, state) and not to_contact:
-            last = energy(coin, state)[0]
-            return _HEADS if heads else _TAILS, n + 1, itinerary, contacts, last, nearest, flattest
-        ending = _bounces(coin, state, corner)
-        if ending == _LIFTING:
-            start = lift_off(state)
-        elif ending == _CHATTERING:
-            stop(coin, state, float(corner))
-            contacts, last = contacts + 1, energy(coin, state)[0]
-            if coin.in_air:
-                lifts, passes, side, ended, nearest = slide(coin, state, float(corner))
-                if not ended:
-                    return _UNDECIDED, n + 1, itinerary, contacts, last, nearest, flattest
-                ends = LIFTS if lifts else LIES
-                start = state[FALL, 0] / state[SPIN, 0] ** 2 if lifts else 0.0
+    def push(self, state: State, corner: int, wanted: Any) -> Any:
+        """Change a rim point's vertical velocity by what is wanted; a rough floor stops it aside, too.
+
+        Returns:
+            The upward impulse.
+        """
+        sine, cosine = state.tilt.sin_cos()
+        y, z = corner * cosine, corner * sine
+        # K is what an impulse at (y, z) from C does to the velocity there.
+        K_zz = 1 + y**2 / self.J
+        if self.coin.rough:
+            K_yy, K_yz = 1 + z**2 / self.J, -y * z / self.J
+            aside = -(state.u - z * state.w)
+            determinant = K_yy * K_zz - K_yz**2
+            S_y = (K_zz * aside - K_yz * wanted) / determinant
+            S_z = (K_yy * wanted - K_yz * aside) / determinant
+            state.u, moment = state.u + S_y, y * S_z - z * S_y
+        else:
+            S_z = wanted / K_zz
+            moment = y * S_z
+        state.v, state.w = state.v + S_z, state.w + moment / self.J
+        state.let(self.kept)
+        return S_z
+
+    def series(self, state: State, length: float) -> tuple[list[Any], list[Any], Any]:
+        """Return coefficients of height and drift in the clock s, and a bound on what they leave out.
+
+        In the clock of the slowing spin, dt = ds/(1 - k s), the angle is linear in s, and height and velocity
+        have power series whose terms follow from three before; in vacuum they end with the second.
+        """
+        if not self.coin.in_air:
+            return [state.z, state.v, arb(-0.5)], [state.u], arb(0)
+        k, a, b, i = self.k, self.a, self.b, acb(0, 1)
+        u, turn, E = acb(state.u, state.v), 2 * i * state.w, (2 * i * state.tilt).exp()
+        z, p, before = state.z, E * acb(state.u, -state.v), acb(0)
+        heights, drifts, rho, gravity = [z], [state.u], 1 / (2 * arb(length)), i
+        for n in range(1, 4 * self.bits):
+            slows, last = k * (n - 1) - a, (z, u, p, E)
+            z, u, p, before, E = (
+                (k * (n - 1) * z + u.imag) / n,
+                (slows * u - b * p - gravity) / n,
+                (slows * p + turn * (p - k * before) - b * u + i * E) / n,
+                p,
+                E * turn / n,
+            )
+            heights.append(z)
+            drifts.append(u.real)
+            gravity = acb(0)
+            if n % TERMS == 0:
+                # From here on every coefficient is at most C rho^n: the recursion grows by less than rho.
+                grows = k + (a + abs(b) + abs(turn) * (1 + k / rho) + 1) / (n + 1)
+                sizes = (max(abs(x).upper() for x in terms) for terms in ((z, u, p, E), last))
+                tail = 2 * max(size * rho ** (by - n) for by, size in enumerate(sizes)) * arb(2) ** (-n)
+                if grows < rho and tail < arb(2) ** (-self.bits - 20):
+                    return heights, drifts, tail.upper() * arb(0, 1)
+        raise UndecidedError
+
+    def fly(self, state: State, corners: tuple[int, ...], start: Any) -> int:
+        """Fly to the first touch, or into the hand; return the rim point that touches, or `IN_HAND`."""
+        caught = self.catch(state)
+        while True:
+            v, z, w = (float(x.mid()) for x in (state.v, state.z, state.w))
+            length = v + math.sqrt(v * v + 2 * max(z, 0.0)) + 1e-3
+            if self.coin.in_air:
+                length = min(1.1 * length, TURN / abs(w) if w else 10.0, 10.0)
+            if caught is not None:
+                length = float(caught.upper()) * (1 + 1e-15)
+            heights, drifts, tail = self.series(state, length)
+            at, who = None, IN_HAND
+            gap_of = partial(Gap, heights, tail, state.tilt, state.w, corners, start)
+            for side in (-1, 1):
+                limit = length if at is None else float(at.upper()) * (1 + 1e-15)
+                root = gap_of(side, whole).first_zero(limit)
+                if root is not None and (at is None or sign(at - root) > 0):
+                    at, who = root, side
+            if at is not None:
+                if caught is not None and not caught > at:
+                    raise UndecidedError
+                at = self.touch(partial(gap_of, who), at)
+            elif caught is None and not self.coin.in_air:
+                raise UndecidedError
+            elif caught is None:
+                at = arb(length)
             else:
-                copy_state(before, state)
-                ends, passes, side, start = keep_contact(coin, state, float(corner))
-                nearest = nearest_upright(coin, before, state, ends, passes)
-            itinerary = itinerary * 31 + 11 + 2 * ends + passes
-            corner, heads = int(side), heads != passes
-            if ends == LIES:
-                if not slap(coin, state):
-                    return _HEADS if heads else _TAILS, n + 1, itinerary, contacts, last, nearest, flattest
-                corner = 2
-    return _UNDECIDED, most_impacts, itinerary, contacts, last, nearest, flattest
+                at = caught
+            self.move(state, heights, drifts, tail, at)
+            if who != IN_HAND or caught is not None:
+                return who
+            corners, start = (), None
 
+    def catch(self, state: State) -> Any:
+        """Return the clock at which C comes down to the hand; None where it does not rise above it."""
+        if self.hand is None:
+            return None
+        above = state.z - self.hand
+        rises = not (isinstance(state.v, arb) and state.v == 0) and sign(state.v) > 0
+        if sign(above + state.v**2 / 2 if rises else above) < 0:
+            return None
+        return state.v + (state.v**2 + 2 * above).sqrt()
 
-@compiled
-def _bounces(coin: PlanarCoin, state: Array, corner: int) -> int:
-    """Return whether a rim point that was just hit flies, lifts off without speed, or ends its bounces."""
-    w = abs(state[SPIN, 0])
-    _, v = rim_velocity(state, float(corner))
-    sinking = -drawn_up(state)
-    if sinking <= 0:
-        return _LIFTING if v[0] < _SLOW else _FLYING
-    lasting = 2 * v[0] / sinking / (1 - coin.restitution[0])
-    limit = CHATTERING_ROUGH if coin.rough else CHATTERING
-    return _CHATTERING if lasting * (1 + w**3) < limit * sinking else _FLYING
+    def pass_time(self, state: State, lasting: Any) -> None:
+        """Let time pass, which is not to be up."""
+        state.time = state.time + lasting.upper()
+        if self.max_time is not None and not state.time < self.max_time:
+            raise UndecidedError
+
+    def touch(self, gap_of: Callable[[Callable[[Any], Any]], Gap], root: Any) -> Any:
+        """Return the clock of a touch that is enclosed for all releases; where they vary, as they do."""
+        gap = gap_of(lambda x: x)
+        if not isinstance(gap.w, TaylorModel):
+            return root
+        of_middle = gap_of(middle).enclosed(root.lower())
+        if of_middle is None:
+            raise UndecidedError
+        return zero(gap.at, of_middle, root)
+
+    def move(self, state: State, heights: Sequence[Any], drifts: Sequence[Any], tail: Any, s: Any) -> None:
+        """Let the coin fly up to a clock, by the series of its flight."""
+        left = 1 - self.k * s
+        state.z = polynomial(heights, s) + tail
+        state.v = left * (polynomial(slopes(heights), s) + tail * len(heights) * 4)
+        state.u = polynomial(drifts, s) + tail
+        state.tilt, state.w = state.tilt + state.w * s, left * state.w
+        state.let(self.kept)
+        self.pass_time(state, s)
+
+    def chatter(self, state: State, corner: int) -> Any:
+        """Bound the energy that the bounces still to come lose from above, once they are proved to end.
+
+        While the rim point stays in a small neighbourhood its acceleration lies in [-fastest, -slowest], so
+        each bounce starts with at most the part χ sqrt(fastest/slowest) of the speed of the one before.
+
+        Returns:
+            None where that is not proved.
+        """
+        v = self.rim_velocity(state, corner).upper()
+        if self.coin.in_air or self.coin.rough:
+            if v < 2.0**-60 and not state.z * state.w**2 > 1:
+                raise UndecidedError
+            return None
+        if not v < 1e-8 or not state.z * state.w**2 < 1:
+            return None
+        # Within `reach` of time and all speeds' changes.
+        reach = arb(float(v) * 1e3) * arb(0, 1)
+        tilt, w = state.tilt + reach, state.w + reach
+        sinking = 1 - abs(tilt.sin()) * w**2
+        if not sinking > 0:
+            return None
+        fastest, slowest = sinking.upper(), sinking.lower()
+        part = self.chi * (fastest / slowest).sqrt()
+        lasting = 2 * v / (slowest * (1 - part))
+        changed = (1 + self.chi) * v / (1 - part) / self.J
+        turned = lasting * (abs(state.w) + changed)
+        rad = v * 1e3
+        if not (part < 1 and turned < rad and changed < rad):
+            return None
+        loss = (v**2 / (1 - part**2)).upper()
+        e = self.energy(state)
+        near = loss < arb(2) ** (-self.bits // 2)
+        if not (near or (e - loss > 1 and e < 1 + self.J / 2)):
+            return None
+        self.pass_time(state, lasting)
+        return loss
+
+    def lift_off(self, state: State) -> Any:
+        """Return the clock up to which a rim point at rest on the floor, but drawn up, does not touch."""
+        drawn = state.z * state.w**2 - 1
+        if sign(drawn) < 0:
+            raise UndecidedError
+        return 1.5 * drawn / abs(state.w) ** 3
+
+    def contact(self, state: State, corner: int, loss: Any) -> tuple[tuple[int, ...], Any]:
+        """Follow contact on a smooth floor in vacuum; return the rim points that leave the floor, and when.
+
+        They are none where the coin lies, and its face is that of the state. The motion has one degree of
+        freedom and keeps its energy: with s = |sin θ| the coin turns about the rim point at
+        θ'² = 2 (e - s)/(J + 1 - s²), presses while s² - 2 e s + 1 + J > 0, and leaves it, or lies, within
+        4 √((J + 1)/(2 |e - 1|)): so long it takes at most from where it turns back, 1 - s² being more than
+        1 - e, or over the rim.
+        """
+        if self.hand is not None or self.ending.max_impacts is not None:
+            raise UndecidedError
+        e = self.energy(state)
+        e = e - loss / 2 + (loss / 2) * arb(0, 1)
+        self.last_energy = e
+        if self.max_time is not None:
+            self.pass_time(state, 4 * ((self.J + 1) / (2 * abs(e - 1))).sqrt())
+        # The rates change by no more than the speed that is lost, over the least moment.
+        slack = 10 * self.rim_velocity(state, corner) * arb(0, 1)
+        rises = sign(state.v + slack) > 0 and not e < 1
+        if rises and sign(e - 1 - self.J / 2) > 0:
+            s = e - (e**2 - 1 - self.J).sqrt()
+            state.z, state.tilt = s, (-corner * s).asin()
+            state.w = -corner * (2 * (e - s) / (self.J + 1 - s**2)).sqrt()
+            state.v = -corner * state.tilt.cos() * state.w
+            return (corner,), 2 * state.v / state.w**2
+        if rises and sign(e - 1) > 0:
+            state.heads, corner = not state.heads, -corner
+        state.v = -(2 * e / (1 + self.J)).sqrt()
+        return self.slap(state, corner)
+
+    def slap(self, state: State, corner: int) -> tuple[tuple[int, ...], Any]:
+        """Lay the coin on the floor, a rim point at rest there; both hit the floor in turn.
+
+        Returns:
+            Both, where they leave the floor in the end, else none.
+        """
+        state.z, state.tilt, state.w = arb(0), arb(0), -corner * state.v
+        for turn in range(SLAPS):
+            if self.energy(state) < 1:
+                return (), None
+            side = -corner if turn % 2 == 0 else corner
+            if turn > 0 and sign(self.rim_velocity(state, side)) > 0:
+                return (-1, 1), None
+            self.hit(state, side)
+        raise UndecidedError

@@ -5,8 +5,8 @@ from fractions import Fraction
 
 from cointoss import Scenario
 from cointoss.study import ReleaseQuantity, is_planar
-from cointoss_reproduction.precision.certified import PlanarRelease, proved_part
-from cointoss_reproduction.precision.planar_coin import planar_coin, units
+from cointoss_reproduction.precision.certified import proved_part
+from cointoss_reproduction.precision.planar_coin import PlanarRelease, planar_coin, units
 from cointoss_reproduction.precision.planar_ending import planar_ending
 
 PROVED = {"height": "height", "attitude about ξ": "tilt", "spin about ξ": "spin"}

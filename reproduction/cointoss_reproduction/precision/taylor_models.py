@@ -23,6 +23,25 @@ class UndecidedError(Exception):
     """An enclosure is too wide."""
 
 
+def _of_one(name: str) -> Callable[["TaylorModel"], "TaylorModel"]:
+    """Return a function of one number by the name of its method of a series."""
+    call = operator.methodcaller(name)
+    return lambda x: TaylorModel(call(x.middle), call(x.whole))
+
+
+def _of_two(op: Callable[[Any, Any], Any]) -> Callable[["TaylorModel", Any], "TaylorModel"]:
+    """Return an operation on two numbers, the other of which may be an enclosure."""
+    return lambda x, y: TaylorModel(
+        op(_part(x, "middle"), _part(y, "middle")), op(_part(x, "whole"), _part(y, "whole"))
+    )
+
+
+def _of_all(name: str) -> Callable[["TaylorModel"], Any]:
+    """Return a function of the enclosure of a number for all p by the name of its method."""
+    call = operator.methodcaller(name)
+    return lambda x: call(x.whole[0])
+
+
 class TaylorModel:
     """A number x(p)."""
 
@@ -30,43 +49,20 @@ class TaylorModel:
         """Keep the coefficients about p = 0, and enclosures of those about every p."""
         self.middle, self.whole = middle, whole
 
-    def __add__(self, other: Any) -> "TaylorModel":
-        """Return x + y."""
-        return _both(operator.add, self, other)
-
-    __radd__ = __add__
-
-    def __sub__(self, other: Any) -> "TaylorModel":
-        """Return x - y."""
-        return _both(operator.sub, self, other)
-
-    def __rsub__(self, other: Any) -> "TaylorModel":
-        """Return y - x."""
-        return _both(operator.sub, other, self)
-
-    def __mul__(self, other: Any) -> "TaylorModel":
-        """Return x y."""
-        return _both(operator.mul, self, other)
-
-    __rmul__ = __mul__
+    __add__ = __radd__ = _of_two(operator.add)
+    __sub__ = _of_two(operator.sub)
+    __rsub__ = _of_two(lambda x, y: y - x)
+    __mul__ = __rmul__ = _of_two(operator.mul)
+    __pow__ = _of_two(operator.pow)
+    __neg__, sin, cos, sqrt, asin = map(_of_one, ("__neg__", "sin", "cos", "sqrt", "asin"))
 
     def __truediv__(self, other: Any) -> "TaylorModel":
         """Return x/y."""
-        _check_divisor(other)
-        return _both(operator.truediv, self, other)
+        return _quotient(self, other)
 
     def __rtruediv__(self, other: Any) -> "TaylorModel":
         """Return y/x."""
-        _check_divisor(self)
-        return _both(operator.truediv, other, self)
-
-    def __pow__(self, power: int) -> "TaylorModel":
-        """Return x^n."""
-        return TaylorModel(self.middle**power, self.whole**power)
-
-    def __neg__(self) -> "TaylorModel":
-        """Return -x."""
-        return TaylorModel(-self.middle, -self.whole)
+        return _quotient(other, self)
 
     def __abs__(self) -> "TaylorModel":
         """Return |x|; where its sign changes only its enclosure."""
@@ -74,38 +70,11 @@ class TaylorModel:
             return self
         return -self if self < 0 else constant(abs(self.whole[0]))
 
-    def sin(self) -> "TaylorModel":
-        """Return sin x."""
-        return TaylorModel(self.middle.sin(), self.whole.sin())
-
-    def cos(self) -> "TaylorModel":
-        """Return cos x."""
-        return TaylorModel(self.middle.cos(), self.whole.cos())
-
     def sin_cos(self) -> tuple["TaylorModel", "TaylorModel"]:
         """Return sin x and cos x."""
-        (sine, cosine), (all_sine, all_cosine) = self.middle.sin_cos(), self.whole.sin_cos()
-        return TaylorModel(sine, all_sine), TaylorModel(cosine, all_cosine)
+        return self.sin(), self.cos()
 
-    def sqrt(self) -> "TaylorModel":
-        """Return the square root."""
-        return TaylorModel(self.middle.sqrt(), self.whole.sqrt())
-
-    def asin(self) -> "TaylorModel":
-        """Return the inverse sine."""
-        return TaylorModel(self.middle.asin(), self.whole.asin())
-
-    def mid(self) -> Any:
-        """Return the middle of all values."""
-        return self.whole[0].mid()
-
-    def upper(self) -> Any:
-        """Return an upper bound of all values."""
-        return self.whole[0].upper()
-
-    def lower(self) -> Any:
-        """Return a lower bound of all values."""
-        return self.whole[0].lower()
+    mid, upper, lower = map(_of_all, ("mid", "upper", "lower"))
 
     def __lt__(self, other: Any) -> bool:
         """Return whether x < y for all p."""
@@ -165,17 +134,16 @@ def zero(
     return TaylorModel(arb_series(middle), arb_series(whole)).tightened()
 
 
-def _both(op: Callable[[Any, Any], Any], x: Any, y: Any) -> TaylorModel:
-    return TaylorModel(
-        op(*(n.middle if isinstance(n, TaylorModel) else n for n in (x, y))),
-        op(*(n.whole if isinstance(n, TaylorModel) else n for n in (x, y))),
-    )
+def _part(x: Any, name: str) -> Any:
+    """Return the series of a number, about its middle or about every p."""
+    return getattr(x, name) if isinstance(x, TaylorModel) else x
 
 
-def _check_divisor(x: Any) -> None:
-    """Refuse to divide by a number that may be 0."""
-    if not (whole(x) > 0 or whole(x) < 0):
+def _quotient(x: Any, y: Any) -> TaylorModel:
+    """Return x/y, unless y may be 0."""
+    if not (whole(y) > 0 or whole(y) < 0):
         raise UndecidedError
+    return _of_two(operator.truediv)(x, y)
 
 
 def _common(one: Any, other: Any) -> Any:

@@ -1,7 +1,8 @@
 """Fig. 30, section 5.2: boundaries magnified to 1e-25 m, and how the share of uncertain tosses falls."""
 
+from dataclasses import asdict
 from fractions import Fraction
-from itertools import product
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -10,12 +11,11 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cointoss import Scenario, analytic
-from cointoss.study import GREY, Array, MapAxis, Progress, draw_panel, share
+from cointoss.study import GREY, Array, MapAxis, Progress, code_digest, draw_panel, share
+from cointoss_reproduction.frame import parts
 from cointoss_reproduction.frame.declared import Data, Findings, declared
-from cointoss_reproduction.frame.threads import all_cores
 from cointoss_reproduction.precision.magnified import MAGNIFICATION, Magnified, magnify
-from cointoss_reproduction.precision.planar_coin import planar_coin, units
-from cointoss_reproduction.precision.planar_state import HEIGHT, release
+from cointoss_reproduction.precision.planar_coin import PlanarRelease, planar_coin, units
 from cointoss_reproduction.setups.planar_maps import (
     HEIGHTS,
     MEDIA,
@@ -26,7 +26,12 @@ from cointoss_reproduction.setups.planar_maps import (
     planar_rows,
     toss_rows_by_mujoco,
 )
-from cointoss_reproduction.setups.uncertain_shares import ACCURACIES, kept_run, slope
+from cointoss_reproduction.setups.uncertain_shares import (
+    ACCURACIES,
+    processes,
+    slope_between,
+    uncertain_shares,
+)
 
 WINDOWS_BELOW = 25
 """A line through the map is magnified so many times, 1 included; the last is 4e-25 m long."""
@@ -34,8 +39,8 @@ POINTS = 50
 """On a line."""
 DECADES = 3
 """α is the slope over so many of them."""
-DOUBLES = (3, 4)
-"""Index of the first and number of those for which doubles would do: 1e-6 m to 1e-10 m."""
+DOUBLES = (3, 7)
+"""Index of the first and last of those for which doubles would do: 1e-6 m to 1e-10 m."""
 UPRIGHT = 1e-6
 """A coin stands when it comes so near to the upright coin at rest [m g r]."""
 TENFOLDS = 3
@@ -53,15 +58,15 @@ ACCURACY_MUJOCO = 1e-4
 
 def make(
     progress: Progress,
-    parts: Path,
+    kept: Path,
     points: int = 100,
     lines: int = 20,
-    runs: int = 24,
-    population: int = 60,
+    on_line: int = POINTS,
+    population: int = 1440,
     tosses_mujoco: int = 200,
 ) -> Findings:
     """Enlarge the maps of Fig. 29(c, d) and lines through them, and find the share of uncertain tosses."""
-    whole = len(MEDIA) * (len(WINDOWS) + lines + runs) + 1
+    whole = len(MEDIA) * (len(WINDOWS) + lines + 1) + 1
     done = 0
     rng = np.random.default_rng(SEED)
     data: Data = {}
@@ -69,18 +74,6 @@ def make(
     heights, spins = rng.uniform(*HEIGHTS, tosses_mujoco), rng.uniform(*SPINS, tosses_mujoco)
     mujoco = _by_mujoco(case(air=True), heights, spins)
     progress(done := done + 1, whole)
-    jobs = list(product(MEDIA, range(runs)))
-    made: dict[str, list[Array]] = {medium: [] for medium in MEDIA}
-
-    def run(job: tuple[str, int]) -> Array:
-        medium, number = job
-        scenario = case(air=medium == "air")
-        return kept_run(parts, medium, scenario, (SEED, number), population=population).shares
-
-    with all_cores() as pool:
-        for (medium, _), shares in zip(jobs, pool.map(run, jobs), strict=True):
-            made[medium].extend(shares)
-            progress(done := done + 1, whole)
     for medium in MEDIA:
         scenario = case(air=medium == "air")
         z, w = _boundary_near(scenario), NEAR[1]
@@ -93,13 +86,22 @@ def make(
             data[f"{medium}, enlargement {number}"] = final_faces(scenario, grid)
             progress(done := done + 1, whole)
         followed = []
-        for spin in np.linspace(*SPINS, lines + 2)[1:-1]:
-            followed.append(_magnified(scenario, float(spin)))
+        through = np.linspace(*SPINS, lines + 2)[1:-1].tolist()
+        for line in processes().map(partial(_magnified, scenario, on_line), through):
+            followed.append(line)
             progress(done := done + 1, whole)
         data[f"{medium}, crossings"] = np.array([line.counts for line in followed])
         data[f"{medium}, off"] = off = np.array([line.from_upright.max(axis=1) for line in followed])
-        data[f"{medium}, shares"] = shares = np.array(made[medium])
-        media[medium] = _lines(followed) | _standing(off) | _slopes(shares)
+        made = parts.kept(
+            kept,
+            f"{code_digest()}, {medium}, {SEED}, {population}",
+            lambda scenario=scenario: asdict(
+                uncertain_shares(scenario, np.random.default_rng(SEED), population=population)
+            ),
+        )
+        progress(done := done + 1, whole)
+        data[f"{medium}, shares"] = np.divide(*(made[name].mean(axis=0) for name in ("shares", "whole")))
+        media[medium] = _lines(followed) | _standing(off) | _slopes(made["shares"], made["whole"])
         media[medium]["mujoco"] = mujoco if medium == "air" else "-"
     return Findings(data=data, media=media)
 
@@ -136,19 +138,26 @@ def _standing(off: Array) -> dict[str, Any]:
     }
 
 
-def _slopes(shares: Array) -> dict[str, Any]:
-    """Return how the share of uncertain tosses falls, by the names of the claims."""
-    tenths, f = range(0, len(ACCURACIES), DECADES), shares.mean(axis=0)
-    slopes = {ACCURACIES[i]: slope(shares, i, DECADES).value for i in tenths[:-1]}
-    doubles = slope(shares, *DOUBLES)
+def _slopes(shares: Array, whole: Array) -> dict[str, Any]:
+    """Return how the share of uncertain tosses falls, by the names of the claims.
+
+    Args:
+        shares: weight of uncertain tosses, by group of ancestors and accuracy, (n, m).
+        whole: all weight, (n, m).
+    """
+    last, f = len(ACCURACIES) - 1, shares.mean(axis=0) / whole.mean(axis=0)
+    slopes = {
+        ACCURACIES[i]: slope_between(shares, whole, i, i + DECADES).value for i in range(0, last, DECADES)
+    }
+    doubles = slope_between(shares, whole, *DOUBLES)
     return {
         "slopes": ", ".join(f"{accuracy:.0e} m: {alpha:.2f}" for accuracy, alpha in slopes.items()),
-        "shares": ", ".join(f"{f[i]:.1e}" for i in tenths),
-        "finest": slope(shares, len(ACCURACIES) - 1 - DECADES, DECADES),
+        "shares": ", ".join(f"{x:.1e}" for x in f[::DECADES]),
+        "finest": slope_between(shares, whole, last - DECADES, last),
         "uncertain": f[-1],
         "doubles": doubles,
         "finer": 2 ** (1 / doubles.value),
-        "coarse": slope(shares, 0, 1),
+        "coarse": slope_between(shares, whole, 0, 1),
     }
 
 
@@ -165,17 +174,16 @@ def _boundary_near(scenario: Scenario) -> float:
     return float(changes[np.argmin(np.abs(changes - NEAR[0]))])
 
 
-def _magnified(scenario: Scenario, spin: float) -> Magnified:
+def _magnified(scenario: Scenario, points: int, spin: float) -> Magnified:
     """Magnify a line of heights time and again about one of its boundaries."""
-    own = units(scenario)
-    low, high = (Fraction(height) / own.length for height in HEIGHTS)
+    low, high = (Fraction(height) for height in HEIGHTS)
     return magnify(
         planar_coin(scenario),
-        release(own, height=HEIGHTS[0], spin=spin),
-        row=HEIGHT,
+        units(scenario),
+        PlanarRelease(low, Fraction(spin)),
         length=high - low,
         windows=WINDOWS_BELOW,
-        points=POINTS,
+        points=points,
     )
 
 
@@ -213,7 +221,7 @@ def _draw(data: Data) -> Figure:
     counts, slopes = grid[:, 2]
     windows = _window(np.arange(WINDOWS_BELOW))
     for medium, color in MEDIA.items():
-        crossings, shares = data[f"{medium}, crossings"], data[f"{medium}, shares"].mean(axis=0)
+        crossings, shares = data[f"{medium}, crossings"], data[f"{medium}, shares"]
         counts.loglog(windows, crossings.T, "-", color=color, linewidth=0.3)
         counts.loglog(windows, np.median(crossings, axis=0), "o-", color=color, label=f"median, {medium}")
         local = np.log10(shares[:-DECADES] / shares[DECADES:]) / DECADES

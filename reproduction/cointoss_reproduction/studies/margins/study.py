@@ -34,7 +34,7 @@ from cointoss.study import (
     smallest_changes,
     table,
 )
-from cointoss_reproduction.frame.parts import Part, kept
+from cointoss_reproduction.frame import parts
 from cointoss_reproduction.frame.recorded import recorded
 from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case, planar_rows
@@ -76,13 +76,13 @@ class Margins:
 
 
 def compute(
-    progress: Progress, parts: Path, count: int = COUNT, planar: int = PLANAR, proofs: int = PROOFS
+    progress: Progress, kept: Path, count: int = COUNT, planar: int = PLANAR, proofs: int = PROOFS
 ) -> Margins:
     """Find the margins of random tosses; what an interrupted computation found is not searched again.
 
     Args:
         progress: called after each quantity.
-        parts: folder of what is done.
+        kept: folder of what is done.
         count: tosses of the general coin.
         planar: tosses of the planar coin.
         proofs: of their margins from below.
@@ -91,10 +91,10 @@ def compute(
     general: dict[str, list[float]] = {}
     steps = len(QUANTITIES) + 2
     for done, quantity in enumerate(QUANTITIES):
-        general[quantity.name] = _kept_margins(parts, drawn, quantity, "zloty")
+        general[quantity.name] = _kept_margins(kept, drawn, quantity, "zloty")
         progress(done + 1, steps)
     flat = draw_planar(planar)
-    found = _kept_margins(parts, flat, HEIGHT, "planar")
+    found = _kept_margins(kept, flat, HEIGHT, "planar")
     uncertain = {f"{one:g}": uncertain_within(flat, one / HEIGHT.factor).tolist() for one in ACCURACIES}
     progress(steps - 1, steps)
     from cointoss_reproduction.precision.proved_change import proved_change
@@ -123,14 +123,14 @@ def _outcomes(rows: Array) -> Codes:
     return analytic.toss_rows(rows).outcome
 
 
-def _kept_margins(parts: Path, rows: Array, quantity: ReleaseQuantity, name: str) -> list[float]:
+def _kept_margins(kept: Path, rows: Array, quantity: ReleaseQuantity, name: str) -> list[float]:
     """Return the margins that an earlier computation kept, or find them and keep them."""
 
-    def compute_part() -> Part:
+    def compute_part() -> parts.Part:
         return {"margins": found_margins(rows, quantity)}
 
     made_by = code_digest()
-    part = kept(parts, f"{made_by}, {name}, {quantity.name}, {len(rows)}", compute_part)
+    part = parts.kept(kept, f"{made_by}, {name}, {quantity.name}, {len(rows)}", compute_part)
     margins = part["margins"]
     return np.where(np.isfinite(margins), margins, -1.0).tolist()
 
@@ -177,8 +177,8 @@ def tables(found: Margins) -> str:
     general = []
     for quantity in QUANTITIES:
         sizes = sizes_of(found.general[quantity.name])
-        parts = [_words(quantile(sizes, part)) for part in PARTS]
-        general.append([f"{quantity.name} [{quantity.unit}]", *parts, f"{np.mean(np.isinf(sizes)):.1%}"])
+        shown = [_words(quantile(sizes, part)) for part in PARTS]
+        general.append([f"{quantity.name} [{quantity.unit}]", *shown, f"{np.mean(np.isinf(sizes)):.1%}"])
     planar = [
         [
             f"{one:g}",

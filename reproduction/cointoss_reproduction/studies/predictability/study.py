@@ -1,200 +1,186 @@
 """Is coin tossing predictable? The share of tosses left uncertain, by accuracy and restitution."""
 
-from collections.abc import Mapping, Sequence
-from math import sqrt
-from pathlib import Path
+from collections.abc import Iterator, Mapping, Sequence
+from math import log, log10, sqrt
 from typing import Any
 
 import numpy as np
-from scipy.constants import hbar
+import pandas as pd
 
-from cointoss.study import Progress
-from cointoss_reproduction.frame.recorded import recorded
-from cointoss_reproduction.frame.threads import all_cores
+from cointoss_reproduction.frame.cells import Cells, estimate
+from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.precision.branching import Branches
-from cointoss_reproduction.precision.planar_state import HEIGHT, SPIN, TILT
 from cointoss_reproduction.setups.planar_maps import case
 from cointoss_reproduction.setups.uncertain_shares import (
     ACCURACIES,
-    CEILING,
     flat_share,
-    joined,
-    kept_run,
-    level_of,
     share_at,
     slope_between,
+    uncertain_shares,
 )
-from cointoss_reproduction.studies.predictability.pages import draw, tables
-from cointoss_reproduction.studies.predictability.record import (
-    AIR,
-    FINE,
-    HAND,
-    NEARLY_SMOOTH,
-    PREDICTABLE,
-    QUANTUM,
-    ROUGH,
-    SHOWN,
-    SMOOTH,
-    WINDOWS,
-    Case,
-    Predictability,
-    accuracy_for,
-    within,
-)
+from cointoss_reproduction.studies.predictability.picture import draw
 
 SEED = 2014
-POPULATION = 400
-"""Intervals of a run at each level but the first."""
-FOLLOWED = 8
-"""Boundaries of a run that are followed at each ε, on a smooth floor in vacuum."""
+SMOOTH, AIR, ROUGH = "smooth, vacuum", "smooth, air", "rough, vacuum"
 CHIS = {
     SMOOTH: (0.0, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95),
     AIR: (0.3, 0.6, 0.8),
     ROUGH: (0.3, 0.6),
 }
 """By floor and medium. A rough floor adds energy above χ = √5/3, and a face is then never settled."""
-RUNS = {SMOOTH: 3, AIR: 2, ROUGH: 4}
-"""Independent runs of each case; in air a toss takes longest."""
+CHI = 0.6
+"""At which spin and tilt vary, too [rad/s, rad]; the paper's."""
+AXES = {"floor": tuple(CHIS), "chi": CHIS[SMOOTH], "quantity": ("height", "spin", "tilt")}
+POPULATION = {SMOOTH: 1200, AIR: 800, ROUGH: 1600}
+"""Intervals at each level but the first; in air a toss takes longest."""
 FEW = 4
 """Above `NONE`, where nearly all tosses are uncertain and each takes long, so many times fewer intervals."""
 NONE = 0.85
 """Restitution above which a toss is unpredictable."""
-OTHERS = {"spin": SPIN, "tilt": TILT}
-"""Other quantities of the release, in rad/s and rad, and their rows in a state."""
-CHI = 0.6
-"""At which these vary; the paper's."""
-BOUNCY = 0.9
-"""At this restitution a coin bounces long."""
+WINDOWS = {1e-3: 1e-6, 1e-6: 1e-9, 1e-9: 1e-12, 1e-12: 1e-18, 1e-18: 1e-24}
+"""α is the slope between two accuracies [m]."""
+HAND, FINE, QUANTUM = 1e-3, 1e-9, 1e-16
+"""Of accuracies [m]: a hand's, an atom's size, and about the coin's quantum width."""
+PREDICTABLE = 0.01
+"""At most this share uncertain: 99 % of all tosses are predictable."""
+NEARLY_SMOOTH = 0.9
+"""α above it is all but a smooth boundary's."""
 FRACTAL = 0.8
 """α below it is a fractal's."""
+BOUNCY = 0.9
+"""At this restitution a coin bounces long."""
 
 
-def compute(
-    progress: Progress,
-    parts: Path,
-    runs: Mapping[str, int] = RUNS,
-    population: int = POPULATION,
-    chis: Mapping[str, Sequence[float]] = CHIS,
+def uncertain(
+    floor: str,
+    chi: float,
+    quantity: str,
+    parts: int = 1,
+    followed: int = 24,
     levels: int = len(ACCURACIES),
-) -> Predictability:
-    """Run the branching for every case; what an interrupted computation finished is not run again.
+    chis: Mapping[str, Sequence[float]] = CHIS,
+) -> list[dict[str, Any]] | None:
+    """Return what 1/`parts` of the intervals show at each accuracy, and in the last row of them all.
 
-    Args:
-        progress: called after each run.
-        parts: folder of what is done.
-        runs: independent runs of each case, by floor.
-        population: intervals at each level.
-        chis: restitutions by floor.
-        levels: how many of `ACCURACIES`.
+    Releases are uniform in height and spin, flat, at rest but for the spin. On a smooth floor in vacuum
+    `followed` boundaries are followed at each accuracy.
     """
-    asked = [(floor, chi, "height") for floor in chis for chi in chis[floor]]
-    asked += [(SMOOTH, CHI, quantity) for quantity in OTHERS]
-    jobs = [(one, number) for number in range(max(runs.values())) for one in asked if number < runs[one[0]]]
-    found: dict[tuple[str, float, str], list[Branches]] = {one: [] for one in asked}
-    with all_cores() as pool:
-        made = pool.map(lambda job: run_once(parts, *job, population=population, levels=levels), jobs)
-        for done, ((one, _), run) in enumerate(zip(jobs, made, strict=True), start=1):
-            found[one].append(run)
-            progress(done, len(jobs))
-    scenario = case(air=False)
-    fall = sqrt(2 * scenario.release.position[2] / scenario.gravity)
-    return Predictability(
-        cases=[case_of(*one, found[one]) for one in asked],
-        quantum_width=sqrt(hbar * fall / scenario.coin.mass),
-    )
-
-
-def case_of(floor: str, chi: float, quantity: str, runs: Sequence[Branches]) -> Case:
-    """Return what several runs find of what they tossed."""
-    groups = joined(runs)
-    shares, whole, parted, energy = (
-        numbers.mean(axis=0) for numbers in (groups.shares, groups.whole, groups.parted, groups.energy)
-    )
-    last = float(ACCURACIES[len(shares) - 1])
-    shown = [accuracy for accuracy in SHOWN if accuracy >= last * 0.9]
-    return Case(
-        floor=floor,
-        chi=chi,
-        quantity=quantity,
-        shares=np.minimum(shares / whole, CEILING).tolist(),
-        parted=np.minimum(parted / whole, 1.0).tolist(),
-        energy=float(energy[-1] / parted[-1]) if parted[-1] else 0.0,
-        known={accuracy: share_at(groups, accuracy) for accuracy in shown},
-        slopes=[slope_between(groups, *window) for window in within(last)],
-        flat={x: part for x in shown if (part := flat_share(groups, x))},
-        tosses=groups.tosses,
-        undecided=groups.undecided,
-    )
-
-
-def run_once(
-    parts: Path, asked: tuple[str, float, str], number: int, *, population: int, levels: int
-) -> Branches:
-    """Run the branching once for one case: releases uniform in height and spin, flat, at rest but for it."""
-    floor, chi, quantity = asked
+    if chi not in chis.get(floor, ()) or (quantity != "height" and (floor, chi) != (SMOOTH, CHI)):
+        return None
     scenario = case(air=floor == AIR, restitution=chi)
     if floor == ROUGH:
         scenario = scenario.replace("floor.contact", "perfectly_rough")
-    row = OTHERS.get(quantity, HEIGHT)
-    seed = SEED, number, list(CHIS).index(floor), round(100 * chi), row
-    name = f"{floor}, {chi:g}, {quantity}"
-    return kept_run(
-        parts,
-        name,
+    seed = SEED, list(CHIS).index(floor), round(100 * chi), AXES["quantity"].index(quantity)
+    found = uncertain_shares(
         scenario,
-        seed,
-        row=row,
+        np.random.default_rng(seed),
+        quantity=quantity,
         levels=levels,
-        population=population // FEW if chi > NONE else population,
-        followed=FOLLOWED if floor == SMOOTH and row == HEIGHT else 0,
+        population=POPULATION[floor] // parts // (FEW if chi > NONE else 1),
+        followed=followed if floor == SMOOTH and quantity == "height" else 0,
     )
+    rows = list(of_each(found))
+    rows[-1] |= of_all(rows) | {"tosses": found.tosses, "undecided": found.undecided}
+    return rows
 
 
-def measures(found: Predictability) -> dict[str, Any]:
-    """Return what the claims name."""
-    by_key = {(one.floor, one.chi): one for one in found.cases if one.quantity == "height"}
-    smooth, bouncy = by_key[SMOOTH, CHI], by_key.get((SMOOTH, BOUNCY))
-    last, end = WINDOWS[len(smooth.slopes) - 1]
+def of_each(found: Branches) -> Iterator[dict[str, Any]]:
+    """Yield what was found at each accuracy: f, the share that parts, α of the window that starts there."""
+    shares, whole, parted, energy = (
+        numbers.mean(axis=0) for numbers in (found.shares, found.whole, found.parted, found.energy)
+    )
+    accuracies = ACCURACIES[: len(shares)]
+    for level, accuracy in enumerate(accuracies):
+        end = WINDOWS.get(accuracy)
+        yield {
+            "accuracy": accuracy,
+            "share": share_at(found, level),
+            "parted": min(parted[level] / whole[level], 1.0),
+            "energy": energy[level] / parted[level] if parted[level] else 0.0,
+            "window": f"{accuracy:.0e} to {end:.0e}" if end in accuracies else None,
+            "alpha": slope_between(found.shares, found.whole, level, accuracies.index(end))
+            if end in accuracies
+            else None,
+            "flat": flat_share(found, level),
+        }
+
+
+def of_all(rows: Sequence[Mapping[str, Any]]) -> dict[str, float]:
+    """Return what follows from all accuracies of a case.
+
+    How x = -log10 of the accuracy at which a toss parts from its neighbour is distributed over tosses; those
+    that part above the first count as if at it. Were x normal, α would be nearly 1 from `normal` on, for the
+    logarithm of a normal distribution's tail falls by (x - mean)/spread² over each unit of x.
+    """
+    x = -np.log10([row["accuracy"] for row in rows])
+    parted, f = np.array([row["parted"] for row in rows]), [row["share"].value for row in rows]
+    mean = float(np.trapezoid(parted, x))
+    # The trapezoidal rule, corrected at its end for steps of a decade (Euler and Maclaurin).
+    square = float(2 * np.trapezoid((x - x[0]) * parted, x) + parted[0] / 6)
+    spread = sqrt(max(square - mean**2, 0.0))
+    slopes = [(row["accuracy"], row["alpha"].value >= NEARLY_SMOOTH) for row in rows if row["alpha"]]
+    rough = [n for n, (_, is_smooth) in enumerate(slopes) if not is_smooth]
+    smooth = slopes[rough[-1] + 1 if rough else 0 :]
     return {
-        "nearly_smooth": NEARLY_SMOOTH,
-        "end": end,
-        "last": last,
-        "hand_end": WINDOWS[0][1],
-        "soft": by_key[SMOOTH, 0.0].slopes[0],
-        "floors": {
-            floor: {
-                "alpha": by_key[floor, CHI].slopes[-1],
-                "share": by_key[floor, CHI].known[QUANTUM],
-                "headline": _headline(smooth, end) if floor == SMOOTH else "",
-            }
-            for floor in (SMOOTH, AIR, ROUGH)
-        },
-        "alphas": {
-            f"α from {WINDOWS[at][0]:.0e} to {WINDOWS[at][1]:.0e} m": smooth.slopes[at]
-            for at in (1, len(smooth.slopes) - 1)
-        },
-        "bouncy": {SMOOTH: {"share": bouncy.known[QUANTUM]}} if bouncy else {},
+        "fine": accuracy_for(x, f, PREDICTABLE),
+        "mean": float(x[0]) + mean,
+        "spread": spread,
+        "normal": float(10 ** -(float(x[0]) + mean + NEARLY_SMOOTH * spread**2 * log(10))),
+        "smooth": smooth[0][0] if smooth else float("nan"),
     }
 
 
-def _headline(one: Case, end: float) -> str:
-    """Return what was found of the dispute, in a few sentences."""
-    f, fine = one.shares, accuracy_for(one, PREDICTABLE)
-    return (
-        f"They are smooth, but nobody can see it. At χ = {one.chi:g} the share of uncertain tosses falls as "
-        f"ε^{one.slopes[1].value:.2f} at 1 µm, and down to {end:.0e} m still as "
-        f"ε^{one.slopes[-1].value:.2f}; smooth boundaries have ε^1. Released within 1 mm, "
-        f"{f[level_of(HAND)]:.0%} of the tosses are uncertain; within 1 nm, {f[level_of(FINE)]:.1%}. For 99% "
+def accuracy_for(x: Any, f: Sequence[float], share: float) -> float:
+    """Return the accuracy 10^-x at which f falls to a share, interpolated; infinite or NaN beyond all [m]."""
+    below = np.flatnonzero(np.array(f) <= share)
+    if len(below) == 0 or below[0] == 0:
+        return float("nan" if len(below) == 0 else "inf")
+    sides = [below[0], below[0] - 1]
+    return float(10 ** -np.interp(log10(share), np.log10(np.array(f)[sides]), x[sides]))
+
+
+def found(cells: pd.DataFrame) -> dict[str, Any]:
+    """Return what the claims name and no measure selects: the last window of the run, and cases of it."""
+    rows = {
+        (row["floor"], row["chi"], row["accuracy"]): row
+        for row in cells.to_dict("records")
+        if row["quantity"] == "height"
+    }
+
+    def of(floor: str, chi: float, accuracy: float, column: str) -> Any:
+        return estimate(rows[floor, chi, accuracy], column)
+
+    last = min(accuracy for (*_, accuracy), row in rows.items() if isinstance(row["window"], str))
+    end, bouncy = WINDOWS[last], (SMOOTH, BOUNCY, QUANTUM)
+    fine = of(SMOOTH, CHI, min(accuracy for *_, accuracy in rows), "fine")
+    headline = (
+        f"They are smooth, but nobody can see it. At χ = {CHI:g} the share of uncertain tosses falls as "
+        f"ε^{of(SMOOTH, CHI, 1e-6, 'alpha').value:.2f} at 1 µm, and down to {end:.0e} m still as "
+        f"ε^{of(SMOOTH, CHI, last, 'alpha').value:.2f}; smooth boundaries have ε^1. Released within 1 mm, "
+        f"{of(SMOOTH, CHI, HAND, 'share').value:.0%} of the tosses are uncertain; within 1 nm, "
+        f"{of(SMOOTH, CHI, FINE, 'share').value:.1%}. For 99% "
         f"of them to be predictable the release must be exact to {fine:.0e} m. On a floor without "
         "restitution the boundaries are smooth at every accuracy."
     )
+    return {
+        "last": last,
+        "end": end,
+        "hand_end": WINDOWS[HAND],
+        "soft": of(SMOOTH, 0.0, HAND, "alpha"),
+        "floors": {
+            floor: {
+                "alpha": of(floor, CHI, last, "alpha"),
+                "share": of(floor, CHI, QUANTUM, "share"),
+                "headline": headline if floor == SMOOTH else "",
+            }
+            for floor in CHIS
+        },
+        "alphas": {
+            f"α from {first:.0e} to {WINDOWS[first]:.0e} m": of(SMOOTH, CHI, first, "alpha")
+            for first in (1e-6, last)
+        },
+        "bouncy": {SMOOTH: {"share": of(*bouncy, "share")}} if bouncy in rows else {},
+    }
 
 
-REPRODUCTION = recorded(
-    __name__,
-    compute,
-    record=Predictability,
-    measures=measures,
-    tables=tables,
-    draw={"predictability": draw},
-)
+REPRODUCTION = study(__name__, Cells(uncertain, AXES), found=found, draw={"predictability": draw})

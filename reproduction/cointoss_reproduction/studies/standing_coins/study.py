@@ -16,10 +16,8 @@ from cointoss.study import Array, FloorFriction, Pieces, mean, run, share
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.frame.threads import all_cores
-from cointoss_reproduction.precision.double_double import pair_of
-from cointoss_reproduction.precision.planar_coin import planar_coin, units
-from cointoss_reproduction.precision.planar_state import HEIGHT, release, spread
-from cointoss_reproduction.precision.planar_toss import toss_many
+from cointoss_reproduction.precision.planar_coin import PlanarRelease, planar_coin, units
+from cointoss_reproduction.precision.planar_numbers import spread, toss_many
 from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.setups.halving import halved
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case
@@ -213,7 +211,7 @@ def falls(times: Array, near: Standing) -> float:
 
 
 def flat_landings(count: int) -> Array:
-    """Toss planar coins beside releases whose first touch is exactly flat, in vacuum, in 106 bits.
+    """Toss planar coins beside releases whose first touch is exactly flat, in vacuum, in 128 bits.
 
     Args:
         count: of such releases, at random.
@@ -224,17 +222,20 @@ def flat_landings(count: int) -> Array:
     """
     scenario = case(air=False)
     coin, own, rng = planar_coin(scenario), units(scenario), np.random.default_rng(SEED)
-    starts = []
-    while len(starts) < count:
+    found = []
+    while len(found) < count:
         spin, half_turns = Fraction(rng.uniform(*SPINS)), int(rng.integers(1, 10))
         height = own.gravity / 2 * (half_turns * _PI / spin) ** 2
         if HEIGHTS[0] < height < HEIGHTS[1]:
-            starts.append(release(own, height=height - BESIDE, spin=spin))
-    both = spread(np.array(starts), HEIGHT, pair_of(2 * BESIDE / own.length), 2)
-    found = toss_many(coin, both, to_contact=True)
-    outcome, near = found.outcome.reshape(-1, 2), found.from_upright.reshape(-1, 2)
-    decided = (outcome != Outcome.UNDECIDED).all(axis=1)
-    return np.column_stack([outcome[:, 0] != outcome[:, 1], near.min(axis=1)])[decided]
+            both = spread(PlanarRelease(height - BESIDE, spin), "height", 2 * BESIDE, 2)
+            found.append(toss_many(coin, own, both, to_contact=True))
+    return np.array(
+        [
+            (one.outcome != other.outcome, min(one.from_upright, other.from_upright))
+            for one, other in found
+            if Outcome.UNDECIDED not in (one.outcome, other.outcome)
+        ]
+    )
 
 
 _PI = Fraction("3.14159265358979323846264338327950288419716939937510582097494")

@@ -1,25 +1,37 @@
 """The gap between a planar coin's rim point and the floor in a flight, and its first zero, enclosed."""
 
+import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from flint import arb, ctx
+from flint import arb, arb_poly, ctx
 
-from cointoss_reproduction.precision.planar_flight import safe_step
 from cointoss_reproduction.precision.taylor_models import UndecidedError
 
 MOST_STEPS = 20_000
 """Of the search for a touch."""
 NEAR = 1e-9
 """Below this gap, and what it is uncertain by, a zero is enclosed by the gap's falling."""
+TINY = 2.0**-43
+"""An angle below it is turned by the first term of its series [rad]."""
+NEWTON_STEPS = 12
+"""That the middle of an enclosure takes at most."""
+_DOUBLINGS = 100
 
 
 def polynomial(coefficients: Sequence[Any], s: Any) -> Any:
     """Return a polynomial's value, lowest coefficient first."""
+    if isinstance(s, arb):
+        return arb_poly(coefficients)(s)
     total = arb(0)
     for c in reversed(coefficients):
         total = total * s + c
     return total
+
+
+def slopes(coefficients: Sequence[Any]) -> list[Any]:
+    """Return the coefficients of a polynomial's derivative, lowest first."""
+    return [n * c for n, c in enumerate(coefficients)][1:]
 
 
 class Gap:
@@ -57,8 +69,8 @@ class Gap:
         if side in corners and start is not None:
             self.f1, self.start = arb(0), float(start.lower()) * (1 - 1e-9)
         self.rest, self.tail = [arb(0), arb(0), *heights[2:]], tail
-        self.slopes = [n * c for n, c in enumerate(self.rest)][1:]
-        self.bends = [n * c for n, c in enumerate(self.slopes)][1:]
+        self.slopes = slopes(self.rest)
+        self.bends = slopes(self.slopes)
 
     def at(self, s: Any) -> tuple[Any, Any]:
         """Return the gap and its rate."""
@@ -66,7 +78,11 @@ class Gap:
         half = (angle / 2).sin()
         less, sine = 2 * half**2, angle.sin()
         f = self.f0 + self.f1 * s + polynomial(self.rest, s) + self.tail
-        f = f + self.cs * (sine - angle) - self.sn * less
+        turned = sine - angle
+        if abs(angle) < TINY:
+            # Without cancellation: between -x³/6 and -x³/6 (1 - x²/20).
+            turned = -(angle**3) / 6 * (1 - angle**2 * arb(0.025, 0.025))
+        f = f + self.cs * turned - self.sn * less
         rate = self.f1 + polynomial(self.slopes, s) + self.tail * len(self.rest) * 4
         return f, rate - self.w * (self.sn * sine + self.cs * less)
 
@@ -78,18 +94,15 @@ class Gap:
 
     def bounds(self, length: float) -> tuple[float, float]:
         """Bound how fast the rate and the second derivative fall, up to a clock."""
-        second, third, power = -2 * self.rest[2], arb(0), arb(1)
-        for n in range(3, len(self.rest)):
-            third = third + n * (n - 1) * (n - 2) * abs(self.rest[n]) * power
-            power = power * length
-            second = second + n * (n - 1) * abs(self.rest[n]) * power
+        rising = [arb(0), *(abs(c) for c in self.bends[1:])]
         tail = abs(self.tail) * len(self.rest) ** 3 * 64 / min(length, 1.0) ** 3
-        second, third = second + self.w**2 + tail, third + abs(self.w) ** 3 + tail
+        second = polynomial(rising, arb(length)) - self.bends[0] + self.w**2 + tail
+        third = polynomial(slopes(rising), arb(length)) + abs(self.w) ** 3 + tail
         return float(second.upper()) * (1 + 1e-12), float(third.upper()) * (1 + 1e-12)
 
     def first_zero(self, limit: float) -> Any:
         """Return an enclosure of the first zero up to the limit; None where there is proved to be none."""
-        bound, third = self.bounds(limit)
+        bounds = self.bounds(limit)
         s = arb(self.start)
         for _ in range(MOST_STEPS):
             if s > limit:
@@ -102,7 +115,7 @@ class Gap:
                 low = 0.0
             elif not f > 0:
                 raise UndecidedError
-            step = safe_step(low, slope, float(self.bend(s).lower()), (bound, third)) * (1 - 1e-12)
+            step = safe_step(low, slope, float(self.bend(s).lower()), bounds) * (1 - 1e-12)
             if not step > 0:
                 raise UndecidedError
             s = (s + arb(step)).mid()
@@ -110,11 +123,12 @@ class Gap:
 
     def enclosed(self, s: Any) -> Any:
         """Enclose a zero after s, up to which the gap falls; None where that is not proved."""
-        x = s
-        for _ in range(12):
-            f, rate = self.at(x)
+        x, (f, rate) = s, self.at(s)
+        for _ in range(NEWTON_STEPS):
+            if 8 * abs(f.mid()) < f.rad():
+                break
             x = (x - f.mid() / rate.mid()).mid()
-        f, rate = self.at(x)
+            f, rate = self.at(x)
         wide = 4 * abs(f).upper() / abs(rate).lower() + arb(2) ** (-2 * ctx.prec)
         low, high = (x - wide).lower(), (x + wide).upper()
         whole = s.union(high)
@@ -122,3 +136,27 @@ class Gap:
         if self.at(whole)[1] < 0 and f_low > 0 and f_high < 0:
             return low.union(high)
         return None
+
+
+def safe_step(gap: float, rate: float, second: float, bounds: tuple[float, float]) -> float:
+    """Return a step within which a gap >= 0 cannot fall below 0.
+
+    Over a step h its second derivative is above -bounds[0], and above second - bounds[1] h.
+    """
+    best = _parabola_step(gap, rate, bounds[0])
+    reach = max(best, second / bounds[1])
+    for _ in range(_DOUBLINGS):
+        falls = bounds[1] * reach - second
+        step = min(_parabola_step(gap, rate, max(falls, 0.0)), reach)
+        if falls >= bounds[0] or step < best:
+            break
+        best, reach = step, 2 * reach
+    return best
+
+
+def _parabola_step(gap: float, rate: float, falls: float) -> float:
+    """Return the zero of gap + rate h - falls h²/2, infinite where it has none."""
+    root = math.sqrt(rate * rate + 2 * falls * gap)
+    if rate < 0:
+        return 2 * gap / (root - rate)
+    return (rate + root) / falls if falls > 0 else math.inf

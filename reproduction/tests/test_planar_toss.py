@@ -1,0 +1,404 @@
+"""Planar tosses, proved and in mere numbers: against the engine, heyoka, closed forms, and each other."""
+
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from flint import arb
+
+from cointoss import analytic
+from cointoss.analytic.contact.automaton import Event, Mode
+from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.models.records import Outcome
+from cointoss_reproduction.precision import planar_toss
+from cointoss_reproduction.precision.certified import certified_toss, outcome_within, proved_part
+from cointoss_reproduction.precision.magnified import magnify
+from cointoss_reproduction.precision.planar_coin import PlanarRelease, planar_coin, units
+from cointoss_reproduction.precision.planar_numbers import (
+    BITS,
+    ORDER,
+    NumericToss,
+    energy_left,
+    spread,
+    toss_many,
+)
+from cointoss_reproduction.precision.planar_state import State, in_own_units, precision, released
+from cointoss_reproduction.setups.planar_maps import case, planar_rows
+from tests.helpers.contacts import follow_step as contact_step
+
+pytestmark = pytest.mark.usefixtures("without_horizon")
+
+COINS = [
+    (0.6, False, "smooth"),
+    (0.6, True, "smooth"),
+    (0.3, False, "smooth"),
+    (0.0, False, "smooth"),
+    (0.3, True, "smooth"),
+    (0.6, False, "perfectly_rough"),
+    (0.2, False, "perfectly_rough"),
+]
+
+
+def scenario_of(chi, air=False, law="smooth"):
+    return case(air=air, restitution=chi).replace("floor.contact", law)
+
+
+def coin_of(chi, air=False, law="smooth"):
+    scenario = scenario_of(chi, air, law)
+    return planar_coin(scenario), units(scenario)
+
+
+def drawn(number, seed=1):
+    rng = np.random.default_rng(seed)
+    z, w = rng.uniform(0.2, 0.6, number), rng.uniform(20, 60, number)
+    return z, w, [PlanarRelease(Fraction(a), Fraction(b)) for a, b in zip(z, w, strict=True)]
+
+
+def toss_one(coin, own, height, spin=41.0):
+    (toss,) = toss_many(coin, own, [PlanarRelease(Fraction(height), Fraction(spin))])
+    return toss
+
+
+@pytest.fixture
+def long_arithmetic():
+    with precision(BITS, ORDER):
+        yield
+
+
+@pytest.mark.parametrize(("chi", "air", "law"), COINS)
+def test_outcomes_are_the_engines(chi, air, law):
+    """Its own horizon ends some tosses before they are decided: of those that bounce little, none."""
+    coin, own = coin_of(chi, air, law)
+    z, w, starts = drawn(15 if air else 100)
+    found = toss_many(coin, own, starts)
+    engine = analytic.toss_rows(planar_rows(scenario_of(chi, air, law), z, w)).outcome
+    outcomes = np.array([toss.outcome for toss in found])
+    assert np.mean(outcomes == engine) > (0.9 if air else 0.98)
+    assert 0.2 < np.mean(outcomes == Outcome.HEADS) < 0.8
+    assert sum(len(toss.contacts) for toss in found) > 0 or air
+
+
+@pytest.mark.parametrize(("chi", "air", "law"), COINS)
+def test_faces_are_proved_and_the_same(chi, air, law):
+    coin, own = coin_of(chi, air, law)
+    _, _, starts = drawn(4 if air else 25, seed=2)
+    found = [toss.outcome for toss in toss_many(coin, own, starts)]
+    proved = [certified_toss(coin, own, start, most_bits=200).outcome for start in starts]
+    decided = [outcome != Outcome.UNDECIDED for outcome in proved]
+    # Contact that lasts is proved to end for a smooth floor in vacuum only.
+    assert sum(decided) >= (len(starts) if law == "smooth" and not air else len(starts) // 4)
+    assert all(a == b for a, b, is_so in zip(proved, found, decided, strict=True) if is_so)
+
+
+@pytest.mark.parametrize("air", [False, True])
+def test_impacts_are_heyokas_to_the_last_digit_of_a_double(air):
+    pytest.importorskip("heyoka", reason="heyoka has wheels for Linux on x86-64 only")
+    from tests.helpers.extended import Extended
+
+    scenario = scenario_of(0.6, air).replace("release.position.z", 0.43, "release.angular_velocity.xi", 37.0)
+    coin, own = coin_of(0.6, air)
+    start = PlanarRelease(Fraction(0.43), Fraction(37))
+    proved, (found,) = certified_toss(coin, own, start), toss_many(coin, own, [start])
+    unit = scenario.coin.mass * np.sqrt(scenario.gravity * scenario.coin.radius)
+    theirs = [impact for _, impact in zip(proved.impacts, Extended(scenario).toss(), strict=False)]
+    for known in (proved.impacts, found.impacts):
+        compared = 0
+        for mine, impact in zip(known, theirs, strict=False):
+            assert mine.heads == impact.heads
+            assert float(mine.impulse) * unit == pytest.approx(impact.impulse[2], rel=1e-13)
+            compared += 1
+        assert compared >= 6
+
+
+def boundary(coin, own, digits):
+    """Bisect the heights between two faces; return both ends, exact."""
+
+    def face(height):
+        return toss_one(coin, own, height).outcome
+
+    low = Fraction(0.41)
+    at_low = face(low)
+    high = next(low + Fraction(k, 1000) for k in range(1, 30) if face(low + Fraction(k, 1000)) != at_low)
+    while high - low > Fraction(10) ** -digits:
+        middle = (low + high) / 2
+        low, high = (middle, high) if face(middle) == at_low else (low, middle)
+    return low, high
+
+
+def test_both_sides_of_a_boundary_are_proved_at_1e_27_m():
+    coin, own = coin_of(0.6)
+    ends = boundary(coin, own, 27)
+    tosses = [certified_toss(coin, own, PlanarRelease(height, Fraction(41))) for height in ends]
+    assert sorted(toss.outcome for toss in tosses) == [Outcome.HEADS, Outcome.TAILS]
+    # One passes, the other does not reach, the upright coin's energy by little.
+    for toss, height in zip(tosses, ends, strict=True):
+        assert abs(float(toss.energy) - 1) < 1e-6
+        assert toss_one(coin, own, height).energy == pytest.approx(float(toss.energy), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("chi", "law"), [(0.0, "smooth"), (0.3, "smooth"), (0.6, "smooth"), (0.3, "perfectly_rough")]
+)
+def test_releases_within_a_proved_change_have_the_outcome_of_the_middle_one(chi, law):
+    coin, own = coin_of(chi, law=law)
+    rng, parts = np.random.default_rng(7), []
+    for _ in range(6):
+        middle = PlanarRelease(height=Fraction(rng.uniform(0.2, 0.6)), spin=Fraction(rng.uniform(20, 60)))
+        change = PlanarRelease(height=Fraction(1, 1000), spin=Fraction(-1, 10), tilt=Fraction(1, 1000))
+        parts.append(proved_part(coin, own, release=middle, change=change))
+        at = [parts[-1] * Fraction(p) for p in (0, *rng.uniform(-1, 1, 40), 1, -1)]
+        starts = [PlanarRelease(*(a + p * b for a, b in zip(middle, change, strict=True))) for p in at]
+        assert len({toss.outcome for toss in toss_many(coin, own, starts)}) == 1
+    # Without restitution a rim point stays on the floor, which is proved of single releases only.
+    assert sum(part > 0 for part in parts) >= (6 if chi else 1)
+
+
+def test_no_outcome_is_proved_across_a_boundary():
+    coin, own = coin_of(0.6)
+    low, high = boundary(coin, own, 9)
+    middle, half = PlanarRelease(height=(low + high) / 2, spin=Fraction(41)), (high - low) / 2
+    for size in (1, 2, 10, 1000):
+        change = PlanarRelease(height=size * half)
+        assert outcome_within(coin, own, release=middle, change=change) == Outcome.UNDECIDED
+    beside = PlanarRelease(height=low - 5000 * half, spin=Fraction(41))
+    change = PlanarRelease(height=half)
+    found = outcome_within(coin, own, release=beside, change=change)
+    assert found == certified_toss(coin, own, beside).outcome != Outcome.UNDECIDED
+
+
+def test_releases_about_another_one_are_not_enclosed_in_air():
+    coin, own = coin_of(0.6, air=True)
+    with pytest.raises(ValueError, match="in vacuum only"):
+        proved_part(coin, own, release=PlanarRelease(Fraction(1)), change=PlanarRelease(Fraction(1, 100)))
+
+
+def test_contact_without_drag_in_air_is_that_in_vacuum():
+    vacuum, own = coin_of(0.3)
+    _, _, starts = drawn(300, seed=3)
+    lasting = [
+        (toss, start)
+        for toss, start in zip(toss_many(vacuum, own, starts), starts, strict=True)
+        if toss.contacts
+    ]
+    assert 2 <= len(lasting) < 30
+    others = toss_many(vacuum._replace(in_air=True), own, [start for _, start in lasting])
+    for (one, _), other in zip(lasting, others, strict=True):
+        assert other.outcome == one.outcome
+        assert other.energy == pytest.approx(one.energy, rel=1e-12)
+
+
+def in_contact(coin, e, s, rises, drift=0.0):
+    """Return the state of a coin in contact, of the energy e, whose mass centre is at the height s."""
+    w = -((2 * (arb(e) - s) / (float(coin.inertia) + 1 - s * arb(s))).sqrt()) * (1 if rises else -1)
+    tilt = (-arb(s)).asin()
+    return State(z=arb(s), v=-tilt.cos() * w, tilt=tilt, w=w, u=arb(drift))
+
+
+def numbers(state):
+    return [float(x) for x in (state.z, state.v, state.tilt, state.w, state.u)]
+
+
+@pytest.mark.usefixtures("long_arithmetic")
+@pytest.mark.parametrize("rises", [True, False])
+@pytest.mark.parametrize("e", [1.05, 1.3])
+def test_contact_keeps_its_energy_and_ends_where_the_force_does(e, rises):
+    """The closed form and the differential equation find the same."""
+    coin, _ = coin_of(0.5)
+    toss, state, slid = NumericToss(coin), in_contact(coin, e, 0.2, rises), in_contact(coin, e, 0.2, rises)
+    left, start = toss.contact(state, 1, arb(0))
+    passes = not state.heads
+    assert passes == (rises and e < 1 + float(coin.inertia) / 2)
+    lifts = len(left) == 1
+    assert lifts == (rises and not passes)
+    other = NumericToss(coin._replace(in_air=True))
+    assert other.contact(slid, 1, arb(0))[0] == left
+    assert slid.heads == state.heads
+    assert numbers(slid) == pytest.approx(numbers(state), abs=1e-12)
+    if lifts:
+        assert float(toss.energy(state)) == pytest.approx(e, rel=1e-14)
+        assert start > 0
+        # Free flight would neither press nor lift the point.
+        assert float(state.z * state.w**2) == pytest.approx(1, rel=1e-12)
+
+
+@pytest.mark.usefixtures("long_arithmetic")
+@pytest.mark.parametrize(("e", "s", "rises"), [(0.9, 0.5, True), (1.4, 0.6, True), (1.4, 0.6, False)])
+def test_a_coin_rolls_on_a_rough_floor_until_it_would_be_pulled(e, s, rises):
+    """The floor presses while 3 s² - 2 e s + J > 0; the energy of rolling is kept."""
+    coin, _ = coin_of(0.5, law="perfectly_rough")
+    J = float(coin.inertia)
+    toss, tilt = NumericToss(coin), (-arb(s)).asin()
+    w = (2 * (arb(e) - s) / (J + 1)).sqrt() * (-1 if rises else 1)
+    state = State(z=arb(s), v=-tilt.cos() * w, tilt=tilt, w=w, u=tilt.sin() * w)
+    assert float(toss.energy(state)) == pytest.approx(e)
+    rates, (_, _, force) = toss.rates([state.tilt, state.w, state.u], 1, True)
+    assert float(force) == pytest.approx((3 * s * s - 2 * e * s + J) / (J + 1))
+    assert float(rates[1]) == pytest.approx(float(tilt.cos()) / (J + 1))
+    left, _ = toss.contact(state, 1, arb(0))
+    if e < 1:
+        assert (left, state.heads) == ((), True)
+    elif left:
+        # It left with no more than its energy, where free flight would not press it.
+        assert float(toss.energy(state)) <= e * (1 + 1e-12)
+
+
+@pytest.mark.usefixtures("long_arithmetic")
+def test_contact_in_air_is_the_engines():
+    """A tilted coin that drifts falls flat."""
+    scenario = scenario_of(0.3, air=True).replace("air.normal", 8.0).replace("air.tangential", 2.0)
+    coin, own = planar_coin(scenario), units(scenario)
+    tilt, spin, drift = -0.5, 0.3, 0.7
+    length, second = float(own.length), np.sqrt(float(own.length / own.gravity))
+    y = np.zeros(13)
+    y[2], y[4], y[5] = np.array([-np.sin(tilt), drift / second, -np.cos(tilt) * spin / second]) * length
+    y[6], y[7], y[10] = np.cos(tilt / 2), np.sin(tilt / 2), spin / second
+    step = contact_step(scenario.body, FloorFriction(0.0), Mode.SLIDING, y, np.inf)
+    while not step.is_over:
+        step = contact_step(scenario.body, FloorFriction(0.0), Mode.SLIDING, y, step.next_dt)
+    assert step.event == Event.FACE_LANDS
+    z, v = -np.sin(tilt), -np.cos(tilt) * spin
+    state = State(z=arb(z), v=arb(v), tilt=arb(tilt), w=arb(spin), u=arb(drift))
+    assert NumericToss(coin).contact(state, 1, arb(0)) == ((), None)
+    assert state.heads
+    assert float(state.w) / second == pytest.approx(y[10], rel=1e-6)
+    assert float(state.u) * length / second == pytest.approx(y[4], rel=1e-6)
+    unhindered = np.sqrt(spin**2 + 2 * -np.sin(tilt) / (float(coin.inertia) + 1))
+    assert float(state.w) < 0.99 * unhindered
+
+
+@pytest.mark.usefixtures("long_arithmetic")
+def test_a_flight_in_air_follows_its_equations():
+    """With no difference of the drags the height has a closed form."""
+    coin, own = coin_of(0.6, air=True)
+    alike = coin._replace(drag_difference=Fraction(0))
+    state = released(*in_own_units(own, PlanarRelease(Fraction(0.4), Fraction(40))))
+    height, spin = float(state.z), float(state.w)
+    assert NumericToss(alike).fly(state, (), None) in (-1, 1)
+    k, a = float(alike.slowing), float(alike.drag_mean)
+    t = -np.log(float(state.w) / spin) / k
+    fallen = (t - (1 - np.exp(-a * t)) / a) / a
+    assert float(state.z) == pytest.approx(height - fallen, abs=1e-10)
+    assert float(state.tilt) == pytest.approx(spin * (1 - np.exp(-k * t)) / k, rel=1e-11)
+    assert float(state.z - abs(state.tilt.sin())) == pytest.approx(0, abs=1e-30)
+
+
+@pytest.mark.usefixtures("long_arithmetic")
+def test_a_coin_that_lands_flat_touches_first_with_the_rim_point_that_is_lower():
+    """The other one follows sooner than doubles of the time tell apart."""
+    coin, own = coin_of(0.3)
+    toss = NumericToss(coin)
+
+    def touch(height):
+        state = released(*in_own_units(own, PlanarRelease(height * own.length, Fraction(40))))
+        side = toss.fly(state, (), None)
+        toss.turn_within(state)
+        return side, state
+
+    low, high = Fraction(18), Fraction(27)
+    first, state = touch(low)
+    assert touch(high)[0] != first
+    for _ in range(90):
+        middle = (low + high) / 2
+        side, state = touch(middle)
+        low, high = (middle, high) if side == first else (low, middle)
+        assert min(float(state.z + side * state.tilt.sin()) for side in (-1, 1)) > -1e-30
+    assert abs(float(state.tilt)) < 1e-20
+
+
+def test_a_coin_of_no_plane_is_refused():
+    for field, value in (
+        ("coin.thickness", 1e-3),
+        ("air.exponent", 0.5),
+        ("floor.contact", "coulomb"),
+        ("floor.restitution_threshold", 0.01),
+    ):
+        scenario = case(air=True).replace(field, value)
+        with pytest.raises(ValueError, match=f"{field}: .*, accepted: "):
+            planar_coin(scenario)
+
+
+def test_an_impact_limit_leaves_a_toss_undecided(monkeypatch):
+    monkeypatch.setattr(planar_toss, "MOST_IMPACTS", 2)
+    coin, own = coin_of(0.6)
+    for toss in toss_many(coin, own, drawn(20)[2]):
+        assert toss.outcome == Outcome.UNDECIDED
+        assert len(toss.impacts) == 2
+
+
+def test_neighbours_diverge_with_the_energy_that_the_engine_finds():
+    """Where the faces of the first touch differ already; the same toss does not."""
+    coin, own = coin_of(0.6)
+    scenario = scenario_of(0.6)
+    mgr = scenario.body.mass * scenario.gravity * scenario.coin.radius
+    heights = np.linspace(0.2, 0.6, 24)
+    many = [toss_one(coin, own, z) for z in heights]
+    tosses = [
+        analytic.toss(
+            scenario.replace("release.position.z", z).replace("release.angular_velocity.xi", 41.0)
+        ).impacts
+        for z in heights
+    ]
+    energies = np.array([impacts.energy[0] / mgr for impacts in tosses])
+    other_face = np.diff([impacts.face[0] for impacts in tosses]) != 0
+    larger = np.maximum(energies[1:], energies[:-1])
+    assert other_face.sum() == 2
+    left = np.array([energy_left(one, other) for one, other in pairwise(many)])
+    assert left[other_face] == pytest.approx(larger[other_face], rel=1e-9)
+    assert energy_left(many[0], toss_one(coin, own, heights[0])) == 0
+
+
+def test_releases_are_spread_in_exact_steps():
+    found = spread(PlanarRelease(Fraction(1, 3), Fraction(2)), "spin", Fraction(1, 10**25), 3)
+    assert [one.spin - 2 for one in found] == [0, Fraction(1, 10**25), Fraction(2, 10**25)]
+    assert {one.height for one in found} == {Fraction(1, 3)}
+
+
+@pytest.mark.parametrize(("air", "points"), [(False, 50), (True, 12)])
+def test_a_boundary_is_magnified_until_it_is_alone_and_its_coin_stands(air, points):
+    coin, own = coin_of(0.3, air)
+    start = PlanarRelease(Fraction(0.2), Fraction(41))
+    seen = magnify(coin, own, start, length=Fraction(2, 5), windows=20, points=points)
+    assert seen.counts[0] > 1
+    assert seen.isolated_from is not None
+    assert seen.isolated_from < 18
+    off = seen.from_upright.max(axis=1)
+    assert off[-1] < 1e-6
+    assert off[-1] < 1e-3 * off[seen.isolated_from]
+    with pytest.raises(ValueError, match="no boundary"):
+        magnify(coin, own, start, length=Fraction(1, 10**11), windows=1, points=3)
+
+
+@pytest.mark.usefixtures("long_arithmetic")
+@pytest.mark.parametrize("excess", [0.1, 1e-3, 1e-12, -1e-12, -1e-3, -0.1])
+@pytest.mark.parametrize("rises", [True, False])
+def test_a_contact_is_as_near_to_standing_as_its_energy_and_its_course_say(excess, rises):
+    """A coin that rises comes to its energy's difference from the upright; one that falls is as it was."""
+    coin, _ = coin_of(0.3)
+    s = 0.7
+    state, slid = (in_contact(coin, 1 + excess, s, rises, drift=0.5) for _ in range(2))
+    toss = NumericToss(coin)
+    at_start = toss.from_upright(state)
+    assert at_start == pytest.approx(1 + excess - s + 1 - s)
+    toss.contact(state, 1, arb(0))
+    assert state.heads == (not (rises and excess > 0))
+    assert toss.nearest == pytest.approx(abs(excess) if rises else at_start, rel=1e-3)
+    other = NumericToss(coin._replace(in_air=True))
+    assert other.contact(slid, 1, arb(0)) == ((), None)
+    assert slid.heads == state.heads
+    # Steps of up to 0.4 pass the nearest place by 0.2: there it is cosh(0.4)² times as far.
+    assert toss.nearest * 0.999 < other.nearest < 1.3 * toss.nearest + 1e-15
+
+
+@pytest.mark.usefixtures("long_arithmetic")
+@pytest.mark.parametrize("excess", [1e-3, 5e-7, 1e-12])
+def test_a_coin_that_lifts_off_almost_upright_touches_again_soon(excess):
+    """There the gap is nearly zero with three derivatives."""
+    coin, _ = coin_of(0.0)
+    toss, state = NumericToss(coin), in_contact(coin, 1 + float(coin.inertia) / 2 + excess, 0.2, rises=True)
+    left, start = toss.contact(state, 1, arb(0))
+    assert len(left) == 1
+    tilt, expected = state.tilt, 4 * float(state.v / abs(state.w))
+    assert toss.fly(state, left, start) == left[0]
+    # The gap is about v w² t³/6 - w⁴ t⁴/24, upright.
+    assert abs(float(state.tilt - tilt)) == pytest.approx(expected, rel=0.05)
