@@ -8,7 +8,6 @@ from typing import Any
 
 from cointoss.models.palette import COLORS
 
-_OTHER = "#8a8f98"
 MOST_SHOWN = 60
 """Faces of a sequence, and impacts, in one line or picture."""
 
@@ -63,11 +62,6 @@ def path_picture(
         trusted_until: where the horizon of trust is drawn [s]; None for nowhere.
     """
     return str(_macros().path(times, heights, touches[:MOST_SHOWN], trusted_until, COLORS))
-
-
-def shares_picture(shares: Mapping[str, float]) -> str:
-    """Return a bar of the shares of outcomes as SVG."""
-    return str(_macros().shares(shares, COLORS, _OTHER))
 
 
 @cache

@@ -35,55 +35,89 @@ def described():
     }
 
 
-def test_each_name_is_that_of_its_home_and_a_type_checker_knows_it():
+def test_each_name_is_that_of_its_home_says_what_it_is_and_a_type_checker_knows_it():
     homes = described()
     assert sorted([*({*homes} - {*PACKAGES}), *PACKAGES, "__version__"]) == dir(cointoss)
-    for name, home in homes.items():
-        if name not in PACKAGES:
-            assert getattr(cointoss, name) is getattr(import_module(home), name)
-    assert [getattr(cointoss, name) for name in PACKAGES] == [
-        sys.modules[f"cointoss.{name}"] for name in PACKAGES
-    ]
+    public = {name: getattr(cointoss, name) for name in dir(cointoss) if name != "__version__"}
+    for name, item in public.items():
+        found = (
+            sys.modules[f"cointoss.{name}"] if name in PACKAGES else getattr(import_module(homes[name]), name)
+        )
+        assert item is found
+        assert len((item.__doc__ or "").split()) >= 3, name
+    assert len(public) > 25
     assert cointoss.__version__ == version(DISTRIBUTION)
 
 
-def test_a_star_brings_the_public_names():
-    script = (
-        "from cointoss import *\nimport cointoss\nprint(*(n for n in dir(cointoss) if n not in globals()))"
-    )
-    done = python("-c", script)
-    assert (done.stdout, done.stderr) == ("__version__\n", "")
+BARE = """
+import sys, analytic, models.records, cointoss
+from compare.sweep.axes import parse_axis
+import coin_mj.model.settings as settings
+from cointoss import coin_mj
+assert analytic is cointoss.analytic and models.records is sys.modules['cointoss.models.records']
+assert models.records.Toss is cointoss.Toss and settings.MujocoSettings is coin_mj.MujocoSettings
+assert parse_axis.__module__ == 'cointoss.compare.sweep.axes'
+assert models.records.__spec__.name == models.records.__name__ == 'cointoss.models.records'
+bare = ('models', 'analytic', 'coin_mj', 'compare')
+print([m for m in sys.modules.values() if m.__name__.partition('.')[0] in bare])
+"""
+PLOT = """
+import sys; from {} import toss; made = toss('fig24a'); print('matplotlib' in sys.modules)
+print(len(made.plot().get_lines()) > 1, 'matplotlib' in sys.modules, made.play().title)
+"""
+NEXT_TO_NOTHING = """
+import sys; before = set(sys.modules); import cointoss; new = set(sys.modules) - before
+print({name.partition('.')[0] for name in new} - sys.stdlib_module_names, 'importlib.metadata' in new)
+"""
+PRINTED = {
+    "a star brings the public names": (
+        "from cointoss import *\nimport cointoss\nprint(*(n for n in dir(cointoss) if n not in globals()))",
+        "__version__",
+    ),
+    "next to nothing is imported at first": (NEXT_TO_NOTHING, r"\{'cointoss'\} False"),
+    "compare is described without numpy": (
+        "import sys, cointoss.compare; print('numpy' in sys.modules)",
+        "False",
+    ),
+    "only a plot brings matplotlib": (PLOT.format("cointoss"), "False\nTrue True toss of 2 g.*"),
+    "and so of the engine's own toss": (PLOT.format("cointoss.analytic"), "False\nTrue True toss of 2 g.*"),
+    **{
+        f"{name} brings what shows progress": (
+            f"import sys, cointoss as c; c.{name}; print('cointoss.compare.output.progress' in sys.modules)",
+            "True",
+        )
+        for name in ("analytic", "Scenario")
+    },
+}
+
+
+@pytest.mark.parametrize(("script", "printed"), PRINTED.values(), ids=PRINTED)
+def test_a_process_that_imports_prints(script, printed):
+    done = python("-c", script, MPLBACKEND="agg")
+    assert re.fullmatch(f"{printed}\n", done.stdout)
+    assert done.stderr == ""
 
 
 def test_a_bare_name_in_a_checkout_gives_the_same_objects():
-    script = (
-        "import sys, analytic, models.records, cointoss\n"
-        "from compare.sweep.axes import parse_axis\nimport coin_mj.model.settings as settings\n"
-        "from cointoss import coin_mj\n"
-        "assert analytic is cointoss.analytic and models.records is sys.modules['cointoss.models.records']\n"
-        "assert models.records.Toss is cointoss.Toss and settings.MujocoSettings is coin_mj.MujocoSettings\n"
-        "assert parse_axis.__module__ == 'cointoss.compare.sweep.axes'\n"
-        "assert models.records.__spec__.name == models.records.__name__ == 'cointoss.models.records'\n"
-        "bare = ('models', 'analytic', 'coin_mj', 'compare')\n"
-        "assert not [m for m in sys.modules.values() if m.__name__.partition('.')[0] in bare]\n"
-    )
-    done = python("-c", script, folder=TOP)
-    assert (done.returncode, done.stderr) == (0, "")
+    done = python("-c", BARE, folder=TOP)
+    assert (done.stdout, done.stderr) == ("[]\n", "")
 
 
-@pytest.mark.parametrize(
-    ("name", "line"),
-    [
-        ("analytic", "'analytic' is a package and cannot be directly executed"),
-        ("analytic.tosses", "No module named analytic.tosses"),
-        ("compare.cli", "compare.cli: accepted: python -m cointoss.compare.cli"),
-    ],
-)
-def test_a_bare_name_that_is_run_is_answered_in_one_line(name, line):
-    done = python("-m", name, folder=TOP)
+ACCEPTED = r"accepted: Air, .* Coin, .*, toss_many\. Did you mean: 'Coin'\?"
+SAID = {
+    ("-m", "analytic"): "'analytic' is a package and cannot be directly executed",
+    ("-m", "analytic.tosses"): "No module named analytic.tosses",
+    ("-m", "compare.cli"): "compare.cli: accepted: python -m cointoss.compare.cli",
+    ("-c", "import cointoss; cointoss.Coins"): f"AttributeError: cointoss has no Coins; {ACCEPTED}",
+}
+
+
+@pytest.mark.parametrize("words", SAID, ids=str)
+def test_what_is_no_name_is_answered_in_a_line(words):
+    done = python(*words, folder=TOP)
     assert (done.returncode, done.stdout) == (1, "")
-    assert done.stderr.count("\n") == 1
-    assert done.stderr.endswith(f"{line}\n")
+    assert re.search(f"{SAID[words]}$", done.stderr.splitlines()[-1])
+    assert words[0] == "-c" or done.stderr.count("\n") == 1
 
 
 @pytest.mark.parametrize("beside", [True, False])
@@ -97,27 +131,9 @@ def test_without_links_the_folders_are_found_beside_or_one_line_says_what_to_do(
             shutil.copytree(TOP / name, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__"))
     script = "import cointoss; print(cointoss.load('fig24a').coin.radius, cointoss.Scenario.__module__)"
     done = python("-c", script, folder=tmp_path, PYTHONPATH=str(tmp_path))
-    if beside:
-        assert (done.returncode, done.stdout) == (0, "0.0125 cointoss.models.scenario\n")
-    else:
-        last = done.stderr.splitlines()[-1]
-        assert last.startswith(
-            f"ImportError: {tmp_path / 'cointoss'}: without its folders models, analytic, "
-        )
-
-
-def test_each_public_name_says_what_it_is():
-    public = [getattr(cointoss, name) for name in dir(cointoss) if name != "__version__"]
-    assert len(public) > 25
-    assert [item for item in public if len((item.__doc__ or "").split()) < 3] == []
-
-
-def test_an_unknown_name_is_answered_with_the_names_there_are():
-    script = "import cointoss; cointoss.Coins"
-    done = python("-c", script)
-    accepted, meant = r"accepted: Air, .* Coin, .*, toss_many\.", r"Did you mean: 'Coin'\?"
-    said = rf"AttributeError: cointoss has no Coins; {accepted} {meant}"
-    assert re.fullmatch(said, done.stderr.splitlines()[-1])
+    needed = f"ImportError: {tmp_path / 'cointoss'}: without its folders models, analytic, "
+    assert (done.stdout == "0.0125 cointoss.models.scenario\n") == beside
+    assert done.stderr.splitlines()[-1:] == [] if beside else done.stderr.splitlines()[-1].startswith(needed)
 
 
 def test_either_engine_tosses_by_its_name():
@@ -134,67 +150,32 @@ def test_either_engine_tosses_by_its_name():
 )
 @pytest.mark.parametrize("wrong", [3, None, {"steps": 2}], ids=str)
 def test_settings_of_another_type_are_refused(engine, name, wrong):
-    package, described = getattr(cointoss, engine), cointoss.load("fig24a")
-    for toss, given in ((package.toss, described), (package.toss_rows, rows_of(described, 1))):
+    package, given = getattr(cointoss, engine), cointoss.load("fig24a")
+    for toss, tossed in ((package.toss, given), (package.toss_rows, rows_of(given, 1))):
         with pytest.raises(TypeError, match=f"^settings: of type .*, accepted: {engine}.{name}, such as"):
-            toss(given, settings=wrong)
+            toss(tossed, settings=wrong)
 
 
 def test_the_package_compare_is_described_as_the_function_once_it_is_asked():
+    told = pydoc.plain(pydoc.render_doc(cointoss.compare))
     assert inspect.signature(cointoss.compare) == inspect.signature(compare)
-    described = pydoc.plain(pydoc.render_doc(cointoss.compare))
-    assert "Both engines asked the same question" in described
-    assert f"compare{inspect.signature(compare)}\n" in described
-    assert "mujoco: MuJoCo's settings" in described
-    script = "import sys, cointoss.compare; assert 'numpy' not in sys.modules"
-    assert python("-c", script).returncode == 0
-
-
-def test_import_cointoss_imports_next_to_nothing():
-    script = "import sys; before = set(sys.modules); import cointoss; print(*set(sys.modules) - before)"
-    imported = set(python("-c", script).stdout.split())
-    assert {name.partition(".")[0] for name in imported} - sys.stdlib_module_names == {"cointoss"}
-    assert "importlib.metadata" not in imported
-
-
-def test_the_package_runs_the_command(tmp_path):
-    for module in ("cointoss", "cointoss.compare.cli"):
-        done = python("-m", module, "--version", folder=tmp_path)
-        assert (done.returncode, done.stdout) == (0, f"cointoss, version {version(DISTRIBUTION)}\n")
-
-
-@pytest.mark.parametrize("home", ["cointoss", "cointoss.analytic"])
-def test_a_toss_has_its_views_whichever_module_made_it_and_only_a_plot_brings_matplotlib(home):
-    script = (
-        f"import sys; from {home} import toss; made = toss('fig24a'); print('matplotlib' in sys.modules)\n"
-        "print(len(made.plot().get_lines()) > 1, 'matplotlib' in sys.modules, made.play().title)"
+    assert f"compare{inspect.signature(compare)}\n" in told
+    assert all(
+        words in told for words in ("Both engines asked the same question", "mujoco: MuJoCo's settings")
     )
-    done = python("-c", script, MPLBACKEND="agg")
-    before, after = done.stdout.splitlines()
-    assert before == "False"
-    assert after.startswith("True True toss of 2 g")
 
 
-@pytest.mark.parametrize("name", ["analytic", "Scenario"])
-def test_a_public_name_brings_what_shows_progress(name):
-    script = (
-        f"import sys, cointoss; cointoss.{name}; print('cointoss.compare.output.progress' in sys.modules)"
-    )
-    done = python("-c", script)
-    assert (done.stdout, done.stderr) == ("True\n", "")
-
-
-def test_beside_foreign_packages_of_such_names_it_works(tmp_path):
+@pytest.mark.parametrize("module", ["cointoss", "cointoss.compare.cli"])
+def test_the_package_runs_the_command_also_beside_foreign_packages(tmp_path, module):
     for name in PACKAGES:
         (tmp_path / f"{name}.py").write_text("raise RuntimeError('foreign')\n")
-    done = python("-m", "cointoss", "--version", folder=tmp_path)
+    done = python("-m", module, "--version", folder=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == f"cointoss, version {version(DISTRIBUTION)}\n"
 
 
 def test_the_version_is_that_of_pyproject_wherever_it_is_written():
     written = tomllib.loads((TOP / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
+    changes = (TOP / "docs/CHANGELOG.md").read_text(encoding="utf-8")
     assert version(DISTRIBUTION) == written
-    headings = re.findall(
-        r"^## (\S+?),? ", (TOP / "docs/CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE
-    )
-    assert headings[0] == written
+    assert re.findall(r"^## (\S+?),? ", changes, re.MULTILINE)[0] == written

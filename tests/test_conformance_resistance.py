@@ -109,6 +109,32 @@ def test_a_disc_and_a_hoop_that_roll_upright_come_to_rest_where_the_closed_form_
     assert found.sample(times).velocity[:, 0] == pytest.approx(speed - slowing * times, rel=2e-4)
 
 
+@pytest.mark.parametrize("engine", list(Engine))
+def test_a_disc_that_turns_upright_is_slowed_by_resistance_to_pivoting_alone(engine):
+    """J_ξ dω_z/dt = -p m g."""
+    p, spin = 1e-3, 80.0
+    case = set_down(THIN, 0.0, spin=spin, pivoting_friction=p, rolling_friction=p)
+    slowing = p * ZLOTY["mass"] * G / case.body.inertia[1][1]
+    found = toss(engine, case)
+    times, near = np.linspace(0, 0.95 * spin / slowing, 9), {Engine.ANALYTIC: 1e-6, Engine.MUJOCO: 1e-4}
+    left = found.sample(times).angular_velocity[:, 1]
+    assert left == pytest.approx(spin - slowing * times, rel=near[engine])
+    assert found.end_time == pytest.approx(spin / slowing, rel=1e-3)
+    kept = toss(engine, case.replace("floor.pivoting_friction", 0.0, "ending.max_time", 0.1))
+    assert kept.sample(0.1).angular_velocity[0, 1] == pytest.approx(spin, rel=near[engine])
+
+
+@pytest.mark.parametrize("engine", list(Engine))
+def test_a_thick_coin_that_rolls_upright_is_caught_on_its_edge_at_the_height_of_the_pass(engine):
+    """3/4 m v² there is the energy of the pass over either rim."""
+    speed = 0.6
+    caught = (G * (np.hypot(R, THICK["thickness"] / 2) - R) / 0.75) ** 0.5
+    slowing = RESISTANCE["rolling_friction"] * G / (1.5 * R)
+    found = toss(engine, set_down(THICK, speed, **RESISTANCE))
+    assert (found.outcome, found.ending) == (Outcome.EDGE, Ending.PAPER)
+    assert found.end_time == pytest.approx((speed - caught) / slowing, rel=0.02)
+
+
 @pytest.mark.parametrize(("engine", "steps"), [(Engine.ANALYTIC, 3000), (Engine.MUJOCO, 200)])
 def test_a_coin_that_still_rolls_upright_when_a_budget_ends_is_named_so(engine, steps):
     case = set_down(THICK, 0.6, rolling_friction=5e-5, pivoting_friction=1e-5)
@@ -142,3 +168,6 @@ def test_nickels_tossed_by_hand_come_to_rest_alike_on_both_engines():
         assert abs(counts[0][outcome] - counts[1][outcome]) < 4 * (2 * n * 0.25) ** 0.5
     times = [np.mean(outcomes.end_time) for outcomes in found]
     assert times[0] == pytest.approx(times[1], rel=0.1)
+    free = case.replace("floor.rolling_friction", 0.0, "floor.pivoting_friction", 0.0)
+    ended = toss_many(Engine.ANALYTIC, free.replace("floor.restitution_threshold", 0.0), starts).ending
+    assert Ending.STANDING in ended, "without resistance some roll on upright for ever"

@@ -2,7 +2,9 @@
 
 import ast
 from collections import Counter
+from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
@@ -10,146 +12,125 @@ from tests.helpers.processes import HANGS
 
 TESTS = Path(__file__).parent
 SOURCES = sorted(TESTS.rglob("*.py"))
-PACKAGES = [
-    path
-    for name in ("models", "analytic", "coin_mj", "compare")
-    for path in (TESTS.parent / name).rglob("*.py")
-]
+PRODUCT = {name: sorted((TESTS.parent / name).rglob("*.py")) for name in ("models", "analytic", "coin_mj")}
+LOWER = [path for paths in PRODUCT.values() for path in paths]
+PACKAGES = [*LOWER, *(TESTS.parent / "compare").rglob("*.py")]
 SHARED = (TESTS / "helpers", TESTS / "benchmarks")
 
 
-def imported(source: str) -> set[str]:
-    """Return the dotted names a module imports, those of `from a import b` as a.b."""
-    names: set[str] = set()
-    for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.Import):
-            names |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom):
-            names |= {f"{'.' * node.level}{node.module or ''}.{alias.name}" for alias in node.names}
-    return names
+def calls_in(tree: ast.AST) -> list[ast.Call]:
+    """Return all calls of a module."""
+    return [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
 
 
-def among_tests(names: set[str]) -> set[str]:
-    """Return the names of test modules, or of something in them."""
-    return {name for name in names if any(part.startswith("test_") for part in name.split("."))}
+def imports_of_tests(tree: ast.AST) -> list[str]:
+    """Return the imports of test modules, or of something in them."""
+    names: list[str] = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            home = f"{node.module}." if isinstance(node, ast.ImportFrom) and node.module else ""
+            names += [home + alias.name for alias in node.names]
+    return [name for name in names if any(part.startswith("test_") for part in name.split("."))]
 
 
-@pytest.mark.parametrize(
-    "line",
-    [
-        "import tests.compare.test_cli",
-        "from tests.compare.test_cli import cointoss",
-        "from tests.compare import test_cli",
-        "from . import test_cli",
-        "def later():\n    from .test_cli import cointoss",
-    ],
-)
-def test_an_import_of_a_test_is_seen(line):
-    assert len(among_tests(imported(line))) == 1
-
-
-def test_no_test_imports_a_test():
-    assert len(SOURCES) > 50
-    assert [path for path in SOURCES if among_tests(imported(path.read_text(encoding="utf-8")))] == []
-
-
-def test_what_is_shared_lies_in_helpers():
-    elsewhere = [path for path in SOURCES if not any(path.is_relative_to(folder) for folder in SHARED)]
-    assert len(elsewhere) > 50
-    assert [
-        path
-        for path in elsewhere
-        if not path.match("test_*.py") and path.name not in ("__init__.py", "conftest.py")
-    ] == []
-
-
-def unwaited(source: str) -> list[int]:
+def unwaited(tree: ast.AST) -> list[int]:
     """Return the lines that start a process which neither `subprocess.run` nor a `with` statement ends."""
-    tree = ast.parse(source)
-    ended = {
-        id(item.context_expr) for node in ast.walk(tree) if isinstance(node, ast.With) for item in node.items
-    }
-    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and id(node) not in ended]
+    ended = [
+        item.context_expr for node in ast.walk(tree) if isinstance(node, ast.With) for item in node.items
+    ]
     starting = {"Popen", "Process", "Pool", "ProcessPoolExecutor", "fork", "system", "popen"}
-    return [call.lineno for call in calls if ast.unparse(call.func).rpartition(".")[2] in starting]
+    return [
+        call.lineno
+        for call in calls_in(tree)
+        if call not in ended and ast.unparse(call.func).rpartition(".")[2] in starting
+    ]
 
 
-@pytest.mark.parametrize(
-    "line", ["a = subprocess.Popen(b)", "return Popen(b)", "os.fork()", "with x(Pool()): pass"]
-)
-def test_a_process_left_behind_is_seen(line):
-    assert unwaited(line) == [1]
-
-
-def test_every_process_is_waited_for():
-    assert [path for path in [*PACKAGES, *SOURCES] if unwaited(path.read_text(encoding="utf-8"))] == []
-
-
-def hasty(source: str) -> list[int]:
+def hasty(tree: ast.AST) -> list[int]:
     """Return the lines that limit something by a number of seconds of their own."""
-    calls = [node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Call)]
+    calls = calls_in(tree)
     limits = [one.value for call in calls for one in call.keywords if one.arg == "timeout"]
     waits = [call.args[0] for call in calls if ast.unparse(call.func).endswith("process.wait") and call.args]
     return [one.lineno for one in (*limits, *waits) if isinstance(one, ast.Constant)]
 
 
-@pytest.mark.parametrize(
-    "line", ["process.communicate(timeout=60)", "process.wait(60)", "connect(timeout=9)"]
-)
-def test_a_limit_by_the_clock_is_seen(line):
-    assert hasty(line) == [1]
-
-
-def test_a_busy_machine_meets_no_limit(pytestconfig):
-    assert [path for path in SOURCES if hasty(path.read_text(encoding="utf-8"))] == []
-    assert float(pytestconfig.getini("faulthandler_timeout")) >= 3 * HANGS
-
-
-def reaches_by_name(source: str) -> list[int]:
+def reaches_by_name(tree: ast.AST) -> list[int]:
     """Return the lines that import a module of the package by its name, past import-linter."""
-    calls = [node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Call)]
-    importing = [one for one in calls if ast.unparse(one.func).endswith(("import_module", "__import__"))]
     return [
         call.lineno
-        for call in importing
-        if any(
+        for call in calls_in(tree)
+        if ast.unparse(call.func).endswith(("import_module", "__import__"))
+        and any(
             isinstance(part, ast.Constant) and str(part.value).partition(".")[0] == "cointoss"
-            for given in (*call.args, *(one.value for one in call.keywords))
-            for part in ast.walk(given)
+            for part in ast.walk(call)
         )
     ]
 
 
-@pytest.mark.parametrize(
-    "line",
-    [
-        "import_module('cointoss.compare.output.plots')",
-        "importlib.import_module(name='cointoss.compare')",
-        "a = __import__('cointoss.compare')",
-        "import_module(f'cointoss.{name}').explore()",
-        "import_module('cointoss.' + name)",
-    ],
-)
-def test_an_import_by_name_is_seen(line):
-    assert reaches_by_name(line) == [1]
+class Rule(NamedTuple):
+    """What no module may do."""
+
+    breaches: Callable[[ast.AST], Iterable[object]]
+    held: list[Path]
+    """The modules that keep it."""
+    broken_by: list[str]
+    """Sources, each of which breaks it once."""
 
 
-def test_neither_the_models_nor_an_engine_imports_a_module_of_the_package_by_its_name():
-    lower = [path for path in PACKAGES if path.relative_to(TESTS.parent).parts[0] != "compare"]
-    assert len(lower) > 100
-    assert [path for path in lower if reaches_by_name(path.read_text(encoding="utf-8"))] == []
+RULES = {
+    "no test imports a test": Rule(
+        imports_of_tests,
+        SOURCES,
+        [
+            "import tests.compare.test_cli",
+            "from tests.compare.test_cli import cointoss",
+            "from tests.compare import test_cli",
+            "from . import test_cli",
+            "def later():\n    from .test_cli import cointoss",
+        ],
+    ),
+    "every process is waited for": Rule(
+        unwaited,
+        [*PACKAGES, *SOURCES],
+        ["a = subprocess.Popen(b)", "return Popen(b)", "os.fork()", "with x(Pool()): pass"],
+    ),
+    "a busy machine meets no limit by the clock": Rule(
+        hasty, SOURCES, ["process.communicate(timeout=60)", "process.wait(60)", "connect(timeout=9)"]
+    ),
+    "neither the models nor an engine imports a module of the package by its name": Rule(
+        reaches_by_name,
+        LOWER,
+        [
+            "import_module('cointoss.compare.output.plots')",
+            "importlib.import_module(name='cointoss.compare')",
+            "a = __import__('cointoss.compare')",
+            "import_module(f'cointoss.{name}').explore()",
+            "import_module('cointoss.' + name)",
+        ],
+    ),
+}
 
 
-def shared_names(sources: list[str]) -> set[str]:
-    """Return the names that two or more classes of some modules have."""
-    nodes = [node for source in sources for node in ast.walk(ast.parse(source))]
-    counts = Counter(node.name for node in nodes if isinstance(node, ast.ClassDef))
-    return {name for name, count in counts.items() if count > 1}
+@pytest.mark.parametrize("rule", RULES.values(), ids=RULES)
+def test_a_rule_is_kept_and_what_breaks_it_is_seen(rule):
+    assert len(rule.held) > 50
+    assert [len([*rule.breaches(ast.parse(line))]) for line in rule.broken_by] == [1] * len(rule.broken_by)
+    trees = {path: ast.parse(path.read_text(encoding="utf-8")) for path in rule.held}
+    assert [path for path, tree in trees.items() if rule.breaches(tree)] == []
 
 
-def test_a_name_that_two_classes_share_is_seen():
-    assert shared_names(["class A: pass\nclass B: pass", "def f():\n    class A: pass"]) == {"A"}
+def test_what_hangs_is_told_long_after_no_wait_is_left(pytestconfig):
+    assert float(pytestconfig.getini("faulthandler_timeout")) >= 3 * HANGS
+
+
+def test_what_is_shared_lies_in_helpers():
+    elsewhere = [path for path in SOURCES if not any(path.is_relative_to(folder) for folder in SHARED)]
+    named = [path for path in elsewhere if path.name not in ("__init__.py", "conftest.py")]
+    assert len(named) > 50
+    assert [path for path in named if not path.match("test_*.py")] == []
 
 
 def test_each_class_of_the_product_has_a_name_of_its_own():
-    assert shared_names([path.read_text(encoding="utf-8") for path in PACKAGES]) == set()
+    nodes = [node for path in PACKAGES for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))]
+    counts = Counter(node.name for node in nodes if isinstance(node, ast.ClassDef))
+    assert [name for name, count in counts.items() if count > 1] == []

@@ -108,10 +108,6 @@ A = np.array([_row(weights) for weights in _STAGE_WEIGHTS])
 """Weights of the slopes in the point of each stage, (STAGES, STAGES)."""
 B = np.array(_row(_END_WEIGHTS))
 """Weights of the slopes in the end of the step, (STAGES,)."""
-E3 = np.array(_row(_ERROR_3_WEIGHTS))
-"""Weights of the slopes in the error estimate of order 3, (STAGES,)."""
-E5 = np.array(_row(_ERROR_5_WEIGHTS))
-"""Weights of the slopes in the error estimate of order 5, (STAGES,)."""
 
 _ROWS = (*_STAGE_WEIGHTS, _END_WEIGHTS, _ERROR_5_WEIGHTS, _ERROR_3_WEIGHTS)
 END, ERROR_5, ERROR_3 = range(STAGES, len(_ROWS))

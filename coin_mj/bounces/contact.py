@@ -9,8 +9,6 @@ HARDEST = "0.9999 0.9999 0.001 0.5 2"
 """The largest impedance MuJoCo takes, as solimp."""
 DEFAULT = "0.9 0.95 0.001 0.5 2"
 """MuJoCo's own solimp."""
-DEFAULT_SOLREF = (0.02, 1.0)
-"""MuJoCo's own solref: time constant [s] and damping ratio."""
 INTEGRATORS = ("Euler", "RK4", "implicit", "implicitfast", "discrete")
 """MuJoCo's integrators, by their names in a model and in the order of its numbers."""
 STIFFENED = 1e-3

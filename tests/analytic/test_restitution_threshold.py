@@ -8,22 +8,7 @@ from cointoss.analytic.contact.resets import restitution_at
 from cointoss.analytic.horizon.touch_derivatives import touch_derivatives
 from cointoss.models.certificate import law_residuals
 from cointoss.models.reading import load
-from cointoss.models.records import Ending, Outcome
 from tests.helpers.draws import ZLOTY, scenario
-from tests.helpers.flat_fall import flat_fall
-
-
-def test_a_coin_that_falls_flat_stops_after_the_bounces_of_the_closed_form():
-    fall = flat_fall(0.9, 1.0)
-    tossed = analytic.toss(fall.scenario)
-    speeds = -tossed.impacts.contact_velocity_before[:, 2]
-    after = tossed.impacts.contact_velocity_after[:, 2]
-    assert len(fall.speeds) == 16
-    assert speeds == pytest.approx(fall.speeds, rel=1e-12)
-    assert after[:-1] == pytest.approx(0.9 * speeds[:-1], rel=1e-14)
-    assert after[-1] == pytest.approx(0, abs=1e-15)
-    assert (tossed.outcome, tossed.ending) == (Outcome.HEADS, Ending.SETTLED)
-    assert tossed.end_time == pytest.approx(fall.end_time, rel=1e-12)
 
 
 def test_a_touch_is_plastic_at_the_threshold_and_elastic_above_it():

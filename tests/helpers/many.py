@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from cointoss.models.answers import Answers
-from cointoss.models.records import Array
+from cointoss.models.answers import Answers, names_of
+from cointoss.models.records import Array, Toss
 from tests.helpers.draws import draw_release
 
 PARTS = ("position", "velocity", "quaternion", "angular_velocity")
@@ -36,11 +36,17 @@ def same_states(
     return np.hstack([np.ones((n, 1)) * np.asarray(part) for part in parts])
 
 
-def assert_same_toss(answers: Answers, i: int, tossed: Any) -> None:
-    """Check that one of many is the toss whose rows of impacts, ending and end are these, to the bit."""
-    faces = tossed.rows["face"]
+def assert_same_toss(answers: Answers, i: int, tossed: Toss) -> None:
+    """Check that one of many is this toss, to the bit."""
+    faces = tossed.impacts.face
     assert answers.outcome[i] == tossed.outcome
     assert answers.ending[i] == tossed.ending
     assert answers.impacts[i] == len(faces)
     assert answers.end_time[i] == tossed.end_time
     assert answers.last_face[i] == (faces[-1] if len(faces) else 0)
+
+
+def assert_same_answers(a: Answers, b: Answers) -> None:
+    """Check that the answers of tosses are these, to the bit."""
+    for name in names_of(None):
+        assert np.array_equal(getattr(a, name), getattr(b, name)), name

@@ -94,38 +94,13 @@ def test_what_is_made_is_what_the_same_values_in_a_file_would_be(field, value):
         assert HERE.replace(field, value) == expected
 
 
-@pytest.mark.parametrize(
-    ("change", "said"),
-    [
-        (("floor.restitutoin", 0.5), "floor.restitutoin = 0.5: unknown key; .*did you mean restitution"),
-        (("flor.restitution", 0.5), "flor = .*: unknown key; .*did you mean floor"),
-        (("gravity.z", 1), "gravity = .*: accepted: a number"),
-        (("release.position.w", 2), "position.w = 2: unknown component; accepted: release.position.x, "),
-        (("release.position", 3, "release.position.z", 1), "release.position = 3: accepted: a list"),
-        (
-            ("release.position", [0, 0], "release.position.z", 1),
-            r"release.position = \[0, 0\]: accepted: a list of 3",
-        ),
-        (("release", {"velocity": [0, 0, 1]}, "release.position.z", 1), "release.position: missing"),
-        (("release.quaternion.e0", 1.0), "release.quaternion = .*: accepted: either angles or quaternion"),
-        (("coin", Air()), "coin.exponent = 0.0: unknown key"),
-        (("coin", None), "coin = None: accepted: a table"),
-    ],
-)
-def test_a_wrong_change_is_refused_by_field_value_and_what_is_accepted(change, said):
-    with pytest.raises(ScenarioError, match=said) as caught:
-        HERE.replace(*change)
-    assert "\n" not in str(caught.value)
-
-
 def test_a_field_without_its_value_is_refused():
     with pytest.raises(TypeError, match=r"floor\.friction without a value"):
         HERE.replace("floor.restitution", 0.5, "floor.friction")
 
 
 def test_nothing_copies_a_part_with_values_that_no_one_checks():
-    with pytest.raises(TypeError, match=r"accepted: .*Scenario\.replace"):
-        HERE.floor.model_copy(update={"contact": "coulomb"})
-    with pytest.raises(TypeError, match=r"accepted: .*Scenario\.replace"):
-        HERE.model_copy(update={"gravity": -1.0})
+    for part, update in ((HERE.floor, {"contact": "coulomb"}), (HERE, {"gravity": -1.0})):
+        with pytest.raises(TypeError, match=r"accepted: .*Scenario\.replace"):
+            part.model_copy(update=update)
     assert HERE.model_copy() == HERE == HERE.model_copy(deep=True)

@@ -7,7 +7,7 @@ from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 from cointoss import analytic
-from cointoss.models.notebook import shares_picture, shortened, with_bar
+from cointoss.models.notebook import shortened, with_bar
 from cointoss.models.reading import load
 from cointoss.models.records import Ending
 
@@ -54,13 +54,6 @@ def test_a_notebook_shows_the_path_with_its_touches_and_the_ending(tossed):
     assert facts["sequence"] == with_bar(tossed.sequence, tossed.trusted_impacts)
     assert facts["ending"] == f"settled: {Ending.SETTLED.sentence}"
     assert "heads" in (page.findtext("strong") or "")
-
-
-def test_a_picture_of_shares_has_a_bar_of_each_and_no_markup_of_its_names():
-    page = ET.fromstring(shares_picture({"heads": 2 / 3, "tails": 1 / 3}))
-    widths = [float(bar.attrib["width"]) for bar in page.iter("rect")]
-    assert widths[0] / widths[1] == pytest.approx(2, rel=1e-3)
-    assert "<script>" not in shares_picture({"<script>": 1.0})
 
 
 def test_impacts_become_labelled_arrays(tossed):

@@ -188,7 +188,7 @@ def _sketches() -> str:
 
 def claims_sheet(shown: Sequence[GalleryEntry]) -> str:
     """Return all claims as comma-separated values, a row for each criterion."""
-    head = (
+    head = [
         "name",
         "paper",
         "claim",
@@ -201,18 +201,12 @@ def claims_sheet(shown: Sequence[GalleryEntry]) -> str:
         "relation",
         "threshold",
         "reason",
-    )
+    ]
     rows = [
-        (
-            entry.name,
-            entry.found.paper,
-            claim.claim,
-            "no" if claim.regression else "yes",
-            VERDICTS[claim.holds],
-            *criterion,
-        )
+        (entry.name, entry.found.paper, claim.claim, claimed, VERDICTS[claim.holds], *criterion)
         for entry in shown
         for claim in entry.claims
+        for claimed in ("no" if claim.regression else "yes",)
         for criterion in [each.row for each in claim.criteria] or [("", "", "", "", "", "", claim.missing)]
     ]
     return sheet(head, rows)

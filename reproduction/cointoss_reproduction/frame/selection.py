@@ -218,15 +218,12 @@ def picture_of(cells: pd.DataFrame, said: Declared | Sequence[Declared]) -> "Fig
         axes.set(
             **({"title": str(name)} | {key: one for key, one in part.items() if key not in _OF_PICTURES})
         )
-        if "legend" in part:
-            axes.legend(title=part["legend"])
-    *others, last = drawn.axes
-    labels = last.get_legend_handles_labels()[1]
-    if labels and last.get_legend() is None:
-        last.legend(loc="upper left", bbox_to_anchor=(1, 1))
-    for axes in others:
-        if axes.get_legend() is None and axes.get_legend_handles_labels()[1] not in ([], labels):
-            axes.legend()
+    labels = [axes.get_legend_handles_labels()[1] for axes in drawn.axes]
+    for axes, own, (_, _, part) in zip(drawn.axes, labels, panels, strict=True):
+        if own and ("legend" in part or own != labels[-1]):
+            axes.legend(title=part.get("legend"))
+    if labels[-1] and "legend" not in panels[-1][-1]:
+        drawn.axes[-1].legend(loc="upper left", bbox_to_anchor=(1, 1))
     return drawn
 
 

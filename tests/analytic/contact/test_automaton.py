@@ -226,18 +226,6 @@ def test_a_coin_whose_axis_all_but_passes_the_vertical_slaps_down_on_the_other_s
     assert tossed.impacts.energy_change[slap] < 0
 
 
-@pytest.mark.parametrize("steps", [0, 2.5])
-def test_settings_refuse_a_budget_that_is_no_number_of_steps(steps):
-    with pytest.raises(ValueError, match=rf"contact_steps: given {steps}, accepted: a whole number >= 1"):
-        AnalyticSettings(contact_steps=steps)
-
-
-@pytest.mark.parametrize("tolerance", [1e-15, 1e-5, float("nan")])
-def test_settings_refuse_a_tolerance_beyond_rounding_or_too_coarse(tolerance):
-    with pytest.raises(ValueError, match=rf"contact_tolerance: given {tolerance}, accepted: 1e-14 to 1e-06"):
-        AnalyticSettings(contact_tolerance=tolerance)
-
-
 def test_a_finer_tolerance_takes_more_of_a_lasting_contact_but_ends_it_alike():
     release = {"position": [0, 0, 0.5], "angles": [0, 0.8, 0], "angular_velocity": [0, 40.0, 0]}
     case = scenario(floor={"restitution": 0.5}, release=release)

@@ -14,13 +14,12 @@ from cointoss.analytic.contact.rim_contact import both_rims, rim_contact
 from cointoss.analytic.contact.sampling import floor_force
 from cointoss.analytic.numerics.tolerances import CONTACT_STEP_ERROR, SLOW
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
-from cointoss.models.batch import rows_from_states
 from cointoss.models.certificate import CONTACT_ENERGY
 from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.records import Ending, Outcome
 from tests.helpers.contacts import follow_for, held, put_on_floor
-from tests.helpers.corpus import draw_toss, states_of_hands
-from tests.helpers.draws import AIR, IMPERFECT, THIN, ZLOTY, draw_coin, scenario
+from tests.helpers.corpus import draw_toss
+from tests.helpers.draws import IMPERFECT, THIN, ZLOTY, draw_coin, scenario
 
 step_contact = by_numba(step_contact)
 
@@ -28,7 +27,6 @@ pytestmark = pytest.mark.usefixtures("without_horizon")
 
 G, R, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
 UNIT = (G / R) ** 0.5
-THICK = {**ZLOTY, "thickness": 4e-3}
 HOOP = {**THIN, "inertia": np.diag([0.5, 0.5, 1.0]) * M * R * R}
 
 
@@ -205,33 +203,6 @@ def test_a_coin_at_rest_stays_while_its_mass_centre_is_within_delta_of_the_conta
     assert not rests(held(body, FloorFriction(0.3, delta, 0.0), Mode.STICKING, y), y)
 
 
-def standing_on_edge(**parts):
-    """Give a thick coin that is set down upright, rolling along its edge."""
-    return scenario(
-        coin=THICK,
-        floor={"contact": "coulomb", "friction": 0.5, "restitution": 0.3, **parts.pop("floor", {})},
-        release={
-            "position": [0.0, 0.0, R + 1e-5],
-            "velocity": [0.6, 0.0, 0.0],
-            "angles": [0.0, np.pi / 2, 0.0],
-            "angular_velocity": [0.0, 0.0, -0.6 / R],
-        },
-        **parts,
-    )
-
-
-def test_a_thick_coin_that_rolls_upright_is_caught_on_its_edge_and_without_resistance_rolls_on():
-    """It is settled as soon as its energy is below that of the pass over either rim."""
-    resisted = standing_on_edge(floor={"rolling_friction": "0.5 mm", "pivoting_friction": "0.1 mm"})
-    tossed = analytic.toss(resisted)
-    assert (tossed.outcome, tossed.ending) == (Outcome.EDGE, Ending.PAPER)
-    free = analytic.toss(standing_on_edge())
-    assert (free.outcome, free.ending) == (Outcome.EDGE, Ending.STANDING)
-    assert free.end_time < 0.1
-    caught = (G * (np.hypot(R, 2e-3) - R) / 0.75) ** 0.5
-    assert tossed.end_time == pytest.approx((0.6 - caught) * R * 1.5 / (5e-4 * G), rel=0.02)
-
-
 @pytest.mark.parametrize("seed", range(8))
 def test_contacts_of_random_tosses_never_gain_energy(seed):
     rng = np.random.default_rng((17, seed))
@@ -327,19 +298,3 @@ def test_eulers_disk_stops_pivoting_and_wobbles_on_under_resistance_to_pivoting_
     assert np.abs(pivots[last]).max() < 0.02 * pivots[0]
     assert E[last][0] - E[last][-1] < 1e-4 * E[0]
     assert tilts[last].min() > 0.2
-
-
-def test_nickels_released_by_hand_come_to_rest():
-    """Without resistance some roll on upright for ever; with it none does."""
-    case = scenario(
-        coin={"mass": 5e-3, "radius": 10.605e-3, "thickness": 1.95e-3},
-        air=AIR,
-        floor={"contact": "coulomb", "friction": 0.3, "restitution": 0.5},
-    )
-    starts = states_of_hands(np.random.default_rng(1993), 150, aside=10.0)
-    free = analytic.toss_rows(rows_from_states(case, starts))
-    assert Ending.STANDING in free.ending
-    resisted = case.replace("floor.rolling_friction", 1e-4, "floor.pivoting_friction", 1e-4)
-    ended = analytic.toss_rows(rows_from_states(resisted, starts))
-    assert set(ended.ending) <= {Ending.PAPER, Ending.LYING, Ending.AT_REST}
-    assert set(ended.outcome) <= {Outcome.HEADS, Outcome.TAILS, Outcome.EDGE}

@@ -5,22 +5,15 @@ import pytest
 from scipy.integrate import DOP853
 
 from cointoss.analytic.flight.runge_kutta import end_point, stage_point, step_error
-from cointoss.analytic.numerics import tableau
+from cointoss.analytic.numerics.tableau import STAGES, TERMS, WEIGHTED, WEIGHTS, A, B
 from tests.helpers.draws import ZLOTY, scenario
 
 
 def test_the_coefficients_are_those_of_scipy_to_the_bit():
-    for name in ("A", "B", "E3", "E5"):
-        ours, theirs = getattr(tableau, name), getattr(DOP853, name)
-        assert np.array_equal(ours, theirs[..., : tableau.STAGES])
-        assert not theirs[..., tableau.STAGES :].any()
-
-
-def test_the_packed_weights_are_the_rows_without_the_zeros():
-    rows = [*tableau.A, tableau.B, tableau.E5, tableau.E3]
-    for row, terms, weighted, weights in zip(
-        rows, tableau.TERMS, tableau.WEIGHTED, tableau.WEIGHTS, strict=True
-    ):
+    theirs = np.vstack([DOP853.A, DOP853.B, DOP853.E5[:-1], DOP853.E3[:-1]])
+    assert DOP853.E5[-1] == DOP853.E3[-1] == 0
+    assert np.array_equal([*A, B], theirs[: STAGES + 1])
+    for row, terms, weighted, weights in zip(theirs, TERMS, WEIGHTED, WEIGHTS, strict=True):
         assert np.array_equal(weighted[:terms], np.flatnonzero(row))
         assert np.array_equal(weights[:terms], row[row != 0])
 
@@ -28,16 +21,16 @@ def test_the_packed_weights_are_the_rows_without_the_zeros():
 def test_points_and_error_are_the_weighted_sums_of_the_slopes():
     rng = np.random.default_rng(8)
     body, dt = scenario().body, 1e-3
-    y, stages, point = rng.normal(size=13), rng.normal(size=(tableau.STAGES, 13)), np.empty(13)
-    for stage in range(tableau.STAGES):
+    y, stages, point = rng.normal(size=13), rng.normal(size=(STAGES, 13)), np.empty(13)
+    for stage in range(STAGES):
         stage_point(y, dt, stages, stage, point)
-        assert point[3:] == pytest.approx((y + dt * tableau.A[stage] @ stages)[3:], rel=1e-14)
+        assert point[3:] == pytest.approx((y + dt * DOP853.A[stage] @ stages)[3:], rel=1e-14)
     end_point(y, dt, stages, point)
-    assert point == pytest.approx(y + dt * tableau.B @ stages, rel=1e-14)
+    assert point == pytest.approx(y + dt * DOP853.B @ stages, rel=1e-14)
     speed = (body.gravity * ZLOTY["radius"]) ** 0.5 + np.linalg.norm(y[3:6])
     spin = (body.gravity / ZLOTY["radius"]) ** 0.5 + np.linalg.norm(y[10:])
     scales = np.repeat([ZLOTY["radius"], speed, 1.0, spin], [3, 3, 4, 3])
-    fifth, third = (sum(((row @ stages) / scales) ** 2) for row in (tableau.E5, tableau.E3))
+    fifth, third = (sum(((row[:-1] @ stages) / scales) ** 2) for row in (DOP853.E5, DOP853.E3))
     # As SciPy combines them.
     error = dt * fifth / np.sqrt(13 * (fifth + 0.01 * third))
     assert step_error(body, y, dt, stages) == pytest.approx(error, rel=1e-13)

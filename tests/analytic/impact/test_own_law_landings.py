@@ -106,15 +106,6 @@ def test_a_flat_coin_that_turns_lands_on_the_rim_point_that_comes_down(coin, e):
     assert of(toss, LAW) < 1e-12
 
 
-def test_a_law_that_fails_on_a_flat_landing_is_refused_when_it_is_made():
-    def divides(K, v_A, tau, chi, mu):
-        size = (tau[0] * tau[0] + tau[1] * tau[1]) ** 0.5
-        return 0.0, 0.0, -(1 + chi) * v_A[2] / K[2][2] * (size / size)
-
-    with pytest.raises(ValueError, match=r"^law divides: .*ZeroDivisionError.*, tau = \(0, 0, 0\), chi = "):
-        OwnLaw(divides)
-
-
 def gains_when_fast_and_flat(K, v_A, tau, chi, mu):
     size = -(1 + chi) * v_A[2] / K[2][2]
     return 0.0, 0.0, 3 * size if tau[0] == tau[1] and v_A[2] < -20 else size

@@ -38,26 +38,18 @@ def places(struct, name, value):
     return [at for at in range(0, size - step + 1, step) if held.startswith(bytes(value), at)]
 
 
-@pytest.mark.parametrize("name", ["qvel", "qfrc_passive", "efc_J", "efc_pos", "efc_D", "efc_R", "efc_aref"])
-def test_an_array_lies_where_its_address_is_found_and_nowhere_else(machine, name):
-    _, data = machine
-    address = ctypes.c_size_t(getattr(data, name).ctypes.data)
-    assert places(data, "mjData", address) == [offset_of("mjData", name)]
-
-
-def test_the_first_array_has_the_address_of_their_buffer_too(machine):
-    _, data = machine
-    address = ctypes.c_size_t(data.qpos.ctypes.data)
-    assert places(data, "mjData", address) == [offset_of("mjData", name) for name in ("buffer", "qpos")]
-
-
-def test_numbers_lie_where_their_values_are_found(machine):
+def test_arrays_and_numbers_lie_where_a_search_finds_them_and_nowhere_else(machine):
     model, data = machine
-    step = ctypes.c_double(model.opt.timestep)
+    for name in ("qpos", "qvel", "qfrc_passive", "efc_J", "efc_pos", "efc_D", "efc_R", "efc_aref"):
+        # The first array has the address of their buffer too.
+        known = ("buffer", "qpos") if name == "qpos" else (name,)
+        address = ctypes.c_size_t(getattr(data, name).ctypes.data)
+        assert places(data, "mjData", address) == [offset_of("mjData", each) for each in known]
+    step, time = ctypes.c_double(model.opt.timestep), ctypes.c_double(data.time)
     assert places(model, "mjModel", step) == [offset_of("mjModel", "opt.timestep")]
+    assert places(data, "mjData", time) == [offset_of("mjData", "time")]
     assert data.nefc > 0
     assert offset_of("mjData", "nefc") in places(data, "mjData", ctypes.c_int32(data.nefc))
-    assert places(data, "mjData", ctypes.c_double(data.time)) == [offset_of("mjData", "time")]
 
 
 def test_the_arrays_of_the_joint_lie_at_their_addresses(machine):

@@ -49,18 +49,6 @@ def set_down(speed, spin=0.0, coin=THIN, law="coulomb", **floor):
     )
 
 
-def test_a_disc_that_turns_upright_is_slowed_by_resistance_to_pivoting():
-    """J_ξ dω_z/dt = -p m g."""
-    p, spin = 1e-3, 80.0
-    case = set_down(0.0, spin, pivoting_friction=p, rolling_friction=p)
-    slowing = p * M * G / case.body.inertia[1][1]
-    tossed = coin_mj.toss(case)
-    times = np.linspace(0, 0.95 * spin / slowing, 9)
-    left = tossed.sample(times).angular_velocity[:, 1]
-    assert left == pytest.approx(spin - slowing * times, rel=1e-4)
-    assert tossed.end_time == pytest.approx(spin / slowing, rel=1e-3)
-
-
 def test_on_a_smooth_floor_a_coin_pivots_to_rest_and_slides_on():
     case = set_down(0.0, 20.0, law="smooth", pivoting_friction=1e-3, rolling_friction=1e-3)
     case = case.replace("release.velocity.x", 0.2)

@@ -53,7 +53,6 @@ class Wrench(NamedTuple):
 
 def make(progress: Progress) -> Findings:
     """Sum the air over the fields of a thick coin, and compare with the integrals of both engines."""
-    found = Findings()
     thick = load("fig13")
     thin = thick.replace("coin.thickness", 0.0, "coin.center_of_mass", (-1e-3, -1e-3, 0.0))
     fields, of_thin = _fields(thick, FINE), _fields(thin, FINE)
@@ -62,24 +61,25 @@ def make(progress: Progress) -> Findings:
         [f(b) for b in (0.0, 1.0)] for f in (partial(_sum, thick, fields), partial(_integral, thick))
     )
     progress(2, 2)
-    found.outwards = [field.moves_outwards for field in fields]
-    found.off = np.array([_apart(sums[0], other) for other in (integrals[0], _by_mujoco(thick))])
-    found.one_outwards = [_one_moves_outwards(of) for of in (of_thin, fields)]
-    found.faces_apart = np.abs(of_thin.upper.velocity - of_thin.lower.velocity).max()
-    found.off_at_1 = [_apart(one, integrals[1]) for one in sums]
-    drawn = {"thick": _fields(thick, COARSE), "thin": _fields(thin, COARSE)}
-    found.data = {}
-    for coin, surfaces in drawn.items():
-        for surface, field in zip(SurfaceFields._fields, surfaces, strict=True):
-            parts = {
-                "point": field.point,
-                "velocity": field.velocity,
-                "velocity outwards": field.velocity * field.moves_outwards[:, None],
-                "outward": field.outward,
-                "tangential": field.tangential,
-            }
-            found.data |= {f"{coin}, {surface}, {part}": array for part, array in parts.items()}
-    return found
+    return Findings(
+        data={
+            f"{coin}, {surface}, {part}": array
+            for coin, scenario in (("thick", thick), ("thin", thin))
+            for surface, field in zip(SurfaceFields._fields, _fields(scenario, COARSE), strict=True)
+            for part, array in (
+                ("point", field.point),
+                ("velocity", field.velocity),
+                ("velocity outwards", field.velocity * field.moves_outwards[:, None]),
+                ("outward", field.outward),
+                ("tangential", field.tangential),
+            )
+        },
+        outwards=[field.moves_outwards for field in fields],
+        off=np.array([_apart(sums[0], other) for other in (integrals[0], _by_mujoco(thick))]),
+        one_outwards=[_one_moves_outwards(of) for of in (of_thin, fields)],
+        faces_apart=np.abs(of_thin.upper.velocity - of_thin.lower.velocity).max(),
+        off_at_1=[_apart(one, integrals[1]) for one in sums],
+    )
 
 
 def _fields(case: Scenario, points: dict[str, int]) -> SurfaceFields:

@@ -20,7 +20,6 @@ def make(progress: Progress, size: int = 96) -> Findings:
         progress: called after each spin.
         size: pixels along each axis, even: then none lies on a boundary.
     """
-    found = Findings()
     spins, speeds = middles(FASTEST, size), middles(HIGHEST, size)
     by_analytic, mujoco = np.empty((size, size)), np.empty((size, size))
     scenario = load("fig2")
@@ -33,19 +32,27 @@ def make(progress: Progress, size: int = 96) -> Findings:
     # The first side is up within a quarter of a turn of a whole number of turns.
     expected = np.abs(turns - np.round(turns)) < 0.25
     printed = np.floor(turns) % 2 == 0
-    found.wrong = [int(np.sum((heights > 0) != expected)) for heights in (by_analytic, mujoco)]
-    found.right_as_printed = np.mean((by_analytic > 0) == printed), np.mean((mujoco > 0) == printed)
-    found.pixels = size * size
-    found.all_wrong, found.least = sum(found.wrong), min(found.right_as_printed)
-    found.off = np.array([np.abs(each - np.cos(2 * np.pi * turns)).max() for each in (by_analytic, mujoco)])
-    found.data = {
-        "spin over pi": spins,
-        "speed over g": speeds,
-        COLUMNS[0]: by_analytic > 0,
-        COLUMNS[1]: mujoco > 0,
-        COLUMNS[2]: printed,
-    }
-    return found
+    maps = dict(zip(COLUMNS, (by_analytic > 0, mujoco > 0, printed), strict=True))
+    wrong, right, off = zip(
+        *(
+            (
+                int(np.sum((heights > 0) != expected)),
+                np.mean((heights > 0) == printed),
+                np.abs(heights - np.cos(2 * np.pi * turns)).max(),
+            )
+            for heights in (by_analytic, mujoco)
+        ),
+        strict=True,
+    )
+    return Findings(
+        data=maps,
+        wrong=wrong,
+        all_wrong=sum(wrong),
+        right_as_printed=right,
+        least=min(right),
+        off=np.array(off),
+        pixels=size * size,
+    )
 
 
 def _toss(scenario: Scenario, spin: float, speed: float) -> Scenario:

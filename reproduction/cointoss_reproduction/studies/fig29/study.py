@@ -10,6 +10,7 @@ from cointoss_reproduction.frame.declared import Data, Findings, declared
 from cointoss_reproduction.setups.planar_maps import (
     HEIGHT,
     HEIGHTS,
+    MEDIA,
     SPIN,
     SPINS,
     Grid,
@@ -25,38 +26,44 @@ SEED = 29
 
 def make(progress: Progress, points: int = 400, points_mujoco: int = 16, tosses: int = 100_000) -> Findings:
     """Make the four maps, and toss at random in them; MuJoCo tosses a coarser grid to its first touch."""
-    found = Findings()
-    grid = whole_grid(points)
+    grid, coarse = whole_grid(points), whole_grid(points_mujoco)
     landed, settled = {}, {}
-    for done, medium in enumerate(("air", "vacuum")):
+    for done, medium in enumerate(MEDIA):
         scenario = case(air=medium == "air")
         landed[medium] = faces_after(grid.rows(scenario), 0).reshape(grid.shape)
         progress(2 * done + 1, 5)
         settled[medium] = final_faces(scenario, grid)
         progress(2 * done + 2, 5)
     away = distance_to_doubt(landed["vacuum"]) > 1
-    found.wrong = int(np.sum((landed["vacuum"] != _closed_form(grid)) & away))
-    coarse = whole_grid(points_mujoco)
     faces = faces_after(coarse.rows(case(air=True)), 0).reshape(coarse.shape)
-    found.same = int(np.sum(_first_touches(case(air=True), coarse) == faces))
-    progress(5, 5)
-    found.lines = {name: crossings(maps[::20]).mean() for name, maps in settled.items()}
-    found.lines_landed = {name: crossings(maps[::20]).mean() for name, maps in landed.items()}
-    found.stripes = {name: crossings(maps).mean() for name, maps in landed.items()}
+    same = _first_touches(case(air=True), coarse) == faces
+    lines, lines_landed, stripes = (
+        {name: crossings(maps[::every]).mean() for name, maps in of.items()}
+        for of, every in ((settled, 20), (landed, 20), (landed, 1))
+    )
     rng = np.random.default_rng(SEED)
     random = rng.uniform(*HEIGHTS, tosses), rng.uniform(*SPINS, tosses)
     air, vacuum = (faces_after(planar_rows(case(air=air), *random), 0) for air in (True, False))
-    found.changed = share(air != vacuum, "tosses")
-    found.undecided = sum(fractions(maps)[Outcome.UNDECIDED] for maps in settled.values())
-    found.pixels = away.sum()
-    found.coarse_pixels = faces.size
-    found.more_stripes = found.stripes["air"] / found.stripes["vacuum"] - 1
-    found.fewest = min(found.lines.values())
-    found.ten_times_landed = 10 * max(found.lines_landed.values())
-    data = {f"first touch, {name}": maps for name, maps in landed.items()}
-    data |= {f"final, {name}": maps for name, maps in settled.items()}
-    found.data = data
-    return found
+    progress(5, 5)
+    return Findings(
+        data={
+            f"{when}, {name}": maps
+            for when, of in (("first touch", landed), ("final", settled))
+            for name, maps in of.items()
+        },
+        wrong=int(np.sum((landed["vacuum"] != _closed_form(grid)) & away)),
+        pixels=away.sum(),
+        same=int(np.sum(same)),
+        coarse_pixels=faces.size,
+        lines=lines,
+        lines_landed=lines_landed,
+        stripes=stripes,
+        changed=share(air != vacuum, "tosses"),
+        undecided=sum(fractions(maps)[Outcome.UNDECIDED] for maps in settled.values()),
+        more_stripes=stripes["air"] / stripes["vacuum"] - 1,
+        fewest=min(lines.values()),
+        ten_times_landed=10 * max(lines_landed.values()),
+    )
 
 
 def _first_touches(scenario: Scenario, grid: Grid) -> OutcomeCodes:
@@ -90,9 +97,8 @@ def _closed_form(grid: Grid) -> OutcomeCodes:
 
 def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(6.4, 5.6))
-    order = ("first touch, air", "first touch, vacuum", "final, air", "final, vacuum")
-    for axes, letter, name in zip(picture.subplots(2, 2).flat, "abcd", order, strict=True):
-        draw_panel(axes, data[name], x=HEIGHT, y=SPIN)
+    for axes, letter, (name, maps) in zip(picture.subplots(2, 2).flat, "abcd", data.items(), strict=True):
+        draw_panel(axes, maps, x=HEIGHT, y=SPIN)
         axes.set_title(f"({letter}) {name}")
         axes.grid(visible=False)
     return picture

@@ -33,7 +33,6 @@ SPREAD, SEED = 5e-2, 5
 
 def make(progress: Progress, count: int = 2000) -> Findings:
     """Toss the coin by both engines, draw it, and toss it `count` times from slightly other attitudes."""
-    found = Findings()
     scenario = load("fig5")
     begun = scenario.replace("ending.max_impacts", IMPACTS)
     by_analytic, mujoco = analytic.toss(begun), coin_mj.toss(begun)
@@ -44,35 +43,39 @@ def make(progress: Progress, count: int = 2000) -> Findings:
     progress(2, 3)
     nearby = _nearby(scenario, count)
     first, last_seen = (faces_after(nearby, n - 1) == Face.HEADS for n in (1, IMPACTS))
-    found.agreed = common_prefix(by_analytic.sequence, mujoco.sequence)
     tosses = (by_analytic, mujoco)
-    found.sequences, found.trusted = [toss.sequence for toss in tosses], mujoco.trusted_impacts
-    found.faces = min(len(set(toss.sequence[: toss.trusted_impacts])) for toss in tosses)
     impacts = [(toss.impacts, toss.trusted_impacts) for toss in tosses]
     largest = np.array([np.abs(each.angular_velocity_after[:n]).max(axis=0) for each, n in impacts])
-    found.spins = [", ".join(f"{spin:.0f}" for spin in spins) for spins in largest]
-    found.least_spin = largest.min()
     # Along the floor, of the contact point.
     slips = [np.linalg.norm(each.contact_velocity_after[:n, :2], axis=1) for each, n in impacts]
-    found.sliding = [
-        f"after {np.sum(slip > SLIDES)} of {len(slip)} trusted impacts, at up to {slip.max():.2g} m/s"
-        for slip in slips
-    ]
-    found.slip = min(slip.max() for slip in slips)
-    found.no_stills = f"; no stills: {drawn}" if isinstance(drawn, str) else ""
-    found.first, found.last = first, last_seen
-    found.tails, found.heads = [share(~first), share(~last_seen)], share(last_seen)
     t = np.linspace(0, last, 1500)
-    found.data = {
-        "time": t,
-        "analytic": by_analytic.sample(t).position,
-        "MuJoCo": mujoco.sample(t).position,
-        "impacts": by_analytic.impacts.time[by_analytic.impacts.time < last],
-        "stills, time": states.time,
-        "stills": np.array(drawn),  # or why there are none
-    }
     progress(3, 3)
-    return found
+    return Findings(
+        data={
+            "time": t,
+            "analytic": by_analytic.sample(t).position,
+            "MuJoCo": mujoco.sample(t).position,
+            "impacts": by_analytic.impacts.time[by_analytic.impacts.time < last],
+            "stills, time": states.time,
+            "stills": np.array(drawn),  # or why there are none
+        },
+        agreed=common_prefix(by_analytic.sequence, mujoco.sequence),
+        sequences=[toss.sequence for toss in tosses],
+        trusted=mujoco.trusted_impacts,
+        faces=min(len(set(toss.sequence[: toss.trusted_impacts])) for toss in tosses),
+        spins=[", ".join(f"{spin:.0f}" for spin in spins) for spins in largest],
+        least_spin=largest.min(),
+        sliding=[
+            f"after {np.sum(slip > SLIDES)} of {len(slip)} trusted impacts, at up to {slip.max():.2g} m/s"
+            for slip in slips
+        ],
+        slip=min(slip.max() for slip in slips),
+        no_stills=f"; no stills: {drawn}" if isinstance(drawn, str) else "",
+        first=first,
+        last=last_seen,
+        tails=[share(~first), share(~last_seen)],
+        heads=share(last_seen),
+    )
 
 
 def _nearby(scenario: Scenario, count: int) -> Array:
