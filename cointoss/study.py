@@ -5,8 +5,6 @@ from typing import TYPE_CHECKING, Any
 from cointoss.homes import brought, homes_of
 
 if TYPE_CHECKING:
-    from cointoss.analytic.air.velocity_field import SurfaceFields as SurfaceFields
-    from cointoss.analytic.air.velocity_field import velocity_fields as velocity_fields
     from cointoss.analytic.contact.automaton import Mode as Mode
     from cointoss.analytic.contact.resistance import FloorFriction as FloorFriction
     from cointoss.analytic.entries import force_and_moment as force_and_moment
@@ -17,10 +15,6 @@ if TYPE_CHECKING:
     from cointoss.analytic.flight.state_vector import state_of as state_of
     from cointoss.analytic.horizon.flight_tangent import FINE as FINE
     from cointoss.analytic.horizon.flight_tangent import flight_tangent as flight_tangent
-    from cointoss.analytic.numerics.euler_angles import Sequence as Sequence
-    from cointoss.analytic.numerics.euler_angles import rate_matrix as rate_matrix
-    from cointoss.analytic.numerics.euler_angles import rotation_of as rotation_of
-    from cointoss.analytic.numerics.euler_angles import singularity as singularity
     from cointoss.analytic.numerics.tableau import STAGES as STAGES
     from cointoss.analytic.numerics.tableau import A as A
     from cointoss.analytic.numerics.tableau import B as B

@@ -16,14 +16,13 @@ from cointoss.study import (
     PALE,
     Array,
     Progress,
-    SurfaceFields,
     force_and_moment,
     forward,
     machine_of,
     shape_thickness,
-    velocity_fields,
 )
 from cointoss_reproduction.frame.declared import Data, Findings, declared
+from cointoss_reproduction.studies.fig13.velocity_field import SurfaceFields, velocity_fields
 
 FINE = {"rings": 100, "spokes": 240, "levels": 41}
 """Points of the sums."""

@@ -10,20 +10,11 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from cointoss import EndingCriteria, Release, Scenario, load
-from cointoss.study import (
-    Array,
-    Sequence,
-    derivative,
-    quaternion_from_angles,
-    rate_matrix,
-    rotation_of,
-    singularity,
-    state_at_release,
-    vector,
-)
+from cointoss.study import Array, derivative, quaternion_from_angles, state_at_release, vector
 from cointoss_reproduction.frame.cells import Cells, column
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.both_engines import by_both
+from cointoss_reproduction.studies.table1.euler_angles import Sequence, rate_matrix, rotation_of, singularity
 
 PRINTED = {
     "121": ("sin", -1, 0.0),

@@ -8,10 +8,10 @@ from cointoss.analytic.flight.equations_of_motion import derivative
 from cointoss.analytic.flight.flying import sample
 from cointoss.analytic.flight.state_vector import state_of
 from cointoss.analytic.horizon.flight_tangent import FINE, flight_tangent
-from cointoss.analytic.numerics.euler_angles import axis_rotation
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.barriers import barrier
 from cointoss.models.kernel.compiled import by_numba
+from cointoss_reproduction.studies.table1.euler_angles import axis_rotation
 from tests.helpers.draws import AIR, IMPERFECT, PAPER_OFFSET, ZLOTY, scenario
 
 flight_tangent = by_numba(flight_tangent)

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from cointoss.analytic.air.velocity_field import velocity_fields
 from cointoss.models.attitude import rotation_matrix
+from cointoss_reproduction.studies.fig13.velocity_field import velocity_fields
 from tests.helpers.draws import PAPER_OFFSET, draw_quaternion, scenario
 from tests.helpers.tuples import quaternion
 

@@ -5,9 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cointoss.models.body import Body
-from cointoss.models.kernel.vectors import Vector
-from cointoss.models.records import Array
+from cointoss.study import Array, Body
+
+Triple = tuple[float, float, float]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -50,7 +50,13 @@ class SurfaceFields(NamedTuple):
 
 
 def velocity_fields(
-    body: Body, v: Vector, w: Vector, *, rings: int = 6, spokes: int = 24, levels: int = 5
+    body: Body,
+    v: Triple,
+    w: Triple,
+    *,
+    rings: int = 6,
+    spokes: int = 24,
+    levels: int = 5,
 ) -> SurfaceFields:
     """Return the velocities of points spread over a moving coin; Strzalko et al. 2008, eqs (59)-(65), (75).
 
@@ -76,7 +82,7 @@ def velocity_fields(
     )
 
 
-def _field(body: Body, v: Vector, w: Vector, point: Array, normal: Array) -> VelocityField:
+def _field(body: Body, v: Triple, w: Triple, point: Array, normal: Array) -> VelocityField:
     velocity = np.array(v) + np.cross(w, point - np.array(body.center))
     speed = np.sum(velocity * normal, axis=1, keepdims=True)
     return VelocityField(

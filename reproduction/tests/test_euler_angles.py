@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from scipy.optimize import root_scalar
 from scipy.spatial.transform import Rotation
 
-from cointoss.analytic.numerics.euler_angles import (
+from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
+from cointoss_reproduction.studies.table1.euler_angles import (
     Sequence,
     Singularity,
     angles_of,
@@ -16,7 +17,6 @@ from cointoss.analytic.numerics.euler_angles import (
     rotation_of,
     singularity,
 )
-from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 
 each_sequence = pytest.mark.parametrize("sequence", Sequence, ids=lambda sequence: sequence.value)
 angle = st.floats(-10, 10)
