@@ -57,7 +57,7 @@ if TYPE_CHECKING:
     from cointoss.compare.commands.common import plain_errors as plain_errors
     from cointoss.compare.commands.common import refuse as refuse
     from cointoss.compare.commands.names import completing as completing
-    from cointoss.compare.engines import engine_digests as engine_digests
+    from cointoss.compare.engines import fingerprints as fingerprints
     from cointoss.compare.film.back_end import drawing_problem as drawing_problem
     from cointoss.compare.film.back_end import require_mujoco as require_mujoco
     from cointoss.compare.film.stills import stills as stills

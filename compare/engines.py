@@ -1,20 +1,26 @@
 """The engines by their names, imported only when they are used."""
 
+import hashlib
+from contextlib import suppress
 from enum import StrEnum
+from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol, cast
+from warnings import catch_warnings, simplefilter
 
 from cointoss.models.answers import Answers
+from cointoss.models.batch import rows_of
 from cointoss.models.distribution import versions_of
 from cointoss.models.kernel.arrays import Array
-from cointoss.models.kernel.digests import digest_of
-from cointoss.models.kernel.library import library_file
-from cointoss.models.reading import ScenarioSource
+from cointoss.models.reading import ScenarioSource, load, named_scenarios
 from cointoss.models.records import Toss, UnsupportedError
 from cointoss.models.scenario import Scenario
 
 if TYPE_CHECKING:
     from cointoss.analytic import OwnLaw
+
+FIRST_IMPACTS = 20
+"""Of the tosses that tell engines apart, at most."""
 
 
 class EngineSettings(Protocol):
@@ -107,11 +113,24 @@ def toss(
     return package.toss(scenario, settings=package.FINE if settings is None else settings, **more)
 
 
-def engine_digests() -> dict[str, str]:
-    """Return the digest of the machine code of each engine's library, and of what both share, by its folder.
+@cache
+def fingerprints() -> dict[str, str]:
+    """Return a digest of how each engine tosses the named scenarios, to the bit, by its name.
+
+    Engines with the same fingerprint make the same tosses, on whatever system.
 
     Raises:
-        EngineMissingError: where a library is missing, and can't be built.
+        EngineMissingError: where an engine's library is missing, and can't be built.
     """
-    tables = (f"cointoss.{name}.entries" for name in ("analytic", "coin_mj", "models"))
-    return {table.split(".")[1]: digest_of(library_file(table))[:16] for table in tables}
+    return {str(engine): _fingerprint(engine) for engine in Engine}
+
+
+def _fingerprint(engine: Engine) -> str:
+    digest = hashlib.sha256()
+    for name in named_scenarios():
+        scenario = load(name).replace("ending.max_impacts", FIRST_IMPACTS)
+        with suppress(UnsupportedError), catch_warnings():
+            simplefilter("ignore")
+            found = engine.package.toss_rows(rows_of(scenario, 1), workers=1)
+            digest.update(found.outcome.tobytes() + found.impacts.tobytes() + found.end_time.tobytes())
+    return digest.hexdigest()[:16]

@@ -7,9 +7,9 @@ import pandas as pd
 from papers import the_one
 
 from cointoss.study import table
-from cointoss_reproduction.frame.cells import TABLE, read_table
+from cointoss_reproduction.frame.cells import read_table
 from cointoss_reproduction.frame.claim import Claim, read_claims
-from cointoss_reproduction.frame.files import folder_of
+from cointoss_reproduction.frame.files import TABLE, folder_of
 
 PAGE = "ENGINES.md"
 SHOWN = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))

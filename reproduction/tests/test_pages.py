@@ -14,7 +14,7 @@ WRITTEN = {
     name
     for page in DOCS.glob("*.md")
     for name in re.findall(
-        r"<!-- written by: cointoss reproduce ([\w-]+) -->", page.read_text(encoding="utf-8")
+        r"^<!-- written by: cointoss reproduce ([\w-]+) -->", page.read_text(encoding="utf-8"), re.MULTILINE
     )
 }
 KEPT = [name for name in runner.names() if (runner.folder_of(name, DOCS) / "claims.json").exists()]
@@ -34,8 +34,9 @@ def test_results_are_written_into_the_pages_that_have_a_place_for_them(tmp_path)
 
 
 def test_every_study_that_was_kept_has_a_place_on_a_page_and_only_those():
-    assert WRITTEN == {name for name in KEPT if runner.find(name).read}
-    assert len(WRITTEN) == 15
+    of_project = {name for name in KEPT if not runner.find(name).paper}
+    # ENGINES has a table of its own of what mujoco-laws finds; edge, of the paper, has a page of its own.
+    assert WRITTEN == of_project - {"mujoco-laws"} | {"edge"}
 
 
 @pytest.mark.parametrize("name", sorted(WRITTEN))

@@ -9,7 +9,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from cointoss.study import code_digest, engine_digests, read_bounded, versions_of
+from cointoss.study import code_digest, fingerprints, read_bounded, versions_of
 from cointoss_reproduction.frame.files import CLAIMS, MOST_BYTES, PROVENANCE, TABLE
 
 PACKAGES = ("mujoco", "numpy", "scipy")
@@ -28,7 +28,7 @@ def provenance(folder: Path, *, quick: bool) -> dict[str, Any]:
     written = {name: folder / name for name in _OUTPUTS if (folder / name).exists()}
     return {
         "sources": sources(),
-        "engines": engine_digests(),
+        "engines": fingerprints(),
         "quick": quick,
         "versions": {"python": platform.python_version(), **versions_of(PACKAGES)},
         "machine": machine(),
@@ -55,9 +55,7 @@ def older(made_of: Mapping[str, Any] | None) -> str:
     """Return in words by which engines other than those here a run was made, empty where by none."""
     if made_of is None or "engines" not in made_of:
         return "does not say by which engines it was made"
-    if made_of["machine"] != machine():
-        return f"was made on another system, {' '.join(made_of['machine'].values())}"
-    other = [name for name, digest in engine_digests().items() if made_of["engines"].get(name) != digest]
+    other = [name for name, digest in fingerprints().items() if made_of["engines"].get(name) != digest]
     return f"is older than {' and '.join(other)}" if other else ""
 
 

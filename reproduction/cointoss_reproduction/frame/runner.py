@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cointoss_reproduction import studies
-from cointoss_reproduction.frame.files import CLAIMS, FOLDER, folder_of, said_by
+from cointoss_reproduction.frame.files import CLAIMS, FOLDER, TABLE, folder_of, said_by
 
 if TYPE_CHECKING:
     from cointoss.study import Progress
@@ -80,9 +80,11 @@ def reproduce(name: str, out: Path, progress: "Progress", *, quick: bool = False
 
 
 def kept(name: str, out: Path) -> "Result":
-    """Return what an earlier run of one of the `names` left below `out`: its claims, a study's all."""
+    """Return what an earlier run of one of the `names` left below `out`; without a table, its claims."""
     from cointoss_reproduction.frame.claim import read_claims
     from cointoss_reproduction.frame.result import Result
 
     found, folder = find(name), folder_of(name, out)
-    return found.read(folder) if found.read else Result(claims=read_claims(folder / CLAIMS), data={})
+    if found.read and (folder / TABLE).exists():
+        return found.read(folder)
+    return Result(claims=read_claims(folder / CLAIMS), data={})

@@ -68,7 +68,7 @@ def uncertain_shares(
 
 
 def share_at(groups: Branches, level: int) -> Estimate:
-    """Return f at one of `ACCURACIES`, with an interval of its logarithm that is open where f is 0."""
+    """Return f at one of `ACCURACIES`; its interval is wide where no toss is uncertain."""
     if not groups.shares[:, level].any():
         return Estimate(0.0, 0.0, CEILING, len(groups.shares), "groups of ancestors")
     found = _of_groups(_logarithm(level), groups.shares, groups.whole)

@@ -85,7 +85,7 @@ def ended(
 
 def draw(cells: pd.DataFrame) -> Figure:
     """Draw the shares of the outcomes as bars."""
-    rows: Any = selected(cells, {"where": "engine == 'analytic'"})[::-1]
+    rows: Any = selected(cells, {"where": "engine == 'analytic' and tosses > 0"})[::-1]
     names = [
         f"{', '.join(kind)} ({tosses})"
         for *kind, tosses in rows[["coin", "thickness", "floor", "medium", "tosses"]].itertuples(index=False)
