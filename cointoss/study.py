@@ -15,9 +15,6 @@ if TYPE_CHECKING:
     from cointoss.analytic.flight.state_vector import state_of as state_of
     from cointoss.analytic.horizon.flight_tangent import FINE as FINE
     from cointoss.analytic.horizon.flight_tangent import flight_tangent as flight_tangent
-    from cointoss.analytic.numerics.tableau import STAGES as STAGES
-    from cointoss.analytic.numerics.tableau import A as A
-    from cointoss.analytic.numerics.tableau import B as B
     from cointoss.analytic.runs import run as run
     from cointoss.analytic.single_impacts import strike as strike
     from cointoss.analytic.toss import Pieces as Pieces
@@ -91,13 +88,11 @@ if TYPE_CHECKING:
     from cointoss.compare.metrics.trajectories import attitude_angle as attitude_angle
     from cointoss.compare.metrics.trajectories import distance as distance
     from cointoss.compare.metrics.trajectories import parting_time as parting_time
-    from cointoss.compare.output.files import beside as beside
     from cointoss.compare.output.files import remove as remove
     from cointoss.compare.output.files import require_folder as require_folder
     from cointoss.compare.output.files import write_text as write_text
     from cointoss.compare.output.files import written_together as written_together
     from cointoss.compare.output.progress import Progress as Progress
-    from cointoss.compare.output.progress import stepping as stepping
     from cointoss.compare.output.style import ANALYTIC as ANALYTIC
     from cointoss.compare.output.style import BLUE as BLUE
     from cointoss.compare.output.style import GREEN as GREEN
@@ -109,7 +104,6 @@ if TYPE_CHECKING:
     from cointoss.compare.output.style import OUTCOMES as OUTCOMES
     from cointoss.compare.output.style import PALE as PALE
     from cointoss.compare.output.style import PURPLE as PURPLE
-    from cointoss.compare.output.style import SHARE_OF_HEADS as SHARE_OF_HEADS
     from cointoss.compare.output.style import SKY as SKY
     from cointoss.compare.output.style import STYLE as STYLE
     from cointoss.compare.output.style import TAILS as TAILS

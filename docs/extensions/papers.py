@@ -3,7 +3,7 @@
 import re
 import shutil
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -79,15 +79,16 @@ def the_one(among: Iterable[Any], part: str, words: str) -> Any:
     return found[words] if words in found else next(iter(found.values()))
 
 
-def _cell(path: Path, row: str, column: str) -> str:
-    """Return what a table has in a row and a column, with its interval where columns beside it have one."""
-    table = pd.read_csv(path, index_col=0, dtype=str, keep_default_na=False)
-    if row not in table.index or column not in table.columns:
-        raise BindingError(f"{path.name}: no row {row!r} with a column {column!r}")
+def _cell(path: Path, row: Sequence[str], column: str) -> str:
+    """Return what a table has in a column and the row that begins so, with its interval where it has one."""
+    table = pd.read_csv(path, dtype=str, keep_default_na=False)
+    found = table[(table.iloc[:, : len(row)] == list(row)).all(axis=1)].to_dict("records")
+    if len(found) != 1 or column not in table.columns:
+        raise BindingError(f"{path.name}: no one row {', '.join(row)!r} with a column {column!r}")
     name, bracket, unit = column.partition(" [")
-    ends = [table.get(f"{name}, {end}{bracket}{unit}", {}).get(row) for end in ("low", "high")]
+    ends = [found[0].get(f"{name}, {end}{bracket}{unit}") for end in ("low", "high")]
     interval = f" [{ends[0]}, {ends[1]}]" if all(ends) else ""
-    return f"{table.at[row, column]}{' %' if '%' in unit else ''}{interval}"
+    return f"{found[0][column]}{' %' if '%' in unit else ''}{interval}"
 
 
 def filled(name: str) -> str:

@@ -1,11 +1,11 @@
-"""A study run, what it says of a record of numbers, and what a page of docs/ shows of it."""
+"""A study run, what it says of a table, and what a page of docs/ shows of it."""
 
 import re
 import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
+import pandas as pd
 import pytest
 
 from cointoss_reproduction import studies
@@ -44,18 +44,18 @@ def fake(monkeypatch: pytest.MonkeyPatch, folder: Path, name: str, code: str, sa
         sys.modules.pop(module, None)
 
 
-def result_of(study: str, record: Any) -> Result:
-    """Return the tables and claims of a study that found this record; it is saved and read again."""
+def result_of(study: str, cells: pd.DataFrame) -> Result:
+    """Return the tables and claims of a study that found these cells; they are saved and read again."""
     with TemporaryDirectory() as folder:
-        save(Path(folder), Result(claims=(), data=record), {})
+        save(Path(folder), Result(claims=(), data=cells), {})
         read = runner.find(study).read
         assert read is not None
         return read(Path(folder))
 
 
-def missed(study: str, record: Any) -> tuple[str, ...]:
-    """Return the claims of a study that found this record whose verdict is not the known one."""
-    return unexpected(result_of(study, record).claims)
+def missed(study: str, cells: pd.DataFrame) -> tuple[str, ...]:
+    """Return the claims of a study that found these cells whose verdict is not the known one."""
+    return unexpected(result_of(study, cells).claims)
 
 
 def pictures(page: str, study: str) -> set[str]:

@@ -203,8 +203,8 @@ def test_a_filled_paper_has_no_place_left_and_powers_of_ten():
             "0 with quantity 'on the moon', not 1",
         ),
         (
-            {"of": "edge", "table": 1, "row": "as said", "column": "on the moon"},
-            "no row 'as said' with a column 'on the moon'",
+            {"of": "edge", "table": 1, "row": ["as said"], "column": "on the moon"},
+            "no one row 'as said' with a column 'on the moon'",
         ),
         (
             {"of": "edge", "claim": "a nickel that wobbles", "told": "analytic", "pick": "(x+)"},

@@ -17,7 +17,7 @@ from cointoss_reproduction.setups import fig24_readings
 from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.setups.hands import HEIGHTS, SPINS, states_of_hands
 from cointoss_reproduction.setups.planar_maps import case, faces_after, planar_rows, touched_faces
-from cointoss_reproduction.setups.uncertain_shares import ACCURACIES, slope
+from cointoss_reproduction.setups.uncertain_shares import ACCURACIES, slope_between
 from cointoss_reproduction.studies.accuracy_and_stripes import study as accuracy_and_stripes
 from cointoss_reproduction.studies.fig27 import study as fig27
 from cointoss_reproduction.studies.fig31 import study as fig31
@@ -52,7 +52,7 @@ def test_spread_over_cells_is_that_of_stripes_and_none_of_chance():
 @pytest.mark.parametrize("alpha", [1.0, 0.4])
 def test_the_exponent_of_uncertain_tosses_is_found_within_its_interval(alpha):
     scatter = np.random.default_rng(3).lognormal(sigma=0.2, size=(10, len(ACCURACIES)))
-    found = slope(ACCURACIES**alpha * scatter, 3, 6)
+    found = slope_between(np.array(ACCURACIES) ** alpha * scatter, np.ones(scatter.shape), 3, 6)
     assert found.low < alpha < found.high
     assert 0.01 < found.high - found.low < 0.3
 

@@ -14,7 +14,7 @@ from cointoss_reproduction.frame.files import CLAIMS, MOST_BYTES, PROVENANCE, TA
 
 PACKAGES = ("mujoco", "numpy", "scipy")
 """Those whose numbers a result is made of."""
-_OUTPUTS = (CLAIMS, "numbers.json", TABLE)
+_OUTPUTS = (CLAIMS, TABLE)
 _BOOK = Path(__file__).parents[1]
 
 

@@ -18,7 +18,7 @@ class Result:
 
     claims: Sequence[Claim]
     data: Any
-    """What its pictures show: arrays by name, or a record of numbers."""
+    """What its pictures show: a table, or arrays by name."""
     tables: str = ""
     """More of what it found, in Markdown, to be printed before the claims."""
 
@@ -54,4 +54,4 @@ class Reproduction:
     def files(self) -> tuple[str, ...]:
         """Names of all files that it may write."""
         pictures = (f"{name}.png" for name in self.draw)
-        return (CLAIMS, "data.npz", "numbers.json", TABLE, PROVENANCE, PAGE, *SHEETS, *pictures)
+        return (CLAIMS, "data.npz", TABLE, PROVENANCE, PAGE, *SHEETS, *pictures)

@@ -1,17 +1,14 @@
 """What a run leaves in its folder: claims, data, and pictures drawn from the data."""
 
-import json
 from collections.abc import Callable, Mapping
-from dataclasses import asdict
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from PIL import Image
-from pydantic import TypeAdapter
 
 from cointoss.study import STYLE
 from cointoss_reproduction.frame.cells import text_of
@@ -20,7 +17,6 @@ from cointoss_reproduction.frame.files import CLAIMS, TABLE
 from cointoss_reproduction.frame.result import Result
 
 _COLORS = 128
-Numbers = TypeVar("Numbers")
 
 
 def save(folder: Path, result: Result, draw: Mapping[str, Callable[[Any], Figure]]) -> None:
@@ -29,11 +25,8 @@ def save(folder: Path, result: Result, draw: Mapping[str, Callable[[Any], Figure
     data = result.data
     if isinstance(data, pd.DataFrame):
         (folder / TABLE).write_text(text_of(data), encoding="utf-8")
-    elif isinstance(data, Mapping):
-        np.savez_compressed(folder / "data.npz", allow_pickle=False, **data)
     else:
-        numbers = json.dumps(asdict(data), indent=1, allow_nan=False, default=np.ndarray.tolist)
-        (folder / "numbers.json").write_text(numbers, encoding="utf-8")
+        np.savez_compressed(folder / "data.npz", allow_pickle=False, **data)
     draw_all(folder, result.data, draw)
 
 
@@ -47,8 +40,3 @@ def draw_all(folder: Path, data: Any, draw: Mapping[str, Callable[[Any], Figure]
         with Image.open(path) as drawn:
             few = drawn.convert("RGB").quantize(_COLORS)
         few.save(path, optimize=True)
-
-
-def read_numbers(folder: Path, kind: type[Numbers]) -> Numbers:
-    """Read the numbers that a run of a study wrote, as the record that they are of."""
-    return TypeAdapter(kind).validate_json((folder / "numbers.json").read_bytes())

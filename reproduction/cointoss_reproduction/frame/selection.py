@@ -209,7 +209,10 @@ def picture_of(cells: pd.DataFrame, said: Declared | Sequence[Declared]) -> "Fig
                 at = [names.index(name) + number / 5 for name in _names(line, part["names"])]
                 axes.errorbar(value, at, xerr=ends, **style)
             else:
-                axes.errorbar(line.eval(part["x"], engine="python"), value, ends, **style)
+                x = line.eval(part["x"], engine="python")
+                axes.errorbar(x, value, ends, **style)
+                if not pd.api.types.is_numeric_dtype(x):
+                    axes.tick_params(axis="x", rotation=20)
         if "names" in part:
             axes.set_yticks(range(len(names)), names)
             axes.invert_yaxis()
@@ -221,7 +224,7 @@ def picture_of(cells: pd.DataFrame, said: Declared | Sequence[Declared]) -> "Fig
     labels = [axes.get_legend_handles_labels()[1] for axes in drawn.axes]
     for axes, own, (_, _, part) in zip(drawn.axes, labels, panels, strict=True):
         if own and ("legend" in part or own != labels[-1]):
-            axes.legend(title=part.get("legend"))
+            axes.legend(title=part.get("legend"), fontsize="x-small")
     if labels[-1] and "legend" not in panels[-1][-1]:
         drawn.axes[-1].legend(loc="upper left", bbox_to_anchor=(1, 1))
     return drawn

@@ -1,6 +1,5 @@
 """Fig. 30, section 5.2: boundaries magnified to 1e-25 m, and how the share of uncertain tosses falls."""
 
-from dataclasses import asdict
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
@@ -11,8 +10,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cointoss import Scenario, analytic
-from cointoss.study import GREY, Array, MapAxis, Progress, code_digest, draw_panel, share
-from cointoss_reproduction.frame import parts
+from cointoss.study import GREY, Array, MapAxis, Progress, draw_panel, share
+from cointoss_reproduction.frame.cells import Cells, table_of
 from cointoss_reproduction.frame.declared import Data, Findings, declared
 from cointoss_reproduction.precision.magnified import MAGNIFICATION, Magnified, magnify
 from cointoss_reproduction.precision.planar_coin import PlanarRelease, planar_coin, units
@@ -67,7 +66,14 @@ def make(
 ) -> Findings:
     """Enlarge the maps of Fig. 29(c, d) and lines through them, and find the share of uncertain tosses."""
     whole = len(MEDIA) * (len(WINDOWS) + lines + 1) + 1
-    done = 0
+    weighed = table_of(
+        [Cells(weights_of, {"medium": tuple(MEDIA)})],
+        lambda done, _: progress(done, whole),
+        {"population": population},
+        kept=kept,
+    )
+    weights = dict(zip(weighed["medium"], zip(weighed["shares"], weighed["whole"], strict=True), strict=True))
+    done = len(weights)
     rng = np.random.default_rng(SEED)
     data: Data = {}
     media: dict[str, dict[str, Any]] = {}
@@ -92,18 +98,17 @@ def make(
             progress(done := done + 1, whole)
         data[f"{medium}, crossings"] = np.array([line.counts for line in followed])
         data[f"{medium}, off"] = off = np.array([line.from_upright.max(axis=1) for line in followed])
-        made = parts.kept(
-            kept,
-            f"{code_digest()}, {medium}, {SEED}, {population}",
-            lambda scenario=scenario: asdict(
-                uncertain_shares(scenario, np.random.default_rng(SEED), population=population)
-            ),
-        )
-        progress(done := done + 1, whole)
-        data[f"{medium}, shares"] = np.divide(*(made[name].mean(axis=0) for name in ("shares", "whole")))
-        media[medium] = _lines(followed) | _standing(off) | _slopes(made["shares"], made["whole"])
+        shares, all_weight = map(np.array, weights[medium])
+        data[f"{medium}, shares"] = shares.mean(axis=0) / all_weight.mean(axis=0)
+        media[medium] = _lines(followed) | _standing(off) | _slopes(shares, all_weight)
         media[medium]["mujoco"] = mujoco if medium == "air" else "-"
     return Findings(data=data, media=media)
+
+
+def weights_of(medium: str, population: int) -> dict[str, list[list[float]]]:
+    """Return the weight of uncertain tosses and all weight, by group of ancestors and accuracy, (n, m)."""
+    found = uncertain_shares(case(air=medium == "air"), np.random.default_rng(SEED), population=population)
+    return {"shares": found.shares.tolist(), "whole": found.whole.tolist()}
 
 
 def _lines(followed: list[Magnified]) -> dict[str, Any]:

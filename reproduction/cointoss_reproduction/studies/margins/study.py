@@ -1,11 +1,9 @@
 """How far is a toss from the boundary? The smallest change of its release that changes its outcome."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -22,9 +20,7 @@ from cointoss.study import (
     Array,
     Codes,
     Estimate,
-    Progress,
     ReleaseQuantity,
-    code_digest,
     in_words,
     paragraphs,
     quantile,
@@ -34,8 +30,9 @@ from cointoss.study import (
     smallest_changes,
     table,
 )
-from cointoss_reproduction.frame import parts
-from cointoss_reproduction.frame.recorded import recorded
+from cointoss_reproduction.frame.cells import Cells, column
+from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.precision.proved_change import proved_change
 from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case, planar_rows
 
@@ -61,50 +58,40 @@ STYLES = ("-", "--", ":")
 """Of the axes."""
 
 
-@dataclass(frozen=True)
-class Margins:
-    """The margins of random tosses, without their signs; -1 where none up to 1 SI unit was found."""
-
-    general: dict[str, list[float]]
-    """Of the general coin, by quantity, in its unit."""
-    planar: list[float]
-    """Of the planar coin, in height [mm]."""
-    proved: list[float]
-    """Lower bounds of the first of these margins, proved [mm]; 0 where there is none."""
-    uncertain: dict[str, list[bool]]
-    """Whether a release ε higher, or ε lower, of those tosses has another outcome, by ε in mm."""
+PLANAR_HEIGHT = "height of the planar coin"
+COINS = {
+    "the paper's zloty in air, χ = 0.8": HEIGHT.name,
+    "the planar coin in vacuum, χ = 0.6": PLANAR_HEIGHT,
+}
+"""And what of them a hand's accuracy is compared with."""
 
 
-def compute(
-    progress: Progress, kept: Path, count: int = COUNT, planar: int = PLANAR, proofs: int = PROOFS
-) -> Margins:
-    """Find the margins of random tosses; what an interrupted computation found is not searched again.
+def general(quantity: ReleaseQuantity, count: int = COUNT) -> pd.DataFrame:
+    """Return the margins of `count` random tosses of the general coin, in the quantity's unit."""
+    return pd.DataFrame(
+        {"margin": found_margins(rows_from_states(load("zloty"), FAMILY.starts(count)), quantity)}
+    )
+
+
+def of_planar(quantity: ReleaseQuantity, planar: int = PLANAR, proofs: int = PROOFS) -> pd.DataFrame:
+    """Return the margins of random tosses of the planar coin, in the quantity's unit.
+
+    Beside them are their proved lower bounds, 0 where none is, and at each of `ACCURACIES` whether the toss
+    is uncertain.
 
     Args:
-        progress: called after each quantity.
-        kept: folder of what is done.
-        count: tosses of the general coin.
-        planar: tosses of the planar coin.
-        proofs: of their margins from below.
+        quantity: of the release.
+        planar: the number of tosses.
+        proofs: the number of the first of them whose bounds are looked for.
     """
-    drawn = rows_from_states(load("zloty"), FAMILY.starts(count))
-    general: dict[str, list[float]] = {}
-    steps = len(QUANTITIES) + 2
-    for done, quantity in enumerate(QUANTITIES):
-        general[quantity.name] = _kept_margins(kept, drawn, quantity, "zloty")
-        progress(done + 1, steps)
-    flat = draw_planar(planar)
-    found = _kept_margins(kept, flat, HEIGHT, "planar")
-    uncertain = {f"{one:g}": uncertain_within(flat, one / HEIGHT.factor).tolist() for one in ACCURACIES}
-    progress(steps - 1, steps)
-    from cointoss_reproduction.precision.proved_change import proved_change
-
+    rows = draw_planar(planar)
+    margins = found_margins(rows, quantity)
     proved = [
-        proved_change(scenario_of_row(flat[i]), HEIGHT, found[i] / HEIGHT.factor) * HEIGHT.factor
-        for i in range(proofs)
+        proved_change(scenario_of_row(row), quantity, margin / quantity.factor) * quantity.factor
+        for row, margin in zip(rows[:proofs], margins.tolist(), strict=False)
     ]
-    progress(steps, steps)
-    return Margins(general=general, planar=found, proved=proved, uncertain=uncertain)
+    uncertain = {_uncertain(one): uncertain_within(rows, quantity, one) for one in ACCURACIES}
+    return pd.DataFrame({"margin": margins, "proved": pd.Series(proved).reindex(range(planar)), **uncertain})
 
 
 def draw_planar(count: int) -> Array:
@@ -114,100 +101,80 @@ def draw_planar(count: int) -> Array:
 
 
 def found_margins(rows: Array, quantity: ReleaseQuantity) -> Array:
-    """Return the margins of tosses along a quantity, in its unit, without their signs, (n,)."""
-    found = smallest_changes(rows, quantity, outcomes=_outcomes, search=MANY)
-    return np.abs(found) * quantity.factor
+    """Return the margins of tosses, in the quantity's unit, NaN where none up to 1 SI unit is found, (n,)."""
+    changes = smallest_changes(rows, quantity, outcomes=_outcomes, search=MANY)
+    return np.where(np.isfinite(changes), np.abs(changes) * quantity.factor, np.nan)
 
 
 def _outcomes(rows: Array) -> Codes:
     return analytic.toss_rows(rows).outcome
 
 
-def _kept_margins(kept: Path, rows: Array, quantity: ReleaseQuantity, name: str) -> list[float]:
-    """Return the margins that an earlier computation kept, or find them and keep them."""
-
-    def compute_part() -> parts.Part:
-        return {"margins": found_margins(rows, quantity)}
-
-    made_by = code_digest()
-    part = parts.kept(kept, f"{made_by}, {name}, {quantity.name}, {len(rows)}", compute_part)
-    margins = part["margins"]
-    return np.where(np.isfinite(margins), margins, -1.0).tolist()
-
-
-def uncertain_within(rows: Array, accuracy: float) -> NDArray[np.bool_]:
-    """Return whether a release that much higher, or lower, has another outcome, (n,).
+def uncertain_within(rows: Array, quantity: ReleaseQuantity, accuracy: float) -> NDArray[np.bool_]:
+    """Return whether a release changed by an accuracy, up or down, has another outcome, (n,).
 
     Args:
         rows: of the tosses, (n, 46).
-        accuracy: ε [m].
+        quantity: what changes.
+        accuracy: ε [the quantity's unit].
     """
-    several = [HEIGHT.change(rows, np.full(len(rows), by)) for by in (0.0, accuracy, -accuracy)]
-    own, above, below = _outcomes(np.concatenate(several)).reshape(3, -1)
+    changes = [np.full(len(rows), by / quantity.factor) for by in (0.0, accuracy, -accuracy)]
+    own, above, below = _outcomes(np.concatenate([quantity.change(rows, by) for by in changes])).reshape(
+        3, -1
+    )
     return (above != own) | (below != own)
 
 
-def sizes_of(margins: Sequence[float]) -> Array:
-    """Return margins with infinity where none was found, (n,)."""
-    sizes = np.array(margins)
-    return np.where(sizes < 0, np.inf, sizes)
+def _uncertain(accuracy: float) -> str:
+    return f"uncertain within {accuracy:g} mm"
 
 
-def below(margins: Sequence[float], accuracy: float) -> Estimate:
-    """Return P(margin < ε), or as a margin that was found is an upper bound, what it is at least."""
-    return share(sizes_of(margins) <= accuracy)
+def sizes_of(cells: pd.DataFrame, quantity: str) -> Array:
+    """Return the margins along a quantity, infinite where none was found, (n,)."""
+    return cells.loc[cells["quantity"] == quantity, "margin"].fillna(np.inf).to_numpy()
 
 
-def not_proved_above(proved: Sequence[float], accuracy: float) -> Estimate:
-    """Return what P(margin < ε) is at most: the part of the margins that are not proved to be above ε."""
-    return share(np.array(proved) < accuracy)
-
-
-def measures(found: Margins) -> dict[str, Any]:
-    """Return what the claims name: by coin, the share of tosses whose margin a hand's accuracy exceeds."""
-    tossed = {
-        "the paper's zloty in air, χ = 0.8": found.general["height"],
-        "the planar coin in vacuum, χ = 0.6": found.planar,
-    }
-    return {"coins": {name: {"small": below(margins, HAND)} for name, margins in tossed.items()}}
-
-
-def tables(found: Margins) -> str:
-    """Return the tables, in Markdown."""
-    general = []
-    for quantity in QUANTITIES:
-        sizes = sizes_of(found.general[quantity.name])
-        shown = [_words(quantile(sizes, part)) for part in PARTS]
-        general.append([f"{quantity.name} [{quantity.unit}]", *shown, f"{np.mean(np.isinf(sizes)):.1%}"])
-    planar = [
-        [
-            f"{one:g}",
-            *(
-                in_words(part, ".3f")
-                for part in (
-                    below(found.planar, one),
-                    not_proved_above(found.proved, one),
-                    share(found.uncertain[f"{one:g}"]),
-                )
-            ),
-        ]
-        for one in ACCURACIES
-    ]
-    half, tenth = 1 / np.median(parts_proved(found)), 1 / np.quantile(parts_proved(found), 0.1)
-    return paragraphs(
-        f"The margins of {len(found.general[HEIGHT.name])} random tosses of the paper's zloty in air, "
-        "χ = 0.8: this part of all tosses has a smaller one than",
-        table(["what varies", *(f"{part:.0%}" for part in PARTS), "none found"], general),
-        f"{len(found.planar)} random planar tosses in vacuum, χ = 0.6, along height:",
-        table("ε [mm] | P(margin ≤ ε), at least | at most, as proved | f(ε)", planar),
-        f"The margin of {len(found.proved)} of them is proved from below, half of them to a part of "
-        f"1/{half:.0f} of what was found or better, a tenth only to 1/{tenth:.0f} or worse.",
+def shares_within(cells: pd.DataFrame, accuracy: float) -> tuple[Estimate, Estimate, Estimate]:
+    """Return what P(margin ≤ ε) of the planar coin is at least, and at most, as proved; and f(ε)."""
+    return (
+        share(sizes_of(cells, PLANAR_HEIGHT) <= accuracy),
+        share(column(cells, "proved") < accuracy),
+        share(column(cells, _uncertain(accuracy))),
     )
 
 
-def parts_proved(found: Margins) -> Array:
+def parts_proved(cells: pd.DataFrame) -> Array:
     """Return the parts of the margins found that are proved, (n,)."""
-    return np.array(found.proved) / sizes_of(found.planar[: len(found.proved)])
+    proved = column(cells, "proved")
+    return proved / sizes_of(cells, PLANAR_HEIGHT)[: len(proved)]
+
+
+def found(cells: pd.DataFrame) -> dict[str, Any]:
+    """Return what the claims name, by coin the share of margins below a hand's accuracy; and the tables."""
+    small = {coin: {"small": share(sizes_of(cells, quantity) <= HAND)} for coin, quantity in COINS.items()}
+    rows = []
+    for quantity in QUANTITIES:
+        sizes = sizes_of(cells, quantity.name)
+        shown = [_words(quantile(sizes, part)) for part in PARTS]
+        rows.append([f"{quantity.name} [{quantity.unit}]", *shown, f"{np.mean(np.isinf(sizes)):.1%}"])
+    proved = parts_proved(cells)
+    half, tenth = 1 / np.median(proved), 1 / np.quantile(proved, 0.1)
+    tables = paragraphs(
+        f"The margins of {len(sizes_of(cells, HEIGHT.name))} random tosses of the paper's zloty in air, "
+        "χ = 0.8: this part of all tosses has a smaller one than",
+        table(["what varies", *(f"{part:.0%}" for part in PARTS), "none found"], rows),
+        f"{len(sizes_of(cells, PLANAR_HEIGHT))} random planar tosses in vacuum, χ = 0.6, along height:",
+        table(
+            "ε [mm] | P(margin ≤ ε), at least | at most, as proved | f(ε)",
+            [
+                [f"{one:g}", *(in_words(part, ".3f") for part in shares_within(cells, one))]
+                for one in ACCURACIES
+            ],
+        ),
+        f"The margin of {len(proved)} of them is proved from below, half of them to a part of "
+        f"1/{half:.0f} of what was found or better, a tenth only to 1/{tenth:.0f} or worse.",
+    )
+    return {"coins": small, "tables": tables}
 
 
 def _words(found: Estimate) -> str:
@@ -215,19 +182,19 @@ def _words(found: Estimate) -> str:
     return f"{value} [{'0' if np.isneginf(found.low) else low}, {high}]"
 
 
-def draw(found: Margins) -> Figure:
+def draw(cells: pd.DataFrame) -> Figure:
     """Draw the distribution functions of both coins."""
     picture = Figure(figsize=(11, 4.6))
     left, right = picture.subplots(1, 2, sharey=True)
     for quantity in QUANTITIES:
         kind = quantity.name.split(" ")[0]
         number = [other.name for other in QUANTITIES if other.name.startswith(kind)].index(quantity.name)
-        sizes = sizes_of(found.general[quantity.name]) / quantity.factor
+        sizes = sizes_of(cells, quantity.name) / quantity.factor
         _steps(right, sizes, color=KINDS[kind], linestyle=STYLES[number], label=quantity.name)
     si = 1 / HEIGHT.factor
-    _steps(left, sizes_of(found.planar) * si, color=INK, label="P(margin < ε)")
-    _steps(left, np.array(found.proved) * si, color=GREY, label="at most, as proved")
-    points = [share(found.uncertain[f"{one:g}"]) for one in ACCURACIES]
+    _steps(left, sizes_of(cells, PLANAR_HEIGHT) * si, color=INK, label="P(margin < ε)")
+    _steps(left, column(cells, "proved") * si, color=GREY, label="at most, as proved")
+    points = [shares_within(cells, one)[-1] for one in ACCURACIES]
     left.errorbar(
         [one * si for one in ACCURACIES],
         [point.value for point in points],
@@ -255,6 +222,10 @@ def _steps(axes, sizes: Array, **style) -> None:
     axes.step(x[np.isfinite(x)], (np.arange(len(x)) + 1)[np.isfinite(x)] / len(x), where="post", **style)
 
 
-REPRODUCTION = recorded(
-    __name__, compute, record=Margins, measures=measures, tables=tables, draw={"margins": draw}
+REPRODUCTION = study(
+    __name__,
+    Cells(general, {"quantity": {one.name: one for one in QUANTITIES}}),
+    Cells(of_planar, {"quantity": {PLANAR_HEIGHT: HEIGHT}}),
+    found=found,
+    draw={"margins": draw},
 )

@@ -38,7 +38,7 @@ STANDS = 1e-3
 AT_REST = 0.01
 """A coin stands at rest whose energy is so near to that of the upright coin [m g r]."""
 STAYS = {"thin, in air": True, "thick, in air": None}
-"""Whether coins are known to stay as long as they fall slowly: one thick coin of 68 stays five times as long."""
+"""Whether coins are known to stay so long: one thick coin of 68 stays five times as long."""
 NEAR, FAR = 2.0**8, 2.0**14
 """So many last digits from a boundary the time is taken for which a coin stands."""
 FALLEN = 0.1
