@@ -32,7 +32,7 @@ def write_results(out: Path) -> None:
     """Write the pages of all results that earlier runs left in a folder; compute nothing."""
     for name in runner.names():
         folder = folder_of(name, out)
-        if (folder / "claims.json").exists():
+        if runner.is_whole(name, out):
             result = runner.kept(name, out)
             with written_together(folder, ("claims.json", PAGE, *SHEETS)) as aside:
                 (aside / "claims.json").write_text(to_json(result.claims), encoding="utf-8")

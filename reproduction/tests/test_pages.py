@@ -17,7 +17,7 @@ WRITTEN = {
         r"^<!-- written by: cointoss reproduce ([\w-]+) -->", page.read_text(encoding="utf-8"), re.MULTILINE
     )
 }
-KEPT = [name for name in runner.names() if (runner.folder_of(name, DOCS) / "claims.json").exists()]
+KEPT = [name for name in runner.names() if runner.is_whole(name, DOCS)]
 
 
 def test_results_are_written_into_the_pages_that_have_a_place_for_them(tmp_path):

@@ -79,12 +79,16 @@ def reproduce(name: str, out: Path, progress: "Progress", *, quick: bool = False
     return result
 
 
+def is_whole(name: str, out: Path) -> bool:
+    """Return whether a run of one of the `names` left its claims below `out`, and a study its table."""
+    folder = folder_of(name, out)
+    return (folder / CLAIMS).exists() and (find(name).read is None or (folder / TABLE).exists())
+
+
 def kept(name: str, out: Path) -> "Result":
-    """Return what an earlier run of one of the `names` left below `out`; without a table, its claims."""
+    """Return what an earlier run of one of the `names` left below `out`: its claims, a study's all."""
     from cointoss_reproduction.frame.claim import read_claims
     from cointoss_reproduction.frame.result import Result
 
     found, folder = find(name), folder_of(name, out)
-    if found.read and (folder / TABLE).exists():
-        return found.read(folder)
-    return Result(claims=read_claims(folder / CLAIMS), data={})
+    return found.read(folder) if found.read else Result(claims=read_claims(folder / CLAIMS), data={})
