@@ -36,11 +36,3 @@ def test_the_engines_that_the_page_names_make_the_laws_that_it_says():
 def test_each_expectation_is_a_claim_with_the_known_verdict():
     claims = [engines.claim_of(DOCS, *place) for place in engines.SHOWN["ports"].values()]
     assert unexpected(claims) == ()
-
-
-def test_the_tables_are_written_into_their_places_alone(tmp_path):
-    page = tmp_path / engines.PAGE
-    place = "A\n\n<!-- written by: make pages, laws -->\n\nold\n\n<!-- end -->\n\nB\n"
-    page.write_text(place)
-    import_module("written").fill(page, engines.blocks(DOCS))
-    assert page.read_text() == place.replace("old", engines.laws(DOCS))

@@ -1,4 +1,4 @@
-"""The notebooks for Jupyter are those of the pages, which the site runs."""
+"""What `make pages` writes: blocks in their places alone, and the notebooks of the pages that the site runs."""
 
 import re
 import sys
@@ -10,13 +10,21 @@ import pytest
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = sorted((DOCS / "examples").glob("*.md"))
 sys.path.append(str(DOCS / "extensions"))
-notebook_of = import_module("written").notebook_of
+written = import_module("written")
+
+
+def test_blocks_are_written_into_their_places_alone(tmp_path):
+    page = tmp_path / "page.md"
+    place = "A\n\n<!-- written by: make pages, laws -->\n\nold\n\n<!-- end -->\n\nB\n"
+    page.write_text(place)
+    written.fill(page, {"laws": "new\\1", "ports": "elsewhere"})
+    assert page.read_text() == place.replace("old", "new\\1")
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_a_notebook_is_that_of_its_page(page):
     """`make pages` writes it."""
-    assert page.with_suffix(".ipynb").read_text(encoding="utf-8") == notebook_of(page)
+    assert page.with_suffix(".ipynb").read_text(encoding="utf-8") == written.notebook_of(page)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
