@@ -50,12 +50,14 @@ def test_a_coin_that_falls_flat_stops_after_the_bounces_of_the_closed_form(by, c
     expected = v_0 * chi ** np.arange(1 + np.ceil(np.log(v_0 / threshold) / np.log(1 / chi)))
     tossed = package.toss(case, settings=settings)
     speeds, after = speeds_of(tossed.impacts)
-    # Each bounce adds the error of its rebound; four contacts at once leave 1e-4 of the speed.
-    assert speeds == pytest.approx(expected, rel=25 * near)
-    assert after[:-1] == pytest.approx(chi * speeds[:-1], rel=2 * near)
-    assert after[-1] == pytest.approx(0, abs=3 * near)
+    # Rounding; in MuJoCo each bounce adds its rebound's error, and four contacts leave 1e-4 of the speed.
+    mujoco = (25 * near, 2 * near, 2.5 * near)
+    of_path, of_rebound, at_rest = (1e-12, 1e-14, 1e-15) if package is analytic else mujoco
+    assert speeds == pytest.approx(expected, rel=of_path)
+    assert after[:-1] == pytest.approx(chi * speeds[:-1], rel=of_rebound)
+    assert after[-1] == pytest.approx(0, abs=at_rest)
     assert (tossed.outcome, tossed.ending) == (Outcome.HEADS, Ending.SETTLED)
-    assert tossed.end_time == pytest.approx((v_0 + 2 * expected[1:].sum()) / G, rel=25 * near)
+    assert tossed.end_time == pytest.approx((v_0 + 2 * expected[1:].sum()) / G, rel=of_path)
 
 
 @ALL

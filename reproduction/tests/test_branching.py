@@ -152,11 +152,13 @@ def test_chances_sum_to_the_population_and_follow_the_scores(scores, population)
     assert np.ptp(found[below] / np.array(scores)[below]) == pytest.approx(0) if below.any() else True
 
 
+@pytest.mark.parametrize("is_long", [False, pytest.param(True, marks=pytest.mark.slow)])
 @pytest.mark.parametrize(
     ("chi", "law", "intervals"), [(0.0, "smooth", 60), (0.6, "smooth", 16), (0.3, "perfectly_rough", 16)]
 )
-def test_no_dead_part_holds_a_boundary(chi, law, intervals):
+def test_no_dead_part_holds_a_boundary(chi, law, intervals, is_long):
     """Parts of it, and parts of these, are tossed."""
+    intervals, most, least = (150, 60, 200) if is_long else (intervals, 8, 30)
     coin, own = coin_of(chi, law)
     rng, count = np.random.default_rng(5), 0
     parents = drawn(intervals)
@@ -168,7 +170,7 @@ def test_no_dead_part_holds_a_boundary(chi, law, intervals):
         step = Fraction(1, 1000 * PARTS**level)
         made = [expand(coin, own, "height", step, parent) for parent in parents]
         parts = [pair for one in made for pair in zip(one.points[:-1], one.lives, strict=True)]
-        dead = some([low for low, lives in parts if not lives], 8)
+        dead = some([low for low, lives in parts if not lives], most)
         count += len(dead)
         for part in dead:
             inside = expand(coin, own, "height", step / PARTS, part)
@@ -176,26 +178,30 @@ def test_no_dead_part_holds_a_boundary(chi, law, intervals):
             (finer,) = some(inside.points[:-1], 1)
             assert not expand(coin, own, "height", step / PARTS**2, finer).differs.any()
         parents = some([low for low, lives in parts if lives], intervals)
-    assert count > 30
+    assert count > least
 
 
-def test_branching_finds_the_shares_that_pairs_of_tosses_show():
+@pytest.mark.parametrize(
+    ("times", "number", "levels", "population", "pairs"),
+    [(6, 80, 5, 12, 800), pytest.param(10, 100, 7, 40, 3000, marks=pytest.mark.slow)],
+)
+def test_branching_finds_the_shares_that_pairs_of_tosses_show(times, number, levels, population, pairs):
     coin, own = coin_of(0.6)
     rng = np.random.default_rng(11)
     runs = []
-    for seed in range(6):
+    for seed in range(times):
         found = branch(
-            coin, own, drawn(80, seed=seed), quantity="height", largest=Fraction(1, 1000), levels=5,
-            population=12, rng=rng,
+            coin, own, drawn(number, seed=seed), quantity="height", largest=Fraction(1, 1000), levels=levels,
+            population=population, rng=rng,
         )  # fmt: skip
         runs.append(found.shares.mean(axis=0))
         whole = found.whole.mean(axis=0)
         assert whole[0] == pytest.approx(1)
         assert 0.5 < whole[-1] < 2
         assert (found.parted[:, 1:].sum(axis=0) > found.shares[:, 1:].sum(axis=0)).all()
-    shares, errors = np.mean(runs, axis=0), np.std(runs, axis=0) / np.sqrt(5)
-    starts = drawn(800, seed=12)
-    for level in (0, 2, 4):
+    shares, errors = np.mean(runs, axis=0), np.std(runs, axis=0) / np.sqrt(times - 1)
+    starts = drawn(pairs, seed=12)
+    for level in (0, (levels - 1) // 2, levels - 1):
         step = Fraction(1, 1000 * 10**level)
         outcome = np.array(
             [
@@ -211,31 +217,43 @@ def test_branching_finds_the_shares_that_pairs_of_tosses_show():
         assert sigma < 0.3 * p
 
 
-def test_runs_agree_at_an_atoms_size():
+@pytest.mark.parametrize(
+    ("times", "levels", "population"), [(5, 7, 20), pytest.param(8, 14, 40, marks=pytest.mark.slow)]
+)
+def test_runs_agree_at_an_atoms_size_and_at_the_quantum_width(times, levels, population):
     """Without any preference they scatter more."""
     scenario = case(air=False, restitution=0.6)
     runs = [
-        uncertain_shares(scenario, np.random.default_rng([9, run]), levels=7, population=20)
-        for run in range(5)
+        uncertain_shares(scenario, np.random.default_rng([9, run]), levels=levels, population=population)
+        for run in range(times)
     ]
     found = [run.shares[:, -1].mean() for run in runs]
     assert 0.05 < np.log10(found).std() < 0.5
 
 
-def test_boundaries_are_told_apart_by_what_the_coin_does_there():
+@pytest.mark.parametrize(
+    ("sizes", "least", "most_flat", "points", "most"),
+    [
+        ({"levels": 2, "population": 8, "followed": 4}, 2, 3, 800, 20),
+        pytest.param(
+            {"levels": 4, "population": 30, "followed": 20}, 15, 10, 3000, 100, marks=pytest.mark.slow
+        ),
+    ],
+)
+def test_boundaries_are_told_apart_by_what_the_coin_does_there(sizes, least, most_flat, points, most):
     """A coin that lands flat at its first touch: the height at which either rim point is first."""
     coin, own = coin_of(0.6)
     rng = np.random.default_rng(3)
-    found = uncertain_shares(case(air=False, restitution=0.6), rng, levels=2, population=8, followed=4)
-    assert (found.boundaries.sum(axis=0) > 2).all()
-    assert (found.flat.sum(axis=0) < 3).all()
+    found = uncertain_shares(case(air=False, restitution=0.6), rng, **sizes)
+    assert (found.boundaries.sum(axis=0) > least).all()
+    assert (found.flat.sum(axis=0) < most_flat).all()
     assert (found.flat <= found.boundaries).all()
     # Both kinds are met on a fine line of the paper's coin that bounces much.
     coin, own = coin_of(0.8)
     step = Fraction(1, 10**5)
-    line = spread(drawn(1, seed=2)[0], "height", step, 800)
+    line = spread(drawn(1, seed=2)[0], "height", step, points)
     tosses = toss_many(coin, own, line)
-    changes = [n for n, (one, other) in enumerate(pairwise(tosses)) if one.outcome != other.outcome][:20]
+    changes = [n for n, (one, other) in enumerate(pairwise(tosses)) if one.outcome != other.outcome][:most]
     found = [what_lies_there(coin, own, "height", step, line[n]) for n in changes]
     stands, lands = np.array(found).T
     assert not (stands & lands).any()

@@ -68,21 +68,21 @@ def long_arithmetic():
 
 @pytest.mark.parametrize(("chi", "air", "law"), COINS)
 def test_outcomes_are_the_engines(chi, air, law):
-    """Past the engine's horizon less than a hundredth differ; heads are half, to 3.5 deviations."""
+    """Its own horizon ends some tosses before they are decided: of those that bounce little, none."""
     coin, own = coin_of(chi, air, law)
-    z, w, starts = drawn(15 if air else 100)
+    z, w, starts = drawn(300)
     found = toss_many(coin, own, starts)
     engine = analytic.toss_rows(planar_rows(scenario_of(chi, air, law), z, w)).outcome
     outcomes = np.array([toss.outcome for toss in found])
-    assert np.count_nonzero(outcomes != engine) <= 1
-    assert np.mean(outcomes == Outcome.HEADS) == pytest.approx(0.5, abs=3.5 * 0.5 / np.sqrt(len(starts)))
-    assert sum(len(toss.contacts) for toss in found) > 0 or air
+    assert np.mean(outcomes == engine) > 0.99
+    assert 0.4 < np.mean(outcomes == Outcome.HEADS) < 0.6
+    assert sum(len(toss.contacts) for toss in found) > 0
 
 
 @pytest.mark.parametrize(("chi", "air", "law"), COINS)
 def test_faces_are_proved_and_the_same(chi, air, law):
     coin, own = coin_of(chi, air, law)
-    _, _, starts = drawn(4 if air else 25, seed=2)
+    _, _, starts = drawn(8 if air else 25, seed=2)
     found = [toss.outcome for toss in toss_many(coin, own, starts)]
     proved = [certified_toss(coin, own, start, most_bits=200).outcome for start in starts]
     decided = [outcome != Outcome.UNDECIDED for outcome in proved]
