@@ -1,4 +1,4 @@
-"""What `make pages` writes: blocks in their places alone, and the notebooks of the pages that the site runs."""
+"""What `make pages` writes: blocks in their places alone, and the notebooks of the site's pages."""
 
 import re
 import sys
