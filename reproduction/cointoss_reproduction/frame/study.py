@@ -52,7 +52,9 @@ def study(
         return Findings(data=cells, **{"tables": tables, **usual, **sizes, **measures, **found(cells)})
 
     def make(progress: Progress, *, kept: Path | None = None, **sizes: Any) -> Findings:
-        return findings(table_of(parts, progress, sizes, kept=kept), **sizes)
+        # A cell may name `out`, the folder of all results, to be held against another study's.
+        asked = sizes if kept is None else {"out": kept.parents[2], **sizes}
+        return findings(table_of(parts, progress, asked, kept=kept), **sizes)
 
     def read(folder: Path) -> Result:
         return result(module, findings(read_table(folder / TABLE)))

@@ -67,11 +67,17 @@ def uncertain_shares(
     )
 
 
-def share_at(groups: Branches, level: int) -> Estimate:
-    """Return f at one of `ACCURACIES`; its interval is wide where no toss is uncertain."""
-    if not groups.shares[:, level].any():
-        return Estimate(0.0, 0.0, CEILING, len(groups.shares), "groups of ancestors")
-    found = _of_groups(_logarithm(level), groups.shares, groups.whole)
+def share_at(shares: Array, whole: Array, level: int) -> Estimate:
+    """Return f at an accuracy; its interval is wide where no toss is uncertain.
+
+    Args:
+        shares: weight of the uncertain tosses, by group of ancestors and accuracy, (n, m).
+        whole: all weight, (n, m).
+        level: number of the accuracy.
+    """
+    if not shares[:, level].any():
+        return Estimate(0.0, 0.0, CEILING, len(shares), "groups of tosses")
+    found = _of_groups(_logarithm(level), shares, whole)
     value, low, high = (10 ** min(x, log10(CEILING)) for x in found.ends)
     return Estimate(value, low, high, found.count, found.counted)
 
@@ -86,7 +92,7 @@ def slope_between(shares: Array, whole: Array, first: int, last: int) -> Estimat
         last: of the finer one.
     """
     if not shares[:, last].any():
-        return Estimate(0.0, -np.inf, np.inf, len(shares), "groups of ancestors")
+        return Estimate(0.0, -np.inf, np.inf, len(shares), "groups of tosses")
     start, end = _logarithm(first), _logarithm(last)
     return _of_groups(lambda *means: (start(*means) - end(*means)) / (last - first), shares, whole)
 
@@ -122,6 +128,6 @@ def _of_groups(statistic: Callable[..., float], *numbers: Array) -> Estimate:
     return jackknife(
         lambda kept: statistic(*(one[kept].mean(axis=0) for one in numbers)),
         count,
-        "groups of ancestors",
+        "groups of tosses",
         count,
     )

@@ -1,7 +1,7 @@
 """Is coin tossing predictable? The share of tosses left uncertain, by accuracy and restitution."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from math import log, log10, sqrt
+from math import log10
 from typing import Any
 
 import numpy as np
@@ -80,7 +80,9 @@ def uncertain(
         followed=followed if floor == SMOOTH and quantity == "height" else 0,
     )
     rows = list(of_each(found))
-    rows[-1] |= of_all(rows) | {"tosses": found.tosses, "undecided": found.undecided}
+    x, f = -np.log10([row["accuracy"] for row in rows]), [row["share"].value for row in rows]
+    fine = accuracy_for(x, f, PREDICTABLE)
+    rows[-1] |= {"fine": fine, "tosses": found.tosses, "undecided": found.undecided}
     return rows
 
 
@@ -94,7 +96,7 @@ def of_each(found: Branches) -> Iterator[dict[str, Any]]:
         end = WINDOWS.get(accuracy)
         yield {
             "accuracy": accuracy,
-            "share": share_at(found, level),
+            "share": share_at(found.shares, found.whole, level),
             "parted": min(parted[level] / whole[level], 1.0),
             "energy": energy[level] / parted[level] if parted[level] else 0.0,
             "window": f"{accuracy:.0e} to {end:.0e}" if end in accuracies else None,
@@ -103,31 +105,6 @@ def of_each(found: Branches) -> Iterator[dict[str, Any]]:
             else None,
             "flat": flat_share(found, level),
         }
-
-
-def of_all(rows: Sequence[Mapping[str, Any]]) -> dict[str, float]:
-    """Return what follows from all accuracies of a case.
-
-    How x = -log10 of the accuracy at which a toss parts from its neighbour is distributed over tosses; those
-    that part above the first count as if at it. Were x normal, α would be nearly 1 from `normal` on, for the
-    logarithm of a normal distribution's tail falls by (x - mean)/spread² over each unit of x.
-    """
-    x = -np.log10([row["accuracy"] for row in rows])
-    parted, f = np.array([row["parted"] for row in rows]), [row["share"].value for row in rows]
-    mean = float(np.trapezoid(parted, x))
-    # The trapezoidal rule, corrected at its end for steps of a decade (Euler and Maclaurin).
-    square = float(2 * np.trapezoid((x - x[0]) * parted, x) + parted[0] / 6)
-    spread = sqrt(max(square - mean**2, 0.0))
-    slopes = [(row["accuracy"], row["alpha"].value >= NEARLY_SMOOTH) for row in rows if row["alpha"]]
-    rough = [n for n, (_, is_smooth) in enumerate(slopes) if not is_smooth]
-    smooth = slopes[rough[-1] + 1 if rough else 0 :]
-    return {
-        "fine": accuracy_for(x, f, PREDICTABLE),
-        "mean": float(x[0]) + mean,
-        "spread": spread,
-        "normal": float(10 ** -(float(x[0]) + mean + NEARLY_SMOOTH * spread**2 * log(10))),
-        "smooth": smooth[0][0] if smooth else float("nan"),
-    }
 
 
 def accuracy_for(x: Any, f: Sequence[float], share: float) -> float:
@@ -169,7 +146,6 @@ def found(cells: pd.DataFrame) -> dict[str, Any]:
         "soft": of(SMOOTH, 0.0, HAND, "alpha"),
         "floors": {
             floor: {
-                "alpha": of(floor, CHI, last, "alpha"),
                 "share": of(floor, CHI, QUANTUM, "share"),
                 "headline": headline if floor == SMOOTH else "",
             }

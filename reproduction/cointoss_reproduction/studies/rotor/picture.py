@@ -1,0 +1,110 @@
+"""What the study of the rotor shows: a rotor that hops, the map of its touches, f and α by the chain."""
+
+from math import pi
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from cointoss.study import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILION, Array
+from cointoss_reproduction.studies.rotor.chain import ANGLE, SPIN, Coin, V, Z, fly, next_touch, strike
+
+COLORS = {0.3: GREEN, 0.6: BLUE, 0.8: ORANGE, 0.9: PURPLE}
+"""Restitutions whose curves are drawn."""
+SHOWN = Coin(inertia=0.25, half=0.0, restitution=0.6, rough=False, slowing=0.0, drag=0.0)
+ROTOR = (1.0, 0.8, 1.06, 10.0, 0.0)
+"""A rotor that has just left the floor."""
+TOUCHES = 3
+SLOW, SPUN = 1e-3, 2000.0
+"""ν and ω of the rotor whose next touch is mapped."""
+
+
+def draw(cells: pd.DataFrame) -> Figure:
+    """Draw them."""
+    picture = Figure(figsize=(11, 7.6))
+    hopping, mapped, shares, slopes = picture.subplots(2, 2).flat
+    draw_rotor(hopping)
+    draw_map(mapped)
+    draw_shares(shares, cells)
+    draw_slopes(slopes, cells)
+    return picture
+
+
+def draw_rotor(axes: Axes) -> None:
+    """Draw the heights of a rotor's centre and ends over time, and where it touches."""
+    state, now = np.array(ROTOR), 0.0
+    for _ in range(TOUCHES):
+        length = next_touch(SHOWN, state)
+        time = np.linspace(0, length, 400)
+        centre = state[Z] + state[V] * time - time**2 / 2
+        swing = np.sin(state[ANGLE] + state[SPIN] * time)
+        axes.plot(now + time, centre, color=INK, linewidth=1.5)
+        for end, color in ((swing, BLUE), (-swing, VERMILION)):
+            axes.plot(now + time, centre + end, color=color, linewidth=0.8)
+        fly(SHOWN, state, np.zeros(5), length)
+        now += length
+        strike(SHOWN, state, np.zeros(5))
+        axes.plot(now, 0.0, "o", color=INK, markersize=5)
+    axes.axhline(0, color=GREY)
+    axes.axhline(1, color=GREY, linewidth=0.8, linestyle="--")
+    axes.set(title="a rotor: its centre hops, its ends turn", xlabel="time [√(r/g)]", ylabel="height [r]")
+
+
+def touch(state: Array) -> float:
+    """Return ν' after the next touch of a rotor that falls."""
+    moved = state.copy()
+    fly(SHOWN, moved, np.zeros(5), next_touch(SHOWN, moved))
+    strike(SHOWN, moved, np.zeros(5))
+    return float(moved[V] / moved[SPIN])
+
+
+def draw_map(axes: Axes) -> None:
+    """Draw ν' over the depth of the first dip, and what the equations of motion give."""
+    share = np.linspace(0.002, 0.998, 60)
+    # Upright at the time at which the gap is least, half a turn after a passage that dips by D - π ν.
+    angle = pi / 2 + SLOW - pi
+    height = 1 - (share - 1) * pi * SLOW - SLOW**2 / 2
+    found = [touch(np.array([z, -SLOW * SPUN, angle, SPUN, 0.0])) for z in height]
+    axes.plot(share, np.array(found) / SLOW, ".", color=INK, label="equations of motion")
+    axes.plot(
+        share,
+        (1 + SHOWN.restitution) * np.sqrt(2 * pi * share / SLOW) - 1,
+        color=BLUE,
+        label="(1 + χ) √(2D)/ν - 1",
+    )
+    axes.axhline(0, color=GREY, linewidth=0.8)
+    axes.set(title="the map of a touch", xlabel="depth of the dip D/(π ν)", ylabel="ν'/ν")
+    axes.legend(fontsize="small")
+
+
+def draw_shares(axes: Axes, cells: pd.DataFrame) -> None:
+    """Draw f as it is predicted and counted, on a smooth floor in vacuum."""
+    for chi, color in COLORS.items():
+        rows = cells.query(f"floor == 'smooth, vacuum' and chi == {chi}")
+        axes.loglog(rows["accuracy"], rows["predicted"], color=color, label=f"χ = {chi:g}")
+        if "counted" in rows:
+            axes.loglog(rows["accuracy"], rows["counted"], "o", color=color, markersize=3)
+    axes.set(title="f(ε): lines predicted, dots counted", xlabel="accuracy ε [m]", ylim=(1e-14, 2))
+    axes.invert_xaxis()
+    axes.legend(fontsize="small")
+
+
+def draw_slopes(axes: Axes, cells: pd.DataFrame) -> None:
+    """Draw α by the chain, with its intervals, and by the law of the limit."""
+    for chi, color in COLORS.items():
+        rows = cells.query(f"far == {chi}")
+        if rows.empty:
+            continue
+        value, low, high = (rows[f"far_alpha{end}"] for end in ("", " low", " high"))
+        axes.errorbar(
+            rows["decades"], value, [value - low, high - value], fmt="o", color=color, markersize=3, capsize=2
+        )
+        axes.plot(rows["decades"], rows["law"], color=color, label=f"χ = {chi:g}")
+    axes.set(
+        title="α: dots the chain, lines the law of its limit",
+        xlabel="decades of accuracy, -log10 ε",
+        ylim=(0, 1),
+    )
+    axes.axhline(1, color=GREY, linewidth=0.8)
+    axes.legend(fontsize="small")
