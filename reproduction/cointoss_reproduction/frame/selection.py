@@ -172,10 +172,10 @@ def _across(heads: list[str], body: list[list[str]], names: list[str]) -> tuple[
 
 
 def _cell(found: Any, form: str = "") -> str:
+    if pd.isna(found.value if isinstance(found, Estimate) else found):
+        return ""
     if isinstance(found, Estimate):
         return in_words(found, form) if form else percent(found)
-    if found is None or pd.isna(found):
-        return ""
     return format(found, form or ("g" if isinstance(found, float) else ""))
 
 

@@ -3,8 +3,10 @@
 from typing import Any
 
 import numpy as np
+from scipy.special import ndtr
 
 from cointoss import Engine, Hand, Scenario
+from cointoss.study import Array
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.ends import ends_of
@@ -15,7 +17,7 @@ AXES = {
     "scatter": {"± 1°": 1.0, "± 10°": 10.0},
     "offset": (0.0, 1e-5, 5e-5, 1e-4),
     "friction": (0.0, 0.02, 0.1, 0.3, 1.0),
-    "spin": (30.0, 60.0, 120.0),
+    "spin": (30.0, 60.0, 90.0, 120.0),
     "engine": (str(Engine.ANALYTIC), str(Engine.MUJOCO)),
 }
 """Thickness of the coin, a cent's and as broad as the part of a rounded edge on which it stands [m]; standard
@@ -48,12 +50,13 @@ def spun(
     engine: str,
     parts: int = 1,
     by_mujoco: int = 200,
-) -> dict[str, float | None] | None:
+) -> dict[str, Any] | None:
     """Spin a cent 1/`parts` of `SPINS` times; by MuJoCo `by_mujoco` times, only with care and far off.
 
-    It `turns` by Ω² h/(6 μ g) until friction, μ m g, has stopped the slip of a rim's lowest point [rad].
+    It `turns` by Ω² h/(6 μ g) until friction, μ m g, has stopped the slip of a rim's lowest point [rad];
+    without friction, `stays` is the share that leans by less than the `balance` of either rim.
     """
-    is_far, is_mujoco = (scatter, offset) == FAR, engine == Engine.MUJOCO
+    is_far, is_mujoco, lean = (scatter, offset) == FAR, engine == Engine.MUJOCO, float(np.radians(scatter))
     if not is_far and (is_mujoco or (friction, spin) != USUAL):
         return None
     coin = {**COIN["coin"], "thickness": edge, "center_of_mass": [0.0, 0.0, offset]}
@@ -61,13 +64,33 @@ def spun(
     scenario = Scenario.model_validate({**COIN, "coin": coin, "floor": floor})
     ends = ends_of(
         scenario,
-        Hand(spun=True, spin=spin, psi_scatter=float(np.radians(scatter)), up="either"),
+        Hand(spun=True, spin=spin, psi_scatter=lean, up="either"),
         by_mujoco if is_mujoco else SPINS[scatter] // parts,
         engine=engine,
         seed=SEED + AXES["offset"].index(offset),
     )
-    turns = spin**2 * edge / (6 * friction * scenario.gravity) if friction else None
-    return {**ends, "turns": turns}
+    rims = np.array([edge / 2 - offset, edge / 2 + offset])
+    return {
+        **ends,
+        "turns": spin**2 * edge / (6 * friction * scenario.gravity) if friction else None,
+        "stays": None if friction else float(np.sum(ndtr(balance(scenario, rims, spin) / lean)) - 1),
+    }
+
+
+def balance(scenario: Scenario, a: Array, spin: float) -> Array:
+    """Return the lean from which a coin on a smooth floor leans out further, (n,) [rad].
+
+    Where it is turned about the vertical it spins at -Ω sin φ about its normal, and
+    J_ξ d²φ/dt² = ((J_ζ - J_ξ) Ω² + m g r) φ - m g a for small φ and a.
+
+    Args:
+        scenario: of the coin.
+        a: from C to the rim's lowest point along the normal, (n,) [m].
+        spin: Ω [rad/s].
+    """
+    body = scenario.body
+    gyroscopic = (body.inertia[2][2] - body.inertia[0][0]) * spin**2 / (body.mass * body.gravity)
+    return a / (body.radius + gyroscopic)
 
 
 REPRODUCTION = study(__name__, Cells(spun, AXES))
