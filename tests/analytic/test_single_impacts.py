@@ -17,8 +17,7 @@ from tests.helpers.impacts import draw_impact
 def test_each_impact_is_that_of_a_toss(law, monkeypatch):
     # Both as written: Coulomb's law takes logarithms, musl's in the library and here the system's.
     monkeypatch.setattr(single_impacts, "strike_each", strike_each)
-    rng = np.random.default_rng(int(law))
-    case, first = draw_impact(rng, law)
+    case, first = draw_impact(np.random.default_rng(int(law)), law)
     states = np.array([first, first, first])
     chi, mu = np.array([0.2, 0.9, 0.9]), np.array([0.3, 0.3, 0.1])
     impacts, solved = strike(case.body, case.rules, states, restitution=chi, friction=mu)

@@ -28,8 +28,7 @@ def rim(body):
 
 @pytest.mark.parametrize("seed", range(20))
 def test_gap_and_lowest_point_are_those_of_the_whole_rim(seed):
-    rng = np.random.default_rng(seed)
-    R = np.array(rotation_matrix(quaternion(draw_quaternion(rng))))
+    R = np.array(rotation_matrix(quaternion(draw_quaternion(np.random.default_rng(seed)))))
     z = 0.1
     heights = z + (rim(IMPERFECT) - IMPERFECT.center) @ R[2]
     point, flat = lowest_point(IMPERFECT, tuple(R[2]), (1.0, 2.0, 3.0))

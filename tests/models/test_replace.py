@@ -67,8 +67,7 @@ def test_a_quaternion_takes_the_place_of_the_angles_and_keeps_its_digits(seed):
     )
     # It is of norm 1 within rounding by now, and stays as it is.
     assert turned.replace("floor.restitution", 0.5).release.quaternion == turned.release.quaternion
-    back = turned.replace("release.angles", HERE.release.angles)
-    assert back == HERE
+    assert turned.replace("release.angles", HERE.release.angles) == HERE
 
 
 @given(st.sampled_from(sorted(UNITS)), st.floats(-2, 2))

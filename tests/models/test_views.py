@@ -90,8 +90,7 @@ def test_plots_are_labelled(tossed):
     assert axes.get_lines()[0].get_color() == "red"
     assert axes.get_ylabel() == "height of the mass centre [m]"
     assert axes.get_xlabel() == "time [s]"
-    drawn = sum(len(line.get_xdata()) for line in axes.get_lines()[1:])
-    assert drawn == len(tossed.impacts)
+    assert sum(len(line.get_xdata()) for line in axes.get_lines()[1:]) == len(tossed.impacts)
 
 
 def test_a_plot_without_axes_is_a_figure_of_its_own(tossed):

@@ -225,8 +225,7 @@ def test_the_change_is_the_slope_of_the_force(b, h):
 
 @given(st.integers(0, 10_000), st.sampled_from([0.0, 0.1, 0.5, 1.0]))
 def test_the_force_is_homogeneous_and_odd(seed, b):
-    rng = np.random.default_rng(seed)
-    v, w = rough_motion(rng)
+    v, w = rough_motion(np.random.default_rng(seed))
     body, size = coin(b, c=(1e-3, 2e-3, 1e-4)), force_scale(b, v, w)
     here = pull(body, v, w)
     assert np.abs(pull(body, -v, -w) + here).max() < 1e-12 * size
@@ -237,8 +236,7 @@ def test_the_force_is_homogeneous_and_odd(seed, b):
 
 @given(st.integers(0, 10_000), st.sampled_from([0.0, 0.1, 0.5, 1.0]), st.sampled_from([0.0, H, R]))
 def test_the_airs_power_is_never_positive(seed, b, h):
-    rng = np.random.default_rng(seed)
-    v, w = rough_motion(rng)
+    v, w = rough_motion(np.random.default_rng(seed))
     body = coin(b, h, c=(1e-3, 2e-3, h / 4))
     f, m = force_and_moment(body, vector(v), vector(w))
     if np.any(v) or np.any(w):
@@ -250,8 +248,7 @@ def test_the_airs_power_is_never_positive(seed, b, h):
 @given(st.integers(0, 10_000), st.sampled_from([0.1, 0.5, 1.0]))
 def test_the_force_is_the_gradient_of_a_convex_dissipation(seed, b):
     """The changes along the six axes make a symmetric matrix without positive eigenvalues."""
-    rng = np.random.default_rng(seed)
-    v, w = rough_motion(rng)
+    v, w = rough_motion(np.random.default_rng(seed))
     body = coin(b)
     axes = np.eye(6) * [1, 1, 1, 1 / R, 1 / R, 1 / R]
     K = np.array([change(body, v, w, axis[:3], axis[3:]) for axis in axes])

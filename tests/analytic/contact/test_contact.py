@@ -140,8 +140,7 @@ def test_eulers_disk_precesses_at_its_rate(mode, tilt):
     mu = 0.0 if mode == Mode.SLIDING else 0.5
     assert floor_force(held(body, FloorFriction(mu), mode, y), y) == pytest.approx([0, 0, M * G], abs=1e-14)
     states, times = follow_for(body, FloorFriction(mu), mode, y, 30 / rate)
-    heights = [up_of(s)[2] for s in states]
-    assert np.array(heights) == pytest.approx(np.cos(tilt), abs=1e-9)
+    assert np.array([up_of(s)[2] for s in states]) == pytest.approx(np.cos(tilt), abs=1e-9)
     R = np.array(rotation_matrix(tuple(states[-1][6:10])))
     turned = np.arctan2(R[0, 2], -R[1, 2])
     assert np.angle(np.exp(1j * (turned - 0.2 - rate * times[-1]))) == pytest.approx(0, abs=1e-7)
@@ -388,8 +387,7 @@ def test_air_slows_a_wobbling_coin():
     body = scenario(coin=THIN, air=AIR).body
     y = on_floor(body, Mode.SLIDING, (0.0, 1.0, 0.0), (3.0, 20.0, 3.0))
     states, _ = follow_for(body, SMOOTH, Mode.SLIDING, y, 0.1)
-    energies = np.array([energy_of(body, s) for s in states])
-    assert np.all(np.diff(energies) < 0)
+    assert np.all(np.diff(np.array([energy_of(body, s) for s in states])) < 0)
 
 
 def test_the_direction_of_no_slip_is_none():

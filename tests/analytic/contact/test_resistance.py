@@ -282,8 +282,7 @@ def test_eulers_disk_falls_flat_as_the_square_of_the_time_left_under_resistance_
     even = np.linspace(times[low][0], times[low][-1], 40)
     seen = np.interp(even, times, tilts)
     falls, middle = -np.diff(seen), (seen[1:] + seen[:-1]) / 2
-    power = np.polyfit(np.log(middle), np.log(falls), 1)[0]
-    assert 1 / (1 - power) == pytest.approx(2, abs=0.05)
+    assert 1 / (1 - np.polyfit(np.log(middle), np.log(falls), 1)[0]) == pytest.approx(2, abs=0.05)
 
 
 def test_eulers_disk_stops_pivoting_and_wobbles_on_under_resistance_to_pivoting_alone():

@@ -103,8 +103,7 @@ def test_a_coin_at_rest_sinks_through_air_as_its_drag_says():
 
 def test_thin_air_is_nearly_none():
     """The change is of first order in λ, whichever of the two forms a flight has."""
-    rng = np.random.default_rng(63)
-    release = draw_release(rng)
+    release = draw_release(np.random.default_rng(63))
     release["angular_velocity"][2] = 0.0
     ends = []
     for share in (0.0, 1e-8, 2e-8):

@@ -91,8 +91,7 @@ def test_air_never_adds_energy(b, tosses):
 
 @pytest.mark.parametrize("seed", range(4))
 def test_flight_in_air_is_that_of_the_papers_integrals(seed):
-    rng = np.random.default_rng(100 + seed)
-    case = in_flight(rng, in_air=True)
+    case = in_flight(np.random.default_rng(100 + seed), in_air=True)
     referee = Referee(case)
     _, y = referee.fly(referee.start(), 0.5, until_touch=False)
     end = analytic.toss(case).sample([0.5])
@@ -123,13 +122,11 @@ def test_one_step_is_of_order_eight():
     counts = np.array([8, 12, 16, 24])
     errors = [np.linalg.norm((after(int(n)) - exact)[6:10]) for n in counts]
     assert min(errors) > 1e-13, "rounding would hide the order"
-    order = -np.polyfit(np.log(counts), np.log(errors), 1)[0]
-    assert 7.6 < order < 8.8
+    assert 7.6 < -np.polyfit(np.log(counts), np.log(errors), 1)[0] < 8.8
 
 
 def test_turning_the_sign_of_the_quaternion_changes_nothing():
-    rng = np.random.default_rng(6)
-    case = in_flight(rng, in_air=True)
+    case = in_flight(np.random.default_rng(6), in_air=True)
     flipped = case.replace("release.quaternion", [-x for x in case.release.attitude])
     t = np.linspace(0, 0.5, 20)
     a, b = analytic.toss(case).sample(t), analytic.toss(flipped).sample(t)
@@ -145,8 +142,7 @@ def test_quaternion_keeps_its_norm():
 
 @pytest.mark.parametrize("seed", range(8))
 def test_the_acceleration_of_the_gap_is_that_of_its_samples(seed):
-    rng = np.random.default_rng(seed)
-    case = in_flight(rng, in_air=True)
+    case = in_flight(np.random.default_rng(seed), in_air=True)
     body, dt = case.body, 1e-4
     states = analytic.toss(case).sample([0.2 - dt, 0.2, 0.2 + dt])
     columns = (states.position, states.velocity, states.quaternion, states.angular_velocity)

@@ -22,8 +22,7 @@ ROUNDING = 1e-15
 @pytest.mark.parametrize("seed", range(3))
 def test_both_polynomials_are_those_of_tails_rim_and_of_heads(seed):
     """F = q² - r² sin², q the height of the middle of the face, at times within a step."""
-    rng = np.random.default_rng([seed, 1])
-    case = scenario(coin=IMPERFECT, air=AIR, release=draw_release(rng))
+    case = scenario(coin=IMPERFECT, air=AIR, release=draw_release(np.random.default_rng([seed, 1])))
     body, y, now = case.body, state_at_release(case.release), np.empty(13)
     series, coefficients = np.empty((ROWS, COLUMNS)), np.empty((2, DEGREE + 1))
     length, order = expand_flight(body, y, 1e-2, series)

@@ -94,8 +94,7 @@ def test_the_delassus_matrix_is_symmetric_and_positive_definite():
 
 
 def test_friction_without_coefficient_is_smooth():
-    rng = np.random.default_rng(15)
-    case, y = draw_impact(rng, ContactLaw.SLIDING_FRICTION)
+    case, y = draw_impact(np.random.default_rng(15), ContactLaw.SLIDING_FRICTION)
     frictionless = case.replace("floor.friction", 0.0)
     smooth = frictionless.replace("floor.contact", "smooth")
     assert struck(frictionless, y)[0]["impulse"] == pytest.approx(struck(smooth, y)[0]["impulse"], rel=1e-15)

@@ -189,8 +189,7 @@ def test_a_law_says_to_which_accuracy_it_is_meant_and_then_proves_no_face():
     energy = toss.impacts.energy_change / (case.coin.mass * case.gravity * case.coin.radius)
     assert of(toss, "impacts: energy that this law adds, in all") == pytest.approx(energy.sum(), rel=1e-6)
     assert energy.sum() > 0
-    settled = analytic.toss(case.replace("floor.restitution", 0.3), law=law)
-    assert settled.ending == Ending.PAPER
+    assert analytic.toss(case.replace("floor.restitution", 0.3), law=law).ending == Ending.PAPER
     with pytest.raises(ValueError, match=r"^law errs: adds .* \(max_restitution = 1, tolerance = 5e-10\)$"):
         OwnLaw(errs, tolerance=5e-10)
 

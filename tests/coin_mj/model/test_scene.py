@@ -61,8 +61,7 @@ def test_a_mass_center_less_than_a_micrometre_off_is_kept():
 
 
 def test_mujoco_agrees_about_the_velocity_of_the_mass_center():
-    rng = np.random.default_rng(3)
-    case = scenario(coin=IMPERFECT, release=draw_release(rng))
+    case = scenario(coin=IMPERFECT, release=draw_release(np.random.default_rng(3)))
     model = built(case)
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:] = of_release(case.body, case.release)
@@ -76,8 +75,7 @@ def test_mujoco_agrees_about_the_velocity_of_the_mass_center():
 
 
 def test_damping_and_actuator_are_the_closed_form_drag():
-    rng = np.random.default_rng(4)
-    case = scenario(coin=IMPERFECT, air=AIR, release=draw_release(rng))
+    case = scenario(coin=IMPERFECT, air=AIR, release=draw_release(np.random.default_rng(4)))
     model, body = built(case), case.body
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:] = of_release(body, case.release)

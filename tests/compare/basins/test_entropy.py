@@ -37,14 +37,12 @@ def test_the_log_2_test_is_silent_on_three_smooth_basins_and_on_two_of_any_kind(
     smooth = basin_entropy(sectors, box=5)
     assert smooth.boundary_boxes > 50
     assert smooth.log_2_test is Log2Test.SILENT
-    random = np.random.default_rng(1)
-    two = basin_entropy(random.integers(1, 3, size=(300, 300)), box=5)
+    two = basin_entropy(np.random.default_rng(1).integers(1, 3, size=(300, 300)), box=5)
     assert two.log_2_test is Log2Test.SILENT
 
 
 def test_the_log_2_test_finds_three_intermingled_basins():
-    random = np.random.default_rng(2)
-    found = basin_entropy(random.integers(1, 4, size=(1000, 1000)), box=5)
+    found = basin_entropy(np.random.default_rng(2).integers(1, 4, size=(1000, 1000)), box=5)
     # Of k outcomes drawn n times the entropy falls short of log k by (k - 1)/(2 n), and a little more.
     assert found.boundary == pytest.approx(np.log(3) - 1 / 25, abs=3e-3)
     assert found.basin == found.boundary

@@ -268,8 +268,7 @@ def test_the_same_seed_finds_the_same_on_any_number_of_cores(monkeypatch):
 
 def test_an_interval_ends_with_its_span_and_says_so():
     """The clock of the fall is 1 s; its span ends a third of a deviation later, and half of one before."""
-    rng = np.random.default_rng(9)
-    shown = seen(FLAT, 5, rng)
+    shown = seen(FLAT, 5, np.random.default_rng(9))
     clock = fit(shown, FLAT, ANY, starts=16)["clock"]
     assert not clock.is_cut
     for ends in ((0.5, clock.value + clock.sd / 3), (clock.value - clock.sd / 2, 1.5)):
