@@ -73,14 +73,12 @@ def measured(cells: pd.DataFrame, said: Declared) -> Any:
     rows = _having(selected(cells, said), said)
     if rows.empty:
         raise ValueError(f"{said}: selects no row")
+    groups = _groups(rows, said.get("key"))
     if "alike" in said:
-        groups = rows.groupby(said["key"], sort=False)
         return {_name(key): chance_alike(each[said["alike"]].to_numpy(dtype=int)) for key, each in groups}
-    if "take" in said and "key" in said:
-        groups = rows.groupby(said["key"], sort=False)
-        return {_name(key): _shifted(_taken(each, said), said) for key, each in groups}
     if "take" in said:
-        return _shifted(_taken(rows, said), said)
+        taken = {_name(key): _shifted(_taken(each, said), said) for key, each in groups}
+        return taken if "key" in said else taken[""]
     found = [_shifted(_one(row, said), said) for row in rows.to_dict("records")]
     if "key" not in said:
         if len(found) != 1:

@@ -68,8 +68,7 @@ def stripe_widths(landing: str, heights: Array, spins: Array) -> Array:
     tossed = heights[:, None] + steps
     faces = _faces(landing, tossed.ravel(), np.repeat(spins, len(steps))).reshape(tossed.shape)
     other = (faces[:, 1:] != faces[:, :1]).reshape(len(heights), 2, len(LADDER))
-    found = np.where(other.any(axis=2), LADDER[np.argmax(other, axis=2)], LADDER[-1])
-    return found.sum(axis=1)
+    return np.where(other.any(axis=2), LADDER[np.argmax(other, axis=2)], LADDER[-1]).sum(axis=1)
 
 
 def _alike(

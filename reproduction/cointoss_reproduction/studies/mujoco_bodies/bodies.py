@@ -141,5 +141,4 @@ def _corners(model: Any, data: Any) -> Array:
         signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, -1).T
         return data.geom_xpos[BODY] + signs * size @ turn.T
     level = np.array([-up[0], -up[1]]) / np.hypot(up[0], up[1]) * size[0]
-    rims = np.array([[*level, side * size[1]] for side in (-1, 1)])
-    return data.geom_xpos[BODY] + rims @ turn.T
+    return data.geom_xpos[BODY] + [[*level, side * size[1]] for side in (-1, 1)] @ turn.T

@@ -150,8 +150,7 @@ def fallen(fallen: float) -> dict[str, float]:
 def went(contact: str, floor: float | None) -> dict[str, int]:
     """Let balls fall on a floor, which a contact passes that is deeper than half of both."""
     settings = CONTACTS[contact]
-    depth = drops_of(settings).depth / SPEED * FALLING
-    passes = floor is not None and depth > BALL + floor / 2
+    passes = floor is not None and drops_of(settings).depth / SPEED * FALLING > BALL + floor / 2
     return {"through": falls_through(settings, floor), "expected": FALLS if passes else 0}
 
 

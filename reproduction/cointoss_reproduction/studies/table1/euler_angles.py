@@ -165,5 +165,4 @@ def angles_of(sequence: Sequence, R: ArrayLike) -> Array:
     turn = np.dot(np.cross(_AXES[k], _AXES[j]), _AXES[across])
     phi_3 = np.arctan2(-turn * left[j, across], left[j, j])
     left = left @ axis_rotation(k, phi_3).T
-    phi_2 = np.arctan2(hand * left[i, rest], left[i, i])
-    return np.array([phi_1, phi_2, phi_3])
+    return np.array([phi_1, np.arctan2(hand * left[i, rest], left[i, i]), phi_3])
