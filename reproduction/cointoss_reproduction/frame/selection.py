@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from math import ceil
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -61,11 +62,12 @@ def _added(rows: pd.DataFrame, per: list[str]) -> pd.DataFrame:
 def measured(cells: pd.DataFrame, said: Declared) -> Any:
     """Return what a measure selects: one number or estimate, or several by what tells their rows apart.
 
-    A measure has `value`, a column or an expression of columns, or `share`, the columns of a part and of its
-    whole; of them the number `less` is subtracted, and `take` makes one of `TAKEN` of all rows, or of those
-    of each `key`. `key` has the columns that name the rows, by default none where one row is selected.
-    `alike` has columns of counts: the probability by chance that rows of the same `key` differ as they do. A
-    row of another cell, which has no such value, is not selected.
+    A measure has `value`, a column or an expression of columns, or `share`, the columns of a part and of
+    its whole; of them `less` is subtracted, a number or, without `take`, a column of the row; `take` makes
+    one of `TAKEN` of all rows, or of those of each `key`. `key` has the columns that name the rows, by
+    default none where one row is selected. `alike` has columns of counts: the probability by chance that
+    rows of the same `key` differ as they do. A row of another cell, which has no such value, is not
+    selected.
 
     Raises:
         ValueError: where nothing is selected.
@@ -79,7 +81,7 @@ def measured(cells: pd.DataFrame, said: Declared) -> Any:
     if "take" in said:
         taken = {_name(key): _shifted(_taken(each, said), said) for key, each in groups}
         return taken if "key" in said else taken[""]
-    found = [_shifted(_one(row, said), said) for row in rows.to_dict("records")]
+    found = [_shifted(_one(row, said), said, row) for row in rows.to_dict("records")]
     if "key" not in said:
         if len(found) != 1:
             raise ValueError(f"{said}: selects {len(found)} rows, and has no key")
@@ -116,8 +118,8 @@ def _one(row: Mapping[Any, Any], said: Declared) -> Any:
     return estimate(row, said["value"])
 
 
-def _shifted(found: Any, said: Declared) -> Any:
-    return found - said["less"] if "less" in said else found
+def _shifted(found: Any, said: Declared, row: Mapping[Any, Any] = MappingProxyType({})) -> Any:
+    return found - row.get(said["less"], said["less"]) if "less" in said else found
 
 
 def _names(rows: pd.DataFrame, columns: list[str]) -> list[str]:

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.special import ndtr
 
 from cointoss import Engine, Hand, Scenario
-from cointoss.study import Array
+from cointoss.study import Array, Body
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.ends import ends_of
@@ -24,7 +24,7 @@ AXES = {
 deviation of its normal from the horizontal [deg]; offset of its mass centre towards heads [m]; μ; angular
 velocity about the vertical [rad/s]: √(2 g/r) is 45 rad/s, and 2 √(g/r) is 64 rad/s."""
 USUAL, FAR = (0.3, 120.0), (1.0, 1e-4)
-"""Friction and spin at which every scatter and offset is tried, and the scatter and offset of all the rest."""
+"""Friction and spin at which every scatter and offset is tried; scatter and offset of all the rest."""
 SPINS = {1.0: 1000, 10.0: 2000}
 """Of each coin, by the scatter."""
 COIN: dict[str, Any] = {
@@ -59,36 +59,36 @@ def spun(
     is_far, is_mujoco, lean = (scatter, offset) == FAR, engine == Engine.MUJOCO, float(np.radians(scatter))
     if not is_far and (is_mujoco or (friction, spin) != USUAL):
         return None
-    coin = {**COIN["coin"], "thickness": edge, "center_of_mass": [0.0, 0.0, offset]}
-    floor = {**COIN["floor"], "contact": "coulomb" if friction else "smooth", "friction": friction}
-    scenario = Scenario.model_validate({**COIN, "coin": coin, "floor": floor})
-    ends = ends_of(
-        scenario,
-        Hand(spun=True, spin=spin, psi_scatter=lean, up="either"),
-        by_mujoco if is_mujoco else SPINS[scatter] // parts,
-        engine=engine,
-        seed=SEED + AXES["offset"].index(offset),
-    )
-    rims = np.array([edge / 2 - offset, edge / 2 + offset])
+    described = {
+        "coin": {**COIN["coin"], "thickness": edge, "center_of_mass": [0.0, 0.0, offset]},
+        "floor": {**COIN["floor"], "contact": "coulomb" if friction else "smooth", "friction": friction},
+    }
+    scenario = Scenario.model_validate({**COIN, **described})
+    rims = balance(scenario.body, edge / 2 + offset * np.array([-1, 1]), spin)
     return {
-        **ends,
         "turns": spin**2 * edge / (6 * friction * scenario.gravity) if friction else None,
-        "stays": None if friction else float(np.sum(ndtr(balance(scenario, rims, spin) / lean)) - 1),
+        "stays": None if friction else float(np.sum(ndtr(rims / lean)) - 1),
+        **ends_of(
+            scenario,
+            Hand(spun=True, spin=spin, psi_scatter=lean, up="either"),
+            by_mujoco if is_mujoco else SPINS[scatter] // parts,
+            engine=engine,
+            seed=SEED + AXES["offset"].index(offset),
+        ),
     }
 
 
-def balance(scenario: Scenario, a: Array, spin: float) -> Array:
+def balance(body: Body, a: Array, spin: float) -> Array:
     """Return the lean from which a coin on a smooth floor leans out further, (n,) [rad].
 
     Where it is turned about the vertical it spins at -Ω sin φ about its normal, and
     J_ξ d²φ/dt² = ((J_ζ - J_ξ) Ω² + m g r) φ - m g a for small φ and a.
 
     Args:
-        scenario: of the coin.
+        body: the coin.
         a: from C to the rim's lowest point along the normal, (n,) [m].
         spin: Ω [rad/s].
     """
-    body = scenario.body
     gyroscopic = (body.inertia[2][2] - body.inertia[0][0]) * spin**2 / (body.mass * body.gravity)
     return a / (body.radius + gyroscopic)
 
