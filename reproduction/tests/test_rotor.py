@@ -167,6 +167,16 @@ def test_one_touch_has_the_moment_of_the_kernel():
     assert sampled == pytest.approx(expected, rel=1e-3)
 
 
+@pytest.mark.parametrize(("beta", "chi", "energy_"), [(0.4, 0.3, 20.0), (1.2, 0.6, 48.0)])
+def test_the_moment_grows_with_energy_as_each_touch_asks(beta, chi, energy_):
+    """κ is its slope over what the first touch leaves; the eigenvalue of a touch is then 1."""
+    left, step = chi * energy_, 1e-4
+    kappa = (moment(beta, chi, energy_ + step) - moment(beta, chi, energy_ - step)) / (2 * step * chi)
+    a = np.sqrt(4 * left * kappa * (1 - chi) / (1 + chi))
+    by_touch = 2 * (8 * (1 + chi) ** 2 * left) ** beta * eigenvalue(beta) / (pi * a * (1 + chi) ** 2)
+    assert by_touch == pytest.approx(1, rel=1e-5)
+
+
 @pytest.mark.parametrize("chi", [0.3, 0.6])
 def test_the_exponent_is_where_the_moment_grows_as_fast_as_asked(chi):
     energy_, stretch = 48.0, 120.0

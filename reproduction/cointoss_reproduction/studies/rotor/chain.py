@@ -96,9 +96,12 @@ def next_touch(coin: Coin, state: Array) -> float:
 
 @njit(cache=True)
 def fly(coin: Coin, state: Array, change: Array, time: float) -> None:
-    """Move a state and a small change of it through a flight; the air acts at its end."""
+    """Move a state and a small change of it through a flight.
+
+    Air slows what the state has at its start for the whole flight, and what gravity adds for half of it. The
+    path is that without air, which the search for the touch follows.
+    """
     state[Z] += state[V] * time - time**2 / 2
-    state[V] -= time
     state[ANGLE] += state[SPIN] * time
     change[Z] += change[V] * time
     change[ANGLE] += change[SPIN] * time
@@ -107,6 +110,7 @@ def fly(coin: Coin, state: Array, change: Array, time: float) -> None:
         each[V] *= slower
         each[DRIFT] *= slower
         each[SPIN] *= turning
+    state[V] -= time * sqrt(slower)
 
 
 @njit(cache=True)
@@ -178,7 +182,12 @@ def stretch(
     most = -inf
     while energy(coin, state) > reach(coin):
         if state[V] > 0 and state[Z] + state[V] ** 2 / 2 > reach(coin):
-            fly(coin, state, change, state[V])
+            rise, more = state[V], change[V]
+            fly(coin, state, change, rise)
+            # Air takes so much of the height, and at the apex there is no speed.
+            state[Z] -= coin.drag * rise**3 / 3
+            change[Z] -= coin.drag * rise**2 * more
+            state[V] = 0.0
             state[ANGLE] = rng.uniform(0.0, 2 * pi)
         time = next_touch(coin, state)
         if time == inf:

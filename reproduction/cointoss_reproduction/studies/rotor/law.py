@@ -13,8 +13,8 @@ a² = 4 e κ (1 - χ)/(1 + χ), E[stretch^β] = exp(∫ κ de) asks of each touc
     2 (8 (1 + χ)² e)^β λ(β) = π a (1 + χ)²,
 
 λ(β) the leading eigenvalue of ((y + y')/2y)^(1 - β) exp(-(y + y')²).
-The integral over e up to χ e_0, what the best first touch leaves of a fall, is B exp(2 β Λ). The kernel does
-not depend on χ.
+The integral over e up to χ e_0, about what the best first touch leaves of a fall, is B exp(2 β Λ). The kernel
+does not depend on χ. All this asks for ν << 1 and ν W² >> 1.
 """
 
 from functools import cache
@@ -43,7 +43,7 @@ def eigenvalue(beta: float) -> float:
 
 
 def logarithm(chi: float, energy: float) -> float:
-    """Return Λ, of the stretch of a touch that keeps ν, with all the energy that a first touch can leave.
+    """Return Λ, of the stretch of a touch that keeps ν, with the energy that a good first touch leaves.
 
     Args:
         chi: restitution.

@@ -13,7 +13,7 @@ from cointoss_reproduction.studies.rotor.chain import SPIN, Coin, V, Z, reach, s
 
 MANY = 4
 """How many times the tosses there are at the first level."""
-PREFERENCES = (0, 2, 5)
+PREFERENCES = (0, 2, 5, 12, 25)
 """Powers of the energy above the barrier; each has an equal share of the tosses."""
 LITTLE = 0.2
 """Energy above the barrier below which a toss is preferred no less [m g r]."""
