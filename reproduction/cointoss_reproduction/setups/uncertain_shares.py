@@ -18,6 +18,13 @@ from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS
 
 ACCURACIES = tuple(float(f"1e-{n}") for n in range(3, 25))
 """ε, of the height of the release [m]; the same number is that of another quantity in its own unit."""
+SMOOTH, AIR, ROUGH = "smooth, vacuum", "smooth, air", "rough, vacuum"
+CHIS = {
+    SMOOTH: (0.0, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95),
+    AIR: (0.3, 0.6, 0.8),
+    ROUGH: (0.3, 0.6),
+}
+"""By floor and medium. A rough floor adds energy above χ = √5/3, and a face is then never settled."""
 CEILING = 0.75
 """f where three tosses have nothing to do with each other: the chance that fair coins do not all agree."""
 FEWEST = 5

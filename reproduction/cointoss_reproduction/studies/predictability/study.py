@@ -13,6 +13,10 @@ from cointoss_reproduction.precision.branching import Branches
 from cointoss_reproduction.setups.planar_maps import case
 from cointoss_reproduction.setups.uncertain_shares import (
     ACCURACIES,
+    AIR,
+    CHIS,
+    ROUGH,
+    SMOOTH,
     flat_share,
     share_at,
     slope_between,
@@ -21,13 +25,6 @@ from cointoss_reproduction.setups.uncertain_shares import (
 from cointoss_reproduction.studies.predictability.picture import draw
 
 SEED = 2014
-SMOOTH, AIR, ROUGH = "smooth, vacuum", "smooth, air", "rough, vacuum"
-CHIS = {
-    SMOOTH: (0.0, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95),
-    AIR: (0.3, 0.6, 0.8),
-    ROUGH: (0.3, 0.6),
-}
-"""By floor and medium. A rough floor adds energy above χ = √5/3, and a face is then never settled."""
 CHI = 0.6
 """At which spin and tilt vary, too [rad/s, rad]; the paper's."""
 AXES = {"floor": tuple(CHIS), "chi": CHIS[SMOOTH], "quantity": ("height", "spin", "tilt")}

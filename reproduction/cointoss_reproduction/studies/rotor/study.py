@@ -10,13 +10,20 @@ import pandas as pd
 
 from cointoss import Scenario, analytic
 from cointoss.study import Array, Estimate, quotient, rows_from_states, share
-from cointoss_reproduction.frame import runner
-from cointoss_reproduction.frame.cells import Cells, estimate
+from cointoss_reproduction.frame.cells import Cells, estimate, read_table
+from cointoss_reproduction.frame.files import TABLE, folder_of
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case, planar_rows
-from cointoss_reproduction.setups.uncertain_shares import ACCURACIES, share_at, slope_between
-from cointoss_reproduction.studies.predictability.study import AIR, CHIS, ROUGH, SMOOTH
+from cointoss_reproduction.setups.uncertain_shares import (
+    ACCURACIES,
+    AIR,
+    CHIS,
+    ROUGH,
+    SMOOTH,
+    share_at,
+    slope_between,
+)
 from cointoss_reproduction.studies.rotor.law import asked, exponent, logarithm
 from cointoss_reproduction.studies.rotor.picture import draw
 from cointoss_reproduction.studies.rotor.splitting import coin_of, shares_beyond
@@ -83,11 +90,9 @@ def rows_of(shares: Array) -> Iterator[dict[str, Any]]:
 
 def kept_rows(out: Path | None, floor: str, chi: float) -> dict[float, dict[str, Any]]:
     """Return what `predictability` has of a case whose height varies, by accuracy; none if it has not run."""
-    if out is None or not runner.is_whole("predictability", out):
+    if out is None or not (table := folder_of("predictability", out) / TABLE).exists():
         return {}
-    rows = runner.kept("predictability", out).data.query(
-        f"quantity == 'height' and floor == '{floor}' and chi == {chi}"
-    )
+    rows = read_table(table).query(f"quantity == 'height' and floor == '{floor}' and chi == {chi}")
     return {row["accuracy"]: row for row in rows.to_dict("records")}
 
 
