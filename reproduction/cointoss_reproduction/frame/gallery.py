@@ -70,15 +70,16 @@ Its main claims, and what we find:
 ![{pictured}]({picture})
 
 A claim has thresholds, which measured quantities must meet. An estimate from random tosses has its 99 %
-confidence interval in brackets; a threshold inside it decides nothing. A claim cannot be tested where the
-paper leaves out what it needs, or where more tosses would be needed to tell. A sentence that was written
+confidence interval in brackets; a threshold inside it decides nothing. A claim cannot be tested where
+what was read of the paper, its text and captions, leaves out what it needs, or where more tosses would be
+needed to tell. The paper's pictures were not seen: some may hold what is missing. A sentence that was written
 after its numbers is a regression test, and is not counted.
 
 **Strong** are results that rest on what the paper prints: the share of uncertain tosses down to 1e-24 m, the
 coins on the boundary, the stop test, the closed forms of the contact laws, and the errata. Programs written
-apart confirm their numbers. **Weak** are the verdicts on Figs 24, 27 and 28, where the paper leaves out coin,
-floor or method, so that each rests on a reading. How many verdicts there are depends on how claims are
-divided, so their numbers are no mark of the paper.
+apart confirm their numbers. **Weak** are the verdicts on Figs 24, 27 and 28, where text and captions leave
+out coin, floor or method, so that each rests on a reading; their pictures were not seen. How many verdicts
+there are depends on how claims are divided, so their numbers are no mark of the paper.
 
 The paper is J. Strzalko, J. Grabski, A. Stefanski, P. Perlikowski and T. Kapitaniak, "Dynamics of coin
 tossing is predictable", Physics Reports 469 (2008) 59-92. One command makes its figures, all pages and a

@@ -18,7 +18,11 @@ DROPS = {
     "imperfect, at 45°": "fig3_tilted_imperfect",
 }
 KNOWN = {"missing": "", "expected": True}
-UNKNOWN = {"missing": "the paper does not say where the mass centre of the dropped coin is", "expected": None}
+UNKNOWN = {
+    "missing": "the text does not say where the mass centre of the dropped coin is, and the photographs were "
+    "not seen",
+    "expected": None,
+}
 """Of an imperfect coin."""
 
 
