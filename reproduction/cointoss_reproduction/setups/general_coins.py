@@ -35,17 +35,6 @@ class CoinClass:
     coulomb: bool
 
     @property
-    def name(self) -> str:
-        """The class in words."""
-        words = (
-            "thick" if self.thick else "thin",
-            "imperfect" if self.imperfect else "ideal",
-            "air" if self.air else "vacuum",
-            "coulomb" if self.coulomb else "smooth",
-        )
-        return ", ".join(words)
-
-    @property
     def scenario(self) -> Scenario:
         """What is tossed."""
         return Scenario.model_validate(
@@ -70,15 +59,11 @@ class CoinClass:
         Returns:
             Position, velocity, Euler parameters and angular velocity, (count, 13).
         """
-        rng = np.random.default_rng([SEED, self._number])
+        number = 8 * self.thick + 4 * self.imperfect + 2 * self.air + self.coulomb
+        rng = np.random.default_rng([SEED, number])
         height, velocity = rng.uniform(0.2, 0.6, count), rng.normal(0, 0.3, (count, 3))
         e = rng.normal(size=(count, 4))
         spin = [rng.normal(0, 10, count), rng.uniform(20, 60, count), rng.normal(0, 10, count)]
         place = np.stack([np.zeros(count), np.zeros(count), height], axis=1)
         turned = e / np.linalg.norm(e, axis=1, keepdims=True)
         return np.hstack([place, velocity, turned, np.stack(spin, axis=1)])
-
-    @property
-    def _number(self) -> int:
-        """Which of the 16 classes it is."""
-        return 8 * self.thick + 4 * self.imperfect + 2 * self.air + self.coulomb
