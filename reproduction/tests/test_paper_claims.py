@@ -12,6 +12,7 @@ from cointoss.models.batch import PLACE, states_of
 from cointoss.models.laws import EndingTest
 from cointoss.models.parts import Release
 from cointoss.models.records import IMPACT_ROW, Ending, Outcome
+from cointoss.study import quotient
 from cointoss_reproduction.frame.cells import Cells, table_of
 from cointoss_reproduction.setups import fig24_readings
 from cointoss_reproduction.setups.general_coins import CoinClass
@@ -128,19 +129,23 @@ def test_stripes_are_counted_by_twins_as_far_as_they_are_wide(monkeypatch, strip
         return np.searchsorted(boundaries, rows[:, PLACE["release.position.z"]]) % 2
 
     monkeypatch.setattr(fig31, "faces_after", alternating)
-    twins = fig31._differing(case(air=True), np.random.default_rng(5), 400_000, 2)
-    found = fig31._boundaries(twins)
-    assert twins[0][fig31.RESOLUTIONS == found.resolution] >= fig31.FEWEST
-    assert found.count.low < stripes < found.count.high
-    assert found.is_converged
+    *_, (_, coarser, _), (_, seen, growth) = fig31._boundaries(
+        case(air=True), np.random.default_rng(5), 40_000, 2
+    )
+    assert seen.low < stripes < seen.high
+    assert growth.high < fig31.CONVERGED
+    grown = quotient(seen, coarser)
+    assert grown.low < growth.value < grown.high
 
 
-def test_where_every_step_is_wider_than_the_stripes_no_number_is_taken_as_counted():
-    made = np.full(len(fig31.RESOLUTIONS), 40_000)
-    hidden = fig31._boundaries(np.stack([np.random.default_rng(6).binomial(made, 0.5), made]))
-    assert hidden.growth.low > 9
-    assert not hidden.is_converged
-    assert not fig31._boundaries(np.stack([0 * made, made])).is_converged
+def test_where_every_step_is_wider_than_the_stripes_no_number_is_taken_as_counted(monkeypatch):
+    monkeypatch.setattr(
+        fig31,
+        "faces_after",
+        lambda rows, _: np.sin(1e4 * np.sin(1e15 * rows[:, PLACE["release.position.z"]])) > 0,
+    )
+    found = fig31._boundaries(case(air=True), np.random.default_rng(5), 40_000, 2)
+    assert min(growth.low for _, _, growth in found) > 5
 
 
 def test_the_slope_of_a_curve_that_jumps_once_falls_with_the_steps_fitted():

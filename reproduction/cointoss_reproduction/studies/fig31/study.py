@@ -1,14 +1,13 @@
 """Fig. 31, section 5.3: the face after 0, 2, 5 and 9 impacts, and how fast the boundaries multiply."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from itertools import pairwise, product
+from dataclasses import replace
+from itertools import combinations, product
 from typing import Any
 
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from cointoss import EndingCriteria, Outcome, Scenario, analytic
 from cointoss.study import Array, Estimate, draw_panel, quotient, share, share_of
@@ -33,17 +32,20 @@ from cointoss_reproduction.setups.planar_maps import (
 SHOWN = (0, 2, 5, 9)
 TOUCHES = 10
 """Faces are compared after 0 to so many impacts, less one."""
-RESOLUTIONS = 10.0 ** -np.arange(2, 12)
+RESOLUTIONS = 10.0 ** -np.arange(2, 13)
 """ε, distances of nearby tosses [m]."""
-PARTS, PARTS_BEYOND = {0: 1 / 8, 1: 2.0, 2: 12.0, 3: 12.0, 4: 60.0}, 1 / 8
-"""Most twins at one ε over the tosses of the maps, by the number of impacts; four are the most at which all
-boundaries are counted."""
-FEWEST = 200
+MOST_RUNS = 10
+"""Most runs of twins at one ε over the tosses of the maps."""
+PART = 1 / 8
+"""Twins at 1 nm over these tosses."""
+FEWEST = 250
 """Twins that must differ for a number of boundaries to be taken."""
-BLOCK = 1 << 15
-"""Twins that are tossed together."""
-CONVERGED = 0.5
-"""Part by which ten times finer twins may count more boundaries where all of them are counted."""
+BLOCK = 1 << 10
+"""Runs that are tossed together."""
+FINER = 10
+"""Twins of a run; the first and the last toss are twins at so many times ε."""
+CONVERGED = 1.25
+"""Below so many times the boundaries at ten times ε all of them are taken as counted."""
 FEW_TWINS = "too few twins differ to count boundaries at two resolutions"
 ELASTIC = 30
 """Impacts through which faces are compared where none loses energy."""
@@ -57,25 +59,8 @@ NARROW = 1e-9
 """At which stripes are looked for that are narrower than a hand is accurate [m]."""
 HALF = 0.4
 """A share of twins that differ: nearly chance."""
-ALIKE, AT_LEAST = "alike", "at least"
-"""Whether ten times finer twins count as many boundaries."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Boundaries:
-    """The number of boundaries on a line after so many impacts."""
-
-    count: Estimate
-    """As twins count them at the finest resolution at which enough of them differ."""
-    resolution: float
-    """That resolution [m]."""
-    growth: Estimate
-    """That number over the one at a ten times coarser resolution."""
-
-    @property
-    def is_converged(self) -> bool:
-        """Whether finer twins would count as many; else there are at least so many."""
-        return self.growth.high < 1 + CONVERGED
+COUNTED, AT_LEAST = "counted", "at least"
+"""Whether ten times finer twins hardly count more boundaries."""
 
 
 def map_faces(medium: str, impacts: int, points: int = 64) -> Iterator[dict[str, str]]:
@@ -86,15 +71,18 @@ def map_faces(medium: str, impacts: int, points: int = 64) -> Iterator[dict[str,
 
 
 def count_twins(medium: str, impacts: int, tosses: int = 240_000) -> Iterator[dict[str, Any]]:
-    """Yield how many boundaries twins count on a line, and how many they see at each of `RESOLUTIONS`."""
-    most = round(PARTS.get(impacts, PARTS_BEYOND) * tosses)
-    differ, made = twins = _differing(_case(medium), np.random.default_rng([SEED, impacts]), most, impacts)
-    found = _boundaries(twins)
-    counted = ALIKE if found.is_converged else AT_LEAST
-    yield {"boundaries": found.count, "counted": counted}
-    for step, number in zip(RESOLUTIONS, LENGTH / RESOLUTIONS * differ / made, strict=True):
-        if number > 0:
-            yield {"resolution": step, "seen": number, "counted": counted}
+    """Yield how many boundaries there are on a line, and how many twins see at each of `RESOLUTIONS`.
+
+    They are counted where the last step has hardly added more: then there are at most as many more as it has
+    added. So it is where each step adds at most half of what the one before has.
+    """
+    rng = np.random.default_rng([SEED, impacts])
+    found = list(_boundaries(_case(medium), rng, MOST_RUNS * tosses, impacts))
+    _, seen, growth = found[-1]
+    counted, more = (COUNTED, growth.high) if growth.high < CONVERGED else (AT_LEAST, 1.0)
+    yield {"boundaries": replace(seen, high=seen.high * more), "growth": growth, "counted": counted}
+    for resolution, number, _ in found:
+        yield {"resolution": resolution, "seen": number, "counted": counted}
 
 
 def compare_engines(tosses: int = 240_000, tosses_mujoco: int = 100) -> dict[str, str]:
@@ -110,7 +98,7 @@ def compare_engines(tosses: int = 240_000, tosses_mujoco: int = 100) -> dict[str
 def end(tosses: int = 240_000) -> dict[str, Any]:
     """Return how long tosses in air last, and how wide stripes are after the last of the touches [m]."""
     scenario, (heights, spins) = _case("air"), _random(tosses)
-    few = slice(round(PARTS_BEYOND * tosses))
+    few = slice(round(PART * tosses))
     last, narrow = (
         faces_after(planar_rows(scenario, heights[few] + step, spins[few]), TOUCHES - 1)
         for step in (0.0, NARROW)
@@ -153,81 +141,80 @@ def _inverse(estimate: Estimate, factor: float) -> Estimate:
     return replace(estimate, value=float(value), low=float(high), high=float(low))
 
 
-def _differing(scenario: Scenario, rng: np.random.Generator, most: int, n: int) -> NDArray[np.int64]:
-    """Return how many twins differ after n impacts at each of `RESOLUTIONS`, and of how many, (2, ε).
+def _boundaries(
+    scenario: Scenario, rng: np.random.Generator, most: int, n: int
+) -> Iterator[tuple[float, Estimate, Estimate]]:
+    """Yield what twins see after n impacts at each of `RESOLUTIONS`, until all boundaries are counted.
 
-    At each they are tossed until `FEWEST` differ. Where fewer of the most do, or where the number of
-    boundaries is counted, finer twins are not made: none is taken to differ.
+    Of each it is ε, the number of boundaries, and how many times those that are seen at ten times ε.
+
+    Between twins lies one boundary at most where ε is small: of N on a length L a part N ε/L does. At each ε
+    runs of them are tossed, each twin the next one's other, until `FEWEST` differ; where fewer of the most
+    do, none are made that are finer. The ends of a run show a boundary where an odd number lies between.
 
     Args:
         scenario: of the tosses.
         rng: the source of chance.
-        most: twins at one ε.
+        most: runs at one ε.
         n: impacts.
     """
-    twins = np.zeros((2, len(RESOLUTIONS)), dtype=np.int64)
-    differ, made = twins
-    made[:] = most
-    for i, step in enumerate(RESOLUTIONS):
-        made[i] = 0
-        while differ[i] < FEWEST and made[i] < most:
-            block = min(BLOCK, most - made[i])
-            z, spin = rng.uniform(*HEIGHTS, block), rng.uniform(*SPINS, block)
-            faces = [faces_after(planar_rows(scenario, at, spin), n) for at in (z, z + step)]
-            differ[i] += np.sum(faces[0] != faces[1])
-            made[i] += block
-        if differ[i] < FEWEST or (i and _boundaries(twins).is_converged):
-            break
-    return twins
-
-
-def _boundaries(twins: NDArray[np.int64]) -> Boundaries:
-    """Return the number of boundaries from the twins that differ at each of `RESOLUTIONS`, and all, (2, ε).
-
-    Between twins lies one boundary at most where ε is small: of N on a length L a part N ε/L does.
-    """
-    finest = int(np.flatnonzero(twins[0] >= FEWEST).max(initial=1))
-    finer, coarser = (
-        share_of(int(twins[0, i]), int(twins[1, i]), "twins") * (LENGTH / float(RESOLUTIONS[i]))
-        for i in (finest, finest - 1)
-    )
-    return Boundaries(count=finer, resolution=float(RESOLUTIONS[finest]), growth=quotient(finer, coarser))
+    for step in RESOLUTIONS.tolist():
+        differ = np.zeros(0, dtype=np.int64)
+        while differ.sum() < FEWEST and len(differ) < most:
+            z, spins = rng.uniform(*HEIGHTS, BLOCK), rng.uniform(*SPINS, BLOCK)
+            run = z[:, None] + step * np.arange(FINER + 1)
+            faces = faces_after(planar_rows(scenario, run.ravel(), np.repeat(spins, FINER + 1)), n)
+            differ = np.append(differ, np.sum(np.diff(faces.reshape(run.shape)) != 0, axis=1))
+        count = int(differ.sum())
+        if count < FEWEST and step < RESOLUTIONS[0]:
+            return
+        growth = _inverse(share_of(int(np.sum(differ % 2)), count, "twins"), 1.0)
+        yield step, share_of(count, FINER * len(differ), "twins") * (LENGTH / step), growth
+        if growth.high < CONVERGED:
+            return
 
 
 def _growth(counts: Sequence[Estimate], known: int) -> dict[str, Any]:
     """Return how the number of boundaries grows, as far as it is counted, by the names of the claims.
 
+    N(0) is set by the range of the heights, so that the growth is compared from the second impact on, and
+    only that of impacts which have no number in common.
+
     Args:
         counts: boundaries after 0, 1, ... impacts.
         known: how many of these are more than lower bounds.
     """
-    steps = [quotient(later, earlier) for earlier, later in pairwise(counts[:known])]
-    numbers = ", ".join(f"{float(f'{one.value:.2g}'):,.0f}" for one in counts[:known])
-    beyond = f"; after {known} at least {counts[known].low:.1g}" if known < len(counts) else ""
+    steps = {n: quotient(counts[n], counts[n - 1]) for n in range(1, known)}
+    numbers = ", ".join("{} [{}, {}]".format(*map(_rounded, one.ends)) for one in counts[:known])
+    beyond = [f"; at least {_rounded(one.low)} after {n}" for n, one in enumerate(counts) if known <= n <= 6]
     told = (
-        f"a line through the map crosses {numbers} after 0 to {known - 1} impacts, where twins at two "
-        f"resolutions count alike{beyond}",
+        f"a line through the map crosses {numbers} after 0 to {known - 1} impacts{''.join(beyond)}",
         f"seen as far as N({known - 1}); an exponential has the same growth at each impact, and what is "
         "faster a larger one",
     )
     return {
         "told": told if steps else ("-", "-"),
-        "steps": {f"N({n}) over N({n - 1})": step for n, step in enumerate(steps, start=1)},
+        "steps": {f"N({n}) over N({n - 1})": step for n, step in steps.items()},
         "faster": {
-            f"growth at impact {n + 1} over that at impact {n}": quotient(later, earlier)
-            for n, (earlier, later) in enumerate(pairwise(steps), start=1)
+            f"growth at impact {later} over that at impact {earlier}": quotient(steps[later], steps[earlier])
+            for earlier, later in combinations(range(2, known), 2)
+            if later > earlier + 1
         },
-        "missing": ["" if len(steps) > least else FEW_TWINS for least in (0, 1)],
+        "missing": ["" if known > least else FEW_TWINS for least in (1, 4)],
     }
+
+
+def _rounded(number: float) -> str:
+    return f"{float(f'{number:.2g}'):,.9g}"
 
 
 def _found(cells: pd.DataFrame) -> dict[str, Any]:
     media: dict[str, dict[str, Any]] = {}
-    for medium, told in (("air", column(cells, "mujoco").item()), ("vacuum", "-")):
+    for medium, told, expected in (("air", column(cells, "mujoco").item(), None), ("vacuum", "-", False)):
         rows = cells.query(f"medium == '{medium}' and boundaries.notna()", engine="python")
         counts = [estimate(row, "boundaries") for row in rows.to_dict("records")]
-        known = int(np.cumprod(column(rows, "counted") == ALIKE).sum())
-        media[medium] = _growth(counts, known) | {"mujoco": told}
+        known = int(np.cumprod(column(rows, "counted") == COUNTED).sum())
+        media[medium] = _growth(counts, known) | {"mujoco": told, "expected": expected}
     half = cells.query(f"differ > {HALF} * twins", engine="python").drop_duplicates("apart")
     mixed = [f"{step} after {n}" for step, n in half[["apart", "after"]].itertuples(index=False)]
     return {"media": media, "mixed": ", ".join(mixed)}
