@@ -1,6 +1,7 @@
 """What a study declares of its table: measures for its claims, tables for its page, pictures of lines."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from math import ceil
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -62,12 +63,13 @@ def _added(rows: pd.DataFrame, per: list[str]) -> pd.DataFrame:
 def measured(cells: pd.DataFrame, said: Declared) -> Any:
     """Return what a measure selects: one number or estimate, or several by what tells their rows apart.
 
-    A measure has `value`, a column or an expression of columns, or `share`, the columns of a part and of
-    its whole; of them `less` is subtracted, a number or, without `take`, a column of the row; `take` makes
-    one of `TAKEN` of all rows, or of those of each `key`. `key` has the columns that name the rows, by
-    default none where one row is selected. `alike` has columns of counts: the probability by chance that
-    rows of the same `key` differ as they do. A row of another cell, which has no such value, is not
-    selected.
+    A measure has `value`, a column or an expression of columns, or `share`, the columns of a part and of its
+    whole; of a part of which some is open `share` has those of what is known, of that with all that is open,
+    and of the whole, and its interval goes from the low end of the one to the high end of the other. Of them
+    `less` is subtracted, a number or, without `take`, a column of the row; `take` makes one of `TAKEN` of all
+    rows, or of those of each `key`. `key` has the columns that name the rows, by default none where one row
+    is selected. `alike` has columns of counts: the probability by chance that rows of the same `key` differ
+    as they do. A row of another cell, which has no such value, is not selected.
 
     Raises:
         ValueError: where nothing is selected.
@@ -91,8 +93,7 @@ def measured(cells: pd.DataFrame, said: Declared) -> Any:
 
 def _taken(rows: pd.DataFrame, said: Declared) -> Any:
     if "share" in said:
-        part, whole = (int(np.sum(rows[column])) for column in said["share"])
-        return share_of(part, whole, said.get("counted", "tosses"))
+        return _one({column: np.sum(rows[column]) for column in said["share"]}, said)
     return TAKEN[said["take"]](rows[said["value"]].to_numpy(dtype=float))
 
 
@@ -113,8 +114,9 @@ def _with_value(rows: pd.DataFrame, said: Declared) -> pd.DataFrame:
 
 def _one(row: Mapping[Any, Any], said: Declared) -> Any:
     if "share" in said:
-        part, whole = (int(row[column]) for column in said["share"])
-        return share_of(part, whole, said.get("counted", "tosses"))
+        *parts, whole = (int(row[column]) for column in said["share"])
+        known, most = (share_of(part, whole, said.get("counted", "tosses")) for part in (parts[0], parts[-1]))
+        return replace(known, high=most.high)
     return estimate(row, said["value"])
 
 

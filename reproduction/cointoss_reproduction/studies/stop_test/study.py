@@ -5,25 +5,37 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from cointoss import Ending, EndingTest, Outcome
-from cointoss.analytic import AnalyticSettings
-from cointoss.study import Array, Body, Rules, in_vacuum, run
+from cointoss import Ending, Outcome
+from cointoss.analytic import AnalyticSettings, toss_rows
+from cointoss.study import (
+    Array,
+    Body,
+    FloorFriction,
+    Mode,
+    Pieces,
+    Rules,
+    rows_from_states,
+    run,
+)
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.frame.threads import all_cores
 from cointoss_reproduction.setups.general_coins import CoinClass
 
-TESTS = {
-    "E < m g r": (EndingTest.PAPER, Ending.PAPER),
-    "eq. (20)": (EndingTest.PAPER_SMOOTH, Ending.PAPER_SMOOTH),
-}
-"""The paper's stop tests, each with the ending by which it names a face."""
-SETTINGS = {True: AnalyticSettings(contact_steps=5000), False: AnalyticSettings(contact_steps=500)}
-"""In air and in vacuum, where coins that never rest are not followed for ever."""
-COUNTED = ("named", "left", "edges", "unknown")
-"""Faces that a test names, that are left, left for the edge, or maybe left."""
+TESTS = {"paper": ("E < m g r", Ending.PAPER), "paper_smooth": ("eq. (20)", Ending.PAPER_SMOOTH)}
+"""The paper's stop tests, each with its name and the ending by which it names a face."""
+SETTINGS = AnalyticSettings(contact_steps=20_000)
+"""Of tosses that never rest, and so are not followed for ever."""
+STEP = 1e-3
+"""Between two looks at a thin coin in contact [s]: in half of it the coin turns less than a thousandth of a
+radian beyond its edge, and back."""
+LONGEST = 3.0
+"""For which a toss that ends nowhere is looked at after the stop [s]."""
+SIGNS = {int(Outcome.HEADS): 1, int(Outcome.TAILS): -1}
+"""Of n_z where a face is up."""
+ENDS = (*SIGNS, Outcome.EDGE)
+"""How a toss ends that is decided."""
 AXES = {
     "balance": {"ideal": False, "imperfect": True},
     "floor": {"smooth": False, "coulomb": True},
@@ -33,35 +45,60 @@ AXES = {
 
 
 def stopped(
-    balance: bool, floor: bool, medium: bool, thickness: bool, ideals: int = 40_000, others: int = 16_000
+    balance: bool, floor: bool, medium: bool, thickness: bool, ideals: int = 40_000, others: int = 8_000
 ) -> Iterator[dict[str, Any]]:
-    """Toss `ideals` ideal coins or `others` until their face is proved; look where the tests had stopped."""
-    kind = CoinClass(thick=thickness, imperfect=balance, air=medium, coulomb=floor)
-    count = others if balance else ideals
-    with all_cores() as pool:
-        tossed = list(pool.map(partial(stops, kind.scenario.body, kind.scenario.rules), kind.starts(count)))
-    for test, counts in zip(TESTS, np.sum(tossed, axis=0), strict=True):
-        yield {"test": test, **dict(zip(COUNTED, counts, strict=True)), "tosses": count}
+    """Toss `ideals` ideal coins or `others` until their face is decided; look where the tests had stopped.
 
-
-def stops(body: Body, rules: Rules, start: Array) -> NDArray[np.int64]:
-    """Return for each of `TESTS` what is `COUNTED` of one toss, each 0 or 1, (tests, 4).
-
-    The tests look at the coin after each impact and each step of a sustained contact, and stop the toss. It
-    is tossed again, until its face is proved to stay. The named face is left where a touch after the stop
-    shows the other one, or the toss ends on that or on the edge; it is not known where the toss ends nowhere.
+    The tests look at the coin after each impact and each step of a sustained contact, and stop the toss. The
+    named face is left where after the stop the other one is up at a touch or in contact, or the toss ends on
+    that or on the edge; it may be where the toss ends nowhere.
     """
-    settings = SETTINGS[not in_vacuum(body)]
-    whole = run(body, rules, start, settings)
-    counts = np.zeros((len(TESTS), len(COUNTED)), dtype=np.int64)
-    for count, (test, named) in zip(counts, TESTS.values(), strict=True):
-        stopped = run(body, rules._replace(test=test), start, settings)
-        if stopped.ending == named:
-            later = whole.rows["face"][whole.rows["time"] > stopped.end_time]
-            others = {*later.tolist(), int(whole.outcome)} - {int(stopped.outcome)}
-            left = bool(others - {int(Outcome.PERPETUAL), int(Outcome.TRANSIENT), int(Outcome.UNDECIDED)})
-            count[:] = True, left, Outcome.EDGE in others, bool(others) and not left
-    return counts
+    kind = CoinClass(thick=thickness, imperfect=balance, air=medium, coulomb=floor)
+    starts = kind.starts(others if balance else ideals)
+    turned = partial(turns_over, kind.scenario.body, kind.scenario.rules)
+    whole, *tests = (
+        toss_rows(rows_from_states(kind.scenario.replace("ending.test", test), starts), settings=SETTINGS)
+        for test in ("rigorous", *TESTS)
+    )
+    for (name, ending), stop in zip(TESTS.values(), tests, strict=True):
+        at = np.flatnonzero(stop.ending == ending)
+        faces, times, outcomes = stop.outcome[at], stop.end_time[at], whole.outcome[at]
+        decided = np.isin(outcomes, ENDS)
+        left = decided & (outcomes != faces)
+        until = np.where(decided, whole.end_time[at], times + LONGEST)
+        seen = ~left & (until > times)
+        with all_cores() as pool:
+            left[seen] = [*pool.map(turned, starts[at[seen]], faces[seen], times[seen], until[seen])]
+        counts = {"left": left, "maybe": left | ~decided, "edges": outcomes == Outcome.EDGE}
+        yield {
+            "test": name,
+            "tosses": len(starts),
+            "named": len(at),
+            **{what: int(np.sum(those)) for what, those in counts.items()},
+        }
+
+
+def turns_over(body: Body, rules: Rules, start: Array, named: int, time: float, until: float) -> bool:
+    """Return whether a toss shows another face than the named one on the floor between two times [s].
+
+    A contact of a thick coin ends where it comes upon its edge, so that its face is that of its start.
+    """
+    toss = run(body, rules._replace(max_time=float(until)), start, SETTINGS)
+    if np.any(toss.rows["face"][toss.rows["time"] > time] != named):
+        return True
+    path = Pieces(
+        body=body,
+        friction=FloorFriction(rules.friction),
+        contact_tolerance=SETTINGS.contact_tolerance,
+        start_times=toss.start_times,
+        start_states=toss.start_states,
+        modes=toss.modes,
+    )
+    starts = toss.start_times[toss.start_times > time]
+    at = starts if body.thickness > 0 else np.union1d(starts, np.arange(time, toss.end_time, STEP))
+    modes = toss.modes[np.searchsorted(toss.start_times, at, side="right") - 1]
+    normals = path.sample(at[~np.isin(modes, (Mode.FLIGHT, Mode.UPRIGHT, Mode.ENDED))]).normal
+    return bool(np.any(SIGNS[named] * normals[:, 2] < 0))
 
 
 REPRODUCTION = study(__name__, Cells(stopped, AXES))
