@@ -22,8 +22,10 @@ def fill(path: Path, blocks: Mapping[str, str]) -> None:
     """Write the blocks of a page, by the names of their places, where it has these."""
     page = written = path.read_text(encoding="utf-8")
     for name, block in blocks.items():
-        place = rf"(<!-- written by: make pages, {name} -->\n\n).*?(\n\n<!-- end -->\n)"
-        written = re.sub(place, lambda found, new=block: found[1] + new + found[2], written, flags=re.DOTALL)
+        place = rf"(<!-- written by: make pages, {name} -->\n).*?(\n<!-- end -->\n)"
+        written = re.sub(
+            place, lambda found, new=block: f"{found[1]}\n{new}\n{found[2]}", written, flags=re.DOTALL
+        )
     if written != page:
         write_text(path, written)
 

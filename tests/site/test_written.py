@@ -13,12 +13,13 @@ sys.path.append(str(DOCS / "extensions"))
 written = import_module("written")
 
 
-def test_blocks_are_written_into_their_places_alone(tmp_path):
+@pytest.mark.parametrize("old", ["\nold\n", ""])
+def test_blocks_are_written_into_their_places_alone(tmp_path, old):
     page = tmp_path / "page.md"
-    place = "A\n\n<!-- written by: make pages, laws -->\n\nold\n\n<!-- end -->\n\nB\n"
-    page.write_text(place)
+    place = "A\n\n<!-- written by: make pages, laws -->\n{}\n<!-- end -->\n\nB\n\n<!-- end -->\n"
+    page.write_text(place.format(old))
     written.fill(page, {"laws": "new\\1", "ports": "elsewhere"})
-    assert page.read_text() == place.replace("old", "new\\1")
+    assert page.read_text() == place.format("\nnew\\1\n")
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)

@@ -57,8 +57,8 @@ def write_blocks(out: Path, name: str, result: Result) -> None:
     Raises:
         UnwritableError: naming the page and why.
     """
-    place = rf"(<!-- written by: cointoss reproduce {name} -->\n\n).*?(\n\n<!-- end -->\n)"
-    block = block_of(name, result)
+    place = rf"(<!-- written by: cointoss reproduce {name} -->\n).*?(\n<!-- end -->\n)"
+    block = f"\n{block_of(name, result)}\n"
     for path in sorted(out.glob("*.md")):
         page = path.read_text(encoding="utf-8")
         written = re.sub(place, lambda found: found[1] + block + found[2], page, flags=re.DOTALL)
