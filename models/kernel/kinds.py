@@ -60,10 +60,9 @@ def kind_of(hint: Any) -> ValueKind:
         array, dimensions = get_args(hint)
         if dimensions is int:
             return ValueKind("q", int)
-        dtype = (
-            dimensions.dtype if isinstance(dimensions, Rows) else np.dtype(get_args(get_args(array)[1])[0])
-        )
-        n = 1 if isinstance(dimensions, Rows) else dimensions
+        # NumPy means by it ndarray[shape, dtype[number]]; since 2.5 it is an alias of the number alone.
+        (number,) = get_args(get_args(array)[-1]) or get_args(array)
+        n, dtype = (1, dimensions.dtype) if isinstance(dimensions, Rows) else (dimensions, np.dtype(number))
         return ValueKind("q" * (5 + 2 * n), dtype, dimensions=n)
     if get_origin(hint) in (Union, python_types.UnionType) and set(get_args(hint)) == {float, type(None)}:
         return ValueKind("d", float, may_lack=True)
