@@ -14,6 +14,7 @@ from cointoss.compare.commands.basin import basin
 from cointoss.compare.commands.bounce import bounce
 from cointoss.compare.commands.common import ARGUMENTS, refuse
 from cointoss.compare.commands.compare import compare
+from cointoss.compare.commands.conform import conform
 from cointoss.compare.commands.explore import explore
 from cointoss.compare.commands.find import find
 from cointoss.compare.commands.fit import fit
@@ -92,6 +93,7 @@ class _Commands(click.Group):
         basin,
         bounce,
         compare,
+        conform,
         explore,
         find,
         fit,

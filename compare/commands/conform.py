@@ -1,0 +1,68 @@
+"""`cointoss conform`: an engine held against the suite of cases with known answers."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import click
+
+from cointoss.compare.commands.common import plain_errors, print_json, refuse
+from cointoss.compare.commands.options import options_of
+from cointoss.compare.output.accepted import Within
+
+
+@dataclass(frozen=True, kw_only=True)
+class Suite:
+    """What is run, and where it goes."""
+
+    case: tuple[str, ...] = ()
+    """Run this case alone; may be given several times."""
+    full: bool = False
+    """Run an hour in place of a minute, and 10,000 tosses in place of 200."""
+    python: str = ""
+    """The Python that runs the engine, with NumPy and without cointoss; by default this one."""
+    time_limit: Annotated[int, Within(1, 86400)] = 60
+    """The longest time for one answer of the engine, in seconds."""
+    out: Path | None = None
+    """Write the card to this .html file."""
+    json: bool = False
+    """Print JSON, in full precision."""
+
+
+@click.command()
+@click.argument("engine", metavar="ENGINE")
+@options_of(Suite)
+def conform(engine: str, asked: Suite) -> None:
+    """Hold an engine against cases with known answers, and print a card.
+
+    ENGINE is analytic, mujoco, the name of an entry point cointoss.engines, or package.module:name of an
+    object with a function simulate(scenario, times). The exit status is 1 where a case is missed.
+    """
+    with plain_errors("conform"):
+        from cointoss.compare.conform.card import Card
+        from cointoss.compare.conform.case import cases
+        from cointoss.compare.conform.running import conform, full
+        from cointoss.compare.output.files import require_file, write_text
+        from cointoss.compare.simulators.simulator import simulators_of
+        from cointoss.models.stages import stage
+
+        known = {case.name: case for case in cases()}
+        for name in asked.case:
+            if name not in known:
+                refuse(f"--case {name}: accepted: {', '.join(known)}")
+        require_file(asked.out, ".html", engine)
+        chosen = [known[name] for name in asked.case] or list(known.values())
+        chosen = [full(case) for case in chosen] if asked.full else chosen
+        with (
+            simulators_of(engine, limit=asked.time_limit, python=asked.python) as engines,
+            stage(f"holding {engines[0].name} against {len(chosen)} cases", "runs") as progress,
+        ):
+            card = Card.of(engines[0], conform(engines, chosen, progress))
+        if asked.out is not None:
+            write_text(asked.out, card.page())
+        if asked.json:
+            print_json(card.as_json())
+        else:
+            click.echo(card.as_lines())
+        if card.missed:
+            raise SystemExit(1)

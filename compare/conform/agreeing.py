@@ -1,0 +1,96 @@
+"""Assertions on an engine's toss, whose messages say which impact, which quantity, and how far off."""
+
+from typing import Any
+
+import numpy as np
+
+from cointoss import analytic
+from cointoss.compare.conform.card import value
+from cointoss.compare.conform.case import Case
+from cointoss.compare.conform.running import Status, run_case, tolerance_of
+from cointoss.compare.metrics.impulses import errors_of_impacts
+from cointoss.compare.metrics.sequences import agreement_horizon, common_prefix
+from cointoss.compare.simulators.simulator import Simulator, simulator_of
+from cointoss.models.reading import ScenarioSource, scenario_of
+from cointoss.models.records import Toss
+
+AFTER = 0.05
+"""An engine is asked for states up to so long after the analytic toss has ended [s]."""
+
+
+def assert_agrees(given: Toss | Any, scenario: ScenarioSource, *, tolerance: float = 1e-2) -> None:
+    """Assert that a toss obeys the contact law, and agrees with the analytic engine as far as it must.
+
+    Each impulse is held against the law in the very state in which the coin touched, so that it carries
+    nothing of earlier impacts. The faces must agree within the horizon: as far as errors of that size change
+    none.
+
+    Args:
+        given: a toss of the scenario, or an engine that tosses it, see
+            `cointoss.compare.simulators.simulator.simulator_of`.
+        scenario: what is tossed; or a file's path, or a name such as "fig24a".
+        tolerance: the largest relative error of the time of the first touch and of an impulse.
+
+    Raises:
+        AssertionError: naming the impact, the quantity, how far off it is, and what is allowed.
+    """
+    described = scenario_of(scenario)
+    right = analytic.toss(described)
+    toss = given if isinstance(given, Toss) else _simulator(given).toss(described, right.end_time + AFTER)
+    who, first, expected = toss.engine, _first(toss), _first(right)
+    _require(
+        len(toss.impacts) > 0 or not len(right.impacts),
+        f"{who}: no impact was seen in {toss.end_time:.4g} s; the first is at {expected:.6g} s",
+    )
+    late = abs(first - expected) / max(expected, 1e-12)
+    _require(
+        late <= tolerance,
+        f"{who}: impact 1: time {first:.6g} s, right {expected:.6g} s{_off(late, tolerance)}",
+    )
+    errors = errors_of_impacts(toss)
+    for i, error in enumerate(errors.tolist()):
+        time, impulse = toss.impacts.time[i], value(toss.impacts.impulse[i])
+        _require(
+            error <= tolerance,
+            f"{who}: impact {i + 1} at {time:.6g} s: impulse ({impulse}) N s against the contact law"
+            f"{_off(error, tolerance)}",
+        )
+    horizon, agreed = agreement_horizon(right, errors), common_prefix(right.sequence, toss.sequence)
+    face = slice(agreed, agreed + 1)
+    _require(
+        agreed >= horizon,
+        f"{who}: impact {agreed + 1}: face {toss.sequence[face] or 'none'}, right {right.sequence[face]}; "
+        f"with impulses off by {np.max(errors, initial=0.0):.1e} the first {horizon} must agree",
+    )
+
+
+def assert_met(engine: Simulator, case: Case) -> None:
+    """Assert that an engine meets a case, or says that it can't do what the case asks for.
+
+    Raises:
+        AssertionError: naming the case, the quantity, what was found, how far off it is, and what is allowed.
+    """
+    run, limit = run_case(engine, case, engine.dt), tolerance_of(case, engine.dt)
+    _require(run.status != Status.FAILED, f"{engine.name}: {case.name}: {run.why}")
+    _require(
+        run.status != Status.MISSED,
+        f"{engine.name}: {case.name} ({case.title}): {case.quantity} {value(run.found)}, right "
+        f"{value(case.right)}{_off(run.error, limit)}, {case.reason}; often: {case.points_to}",
+    )
+
+
+def _off(error: float, allowed: float) -> str:
+    return f": off by {error:.1e}, allowed {allowed:.1e}"
+
+
+def _simulator(given: Any) -> Simulator:
+    return given if isinstance(given, Simulator) else simulator_of(given)
+
+
+def _first(toss: Toss) -> float:
+    return float(toss.impacts.time[0]) if len(toss.impacts) else 0.0
+
+
+def _require(holds: bool, told: str) -> None:
+    if not holds:
+        raise AssertionError(told)

@@ -1,0 +1,174 @@
+"""An engine run through the cases, each with several steps where it has one."""
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from queue import SimpleQueue
+
+import numpy as np
+
+from cointoss.compare.conform.case import Case
+from cointoss.compare.conform.quantities import QUANTITIES, NothingSeenError, error_of
+from cointoss.compare.simulators.answering import EngineError
+from cointoss.compare.simulators.simulator import Simulator
+from cointoss.models.hand import Hand
+from cointoss.models.records import Array, Outcome, UnsupportedError
+from cointoss.models.scenario import Scenario
+
+HAND = Hand.people(height=0.1, speed=1.0, spin=80.0)
+"""The hand whose releases are tossed for a share."""
+STEPS = (2.0, 1.0, 0.5, 0.25, 0.125, 0.0625)
+"""The steps with which a case is run, over the engine's own."""
+
+
+class Status(StrEnum):
+    """What came of a case."""
+
+    MET = "met"
+    MISSED = "missed"
+    NOT_REALISABLE = "not realisable"
+    """The engine says that it can't do this."""
+    FAILED = "failed"
+    """It raised an error, did not answer in time, or showed nothing of what is measured."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Run:
+    """A case run once."""
+
+    dt: float | None
+    """The step [s]; None for an engine that goes from event to event."""
+    found: tuple[float, ...] = ()
+    """What was measured, in SI."""
+    error: float = float("nan")
+    """Its error, against the case's scale."""
+    seconds: float = 0.0
+    """How long the engine took [s]."""
+    why: str = ""
+    """Why nothing was measured."""
+    status: Status
+    """Whether the error is within the tolerance."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Result:
+    """A case, and what came of it."""
+
+    case: Case
+    tolerance: float
+    own: Run
+    """With the engine's own step."""
+    runs: tuple[Run, ...] = field(default=())
+    """With several steps, the largest first."""
+
+    @property
+    def order(self) -> float | None:
+        """The order of the error in the step: the slope of its logarithm; None where it is not known."""
+        known = [run for run in self.runs if run.dt and np.isfinite(run.error) and run.error > _ROUNDING]
+        if len(known) < 3:
+            return None
+        steps, errors = np.log([run.dt or 1 for run in known]), np.log([run.error for run in known])
+        return float(np.polyfit(steps, errors, 1)[0])
+
+
+_ROUNDING = 1e-7
+
+
+def conform(
+    engines: Sequence[Simulator],
+    cases: Sequence[Case],
+    progress: Callable[[int, int], None] = lambda *_: None,
+) -> list[Result]:
+    """Run an engine through cases.
+
+    Args:
+        engines: the same one, several times where each runs in a process of its own: they work side by side.
+        cases: of the suite.
+        progress: called after each run with their number so far and in all.
+    """
+    own = engines[0].dt
+    wanted = [(case, own) for case in cases]
+    if own is not None:
+        wanted += [(case, own * part) for case in cases if case.is_short for part in STEPS if part != 1]
+    wanted.sort(key=lambda each: each[0].is_short)  # what takes longest first
+    free: SimpleQueue[Simulator] = SimpleQueue()
+    for engine in engines:
+        free.put(engine)
+    made: dict[tuple[str, float | None], Run] = {}
+
+    def run(each: tuple[Case, float | None]) -> None:
+        engine = free.get()
+        try:
+            made[each[0].name, each[1]] = run_case(engine, *each)
+        finally:
+            free.put(engine)
+        progress(len(made), len(wanted))
+
+    with ThreadPoolExecutor(len(engines)) as pool:
+        for _ in pool.map(run, wanted):
+            pass
+    return [_result(case, own, made) for case in cases]
+
+
+def _result(case: Case, own: float | None, made: dict[tuple[str, float | None], Run]) -> Result:
+    steps = sorted((dt for name, dt in made if name == case.name and dt is not None), reverse=True)
+    return Result(
+        case=case,
+        tolerance=tolerance_of(case, own),
+        own=made[case.name, own],
+        runs=tuple(made[case.name, dt] for dt in steps),
+    )
+
+
+def tolerance_of(case: Case, dt: float | None) -> float:
+    """Return the largest error that passes, of an engine with a step or without one."""
+    return case.tolerance["event_driven" if dt is None else "stepping"]
+
+
+def run_case(engine: Simulator, case: Case, dt: float | None) -> Run:
+    """Run a case once.
+
+    Args:
+        engine: that simulates it.
+        case: of the suite.
+        dt: the step, None for an engine without one [s].
+    """
+    begun = time.perf_counter()
+    try:
+        found = measured(engine, case, dt)
+    except UnsupportedError as error:
+        return Run(dt=dt, why=str(error), status=Status.NOT_REALISABLE)
+    except (EngineError, NothingSeenError) as error:
+        return Run(dt=dt, why=str(error), status=Status.FAILED, seconds=time.perf_counter() - begun)
+    error = error_of(found, case.value, case.scale)
+    status = Status.MET if error <= tolerance_of(case, dt) else Status.MISSED
+    seconds = time.perf_counter() - begun
+    return Run(dt=dt, found=tuple(found.tolist()), error=error, seconds=seconds, status=status)
+
+
+def measured(engine: Simulator, case: Case, dt: float | None) -> Array:
+    """Return what is measured of a case."""
+    if case.quantity == "share_of_heads":
+        heads = [engine.observe(each, case.until, dt=dt).ended[1] == Outcome.HEADS for each in _by_hand(case)]
+        return np.array([sum(heads) / len(heads)])
+    return QUANTITIES[case.quantity](engine.observe(case.scenario, case.until, dt=dt, every=case.every))
+
+
+def _by_hand(case: Case) -> Iterator[Scenario]:
+    drawn = HAND.releases(case.scenario, case.tosses)
+    for i in range(case.tosses):
+        yield case.scenario.replace(*(part for name, column in drawn.items() for part in (name, column[i])))
+
+
+def full(case: Case) -> Case:
+    """Return a case at its full length."""
+    tosses = case.full_tosses or case.tosses
+    narrower = (case.tosses / tosses) ** 0.5
+    return replace(
+        case,
+        until=case.full_until or case.until,
+        tosses=tosses,
+        tolerance={kind: narrower * size for kind, size in case.tolerance.items()},
+    )

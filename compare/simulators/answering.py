@@ -1,0 +1,193 @@
+"""Who answers for an engine: an object in this process, or a process of its own, each within a time limit."""
+
+import ctypes
+import json
+import subprocess
+import sys
+import tempfile
+import threading
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from pathlib import Path
+from queue import Empty, SimpleQueue
+from typing import Any, BinaryIO, Protocol, cast
+
+import numpy as np
+
+from cointoss.compare.simulators import worker
+from cointoss.models.records import Array, UnsupportedError, UnusableEngineError
+from cointoss.models.scenario import Scenario
+
+Message = Mapping[str, Any]
+
+
+class EngineError(UnusableEngineError):
+    """An engine that fails, does not answer in time, or answers what can't be; one line names it and why."""
+
+
+class Answering(Protocol):
+    """Answers for an engine."""
+
+    @property
+    def about(self) -> Message:
+        """Its `name`, its step `dt` [s] or None, and its `settings`."""
+        ...
+
+    def states(self, scenario: Scenario, times: Array, dt: float | None) -> Message:
+        """Return the arrays of `States` that the engine gives, by name.
+
+        Raises:
+            UnsupportedError: for what the engine says that it can't do.
+            EngineError: where it fails, or takes too long.
+        """
+        ...
+
+    def close(self) -> None:
+        """End what was started for it."""
+        ...
+
+
+class Called:
+    """An object that is called in a thread of this process."""
+
+    def __init__(self, engine: Any, limit: float) -> None:
+        """Keep the engine.
+
+        Raises:
+            TypeError: for an object that is no engine.
+        """
+        self._engine, self._limit = engine, limit
+        self.about = worker.about(engine)
+
+    def states(self, scenario: Scenario, times: Array, dt: float | None) -> Message:
+        """Return the engine's states; see `Answering`."""
+
+        def call() -> Message:
+            try:
+                return worker.simulated(self._engine, scenario, times, dt)
+            except Exception as error:  # raised again where it is waited for
+                return worker.failure(error)
+
+        return _refused(_within(self._limit, call, self.about["name"]), self.about["name"])
+
+    def close(self) -> None:
+        """Leave the object to its owner."""
+
+
+class Served:
+    """An engine in a process of its own, by this Python or another; what takes too long is ended."""
+
+    def __init__(self, path: str, limit: float, python: str = sys.executable) -> None:
+        """Start it.
+
+        Args:
+            path: of the engine, as in "package.module:name", for that Python in this folder.
+            limit: of each answer [s].
+            python: which runs it; it needs NumPy, and not cointoss.
+
+        Raises:
+            EngineError: for an engine that can't be started.
+        """
+        self._path, self._limit, self._python = path, limit, python
+        self._start()
+
+    def _start(self) -> None:
+        self._folder = tempfile.TemporaryDirectory()
+        self._said = Path(self._folder.name) / "said"
+        command = [self._python, worker.__file__, self._path]
+        try:
+            with self._said.open("wb") as said:
+                self._process = subprocess.Popen(
+                    command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=said
+                )
+        except OSError as error:
+            self._folder.cleanup()
+            raise EngineError(
+                f"{self._python}: can't be run ({error.strerror}); accepted: a Python"
+            ) from None
+        try:
+            self.about: Message = json.loads(str(_refused(self._answer(), self._path)["about"]))
+        except BaseException:
+            self.close()
+            raise
+
+    def states(self, scenario: Scenario, times: Array, dt: float | None) -> Message:
+        """Return the engine's states; see `Answering`."""
+        if self._process.poll() is not None:
+            self.close()
+            self._start()
+        stream = cast("BinaryIO", self._process.stdin)
+        told = {
+            "tables": scenario.model_dump(mode="json"),
+            "moments": scenario.coin.moments,
+            "attitude": scenario.release.attitude,
+        }
+        try:
+            worker.write_message(stream, scenario=json.dumps(told), times=times, dt=dt or 0.0)
+        except BrokenPipeError:
+            raise EngineError(f"{self.about['name']}: {self._ended()}") from None
+        return _refused(self._answer(), self.about["name"])
+
+    def _answer(self) -> Message:
+        stream = cast("BinaryIO", self._process.stdout)
+        try:
+            answer = _within(self._limit, lambda: worker.read_message(stream), self._path)
+        except BaseException:
+            self.close()
+            raise
+        if answer is None:
+            raise EngineError(f"{self._path}: {self._ended()}")
+        return answer
+
+    def _ended(self) -> str:
+        status = self._process.wait()
+        said = self._said.read_text(errors="replace").strip().splitlines()
+        return f"its process ended with status {status}{f': {said[-1]}' if said else ''}"
+
+    def close(self) -> None:
+        """End the process."""
+        self._process.kill()
+        self._process.wait()
+        with self._folder, self._process:  # which close what they opened
+            pass
+
+
+class _Ended(BaseException):
+    """Ends a call that takes too long."""
+
+
+def _within(limit: float, call: Callable[[], Any], name: str) -> Any:
+    """Return what a call returns within a time [s]; end it otherwise.
+
+    Raises:
+        EngineError: for a call that takes longer.
+    """
+    answers: SimpleQueue[Any] = SimpleQueue()
+
+    def wait() -> None:
+        with suppress(_Ended):
+            answers.put(call())
+
+    thread = threading.Thread(target=wait, daemon=True)
+    thread.start()
+    try:
+        return answers.get(timeout=limit)
+    except Empty:
+        # Python's own loops end so; a call into a library goes on until it returns.
+        ended = ctypes.py_object(_Ended)
+        ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread.ident or 0), ended)
+        raise EngineError(f"{name}: no answer within {limit:g} s; ended") from None
+
+
+def _refused(answer: Message, name: str) -> Message:
+    """Return an answer that is no failure.
+
+    Raises:
+        UnsupportedError: for what the engine can't do.
+        EngineError: for what failed.
+    """
+    if "unsupported" in answer:
+        raise UnsupportedError(str(answer["unsupported"]))
+    if "failed" in answer:
+        raise EngineError(f"{name}: {np.asarray(answer['failed'])}")
+    return answer

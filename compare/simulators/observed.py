@@ -1,0 +1,294 @@
+"""What states alone show of a toss: touches, impulses, faces, and how it ends."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cointoss import analytic
+from cointoss.models.barriers import barrier
+from cointoss.models.certificate import energies, gaps, turned
+from cointoss.models.geometry import lowest_point
+from cointoss.models.impact_row import write_impact
+from cointoss.models.kernel.vectors import Vector
+from cointoss.models.records import (
+    IMPACT_ROW,
+    Array,
+    Ending,
+    Impacts,
+    Outcome,
+    Setting,
+    States,
+    Toss,
+    TrustEnd,
+)
+from cointoss.models.scenario import Scenario, euler_parameters, vector
+from cointoss.models.state import State, state
+
+HELD = 0.3
+"""The floor acts in an interval in which it gives more than this part of the weight's impulse."""
+STRUCK = 5.0
+"""It strikes where it gives more than so many times the weight's impulse, and `SLOWEST`."""
+SLOWEST = 0.02
+"""The smallest change of speed that is an impact, against √(g r)."""
+NEAR = 0.1
+"""How near the floor a coin must be for it to act, against r, beside the way of an interval."""
+RAMP = 3
+"""Intervals of a soft contact's rise and fall that belong to its impact."""
+STILL = 1e-2
+"""A coin is at rest below this part of √(g r) and √(g/r)."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Observed:
+    """What an engine's states show of a toss."""
+
+    scenario: Scenario
+    states: States
+    """From the release on, at times close enough to see impacts apart."""
+    told: tuple[Array, Array] | None = None
+    """The times of the impacts, (k,) [s], and their impulses, (k, 3) [N s], where the engine gives them."""
+
+    @cached_property
+    def gains(self) -> Array:
+        """The change of velocity in each interval beyond weight and air, (n - 1, 3) [m/s]."""
+        free = _free_acceleration(self.scenario, self.states)
+        dt = np.diff(self.states.time)[:, None]
+        return np.diff(self.states.velocity, axis=0) - dt * (free[1:] + free[:-1]) / 2
+
+    @cached_property
+    def stretches(self) -> tuple[list[tuple[int, int]], list[tuple[int, int]]]:
+        """The first and last sample around each impact, and around each sustained contact."""
+        body, time = self.scenario.body, self.states.time
+        dt = np.diff(time)
+        weight, up = body.gravity * dt, self.gains[:, 2]
+        above = gaps(body, self.states)
+        speed = np.abs(self.states.velocity[:, 2]) + body.radius * np.linalg.norm(
+            self.states.angular_velocity[:, :2], axis=1
+        )
+        near = np.minimum(above[1:], above[:-1]) < NEAR * body.radius + (speed[1:] + speed[:-1]) * dt
+        acts = near & (up > HELD * weight)
+        strikes = acts & (up > np.maximum(STRUCK * weight, SLOWEST * (body.gravity * body.radius) ** 0.5))
+        if self.told is not None:
+            strikes = np.zeros(len(dt), dtype=bool)
+            strikes[np.clip(np.searchsorted(time, self.told[0], side="right") - 1, 0, len(dt) - 1)] = True
+        impacts, contacts = [], []
+        for first, last in _runs(acts | strikes):
+            done = first
+            for start, end in _runs(strikes[first:last]):
+                a, b = first + start, first + end
+                a = done if a - done <= RAMP else a
+                b = last if last - b <= RAMP else b
+                contacts += [(done, a)] if a - done > RAMP else []
+                impacts.append((a, b))
+                done = b
+            contacts += [(done, last)] if last - done > RAMP else []
+        return impacts, contacts
+
+    @cached_property
+    def impacts(self) -> Impacts:
+        """The impacts, each between two samples; at first touch, by free flight from the first.
+
+        The impulse is the change of momentum beyond weight and air.
+        """
+        found = self.stretches[0]
+        rows = np.recarray(len(found), IMPACT_ROW)
+        for row, (a, b) in zip(rows, found, strict=True):
+            self._write(row, a, b)
+        rows.sort(order="time")
+        return Impacts.from_rows(rows)
+
+    def _write(self, row: "np.record", a: int, b: int) -> None:
+        scenario, states = self.scenario, self.states
+        body, span = scenario.body, float(states.time[b] - states.time[a])
+        late, before = _touch(scenario, _state(states, a), span)
+        gain = self.gains[a:b].sum(axis=0)
+        if self.told is not None:
+            k = int(np.argmin(np.abs(self.told[0] - states.time[a] - late)))
+            gain = self.told[1][k] / body.mass
+        after = state(
+            before.position,
+            vector(np.array(before.velocity) + gain),
+            before.attitude,
+            _spun_back(body.inertia, states.angular_velocity[b], span - late),
+        )
+        point, _ = lowest_point(body, before.R[2], before.spin)
+        write_impact(body, vector(body.mass * gain), point, before, after, row)  # pyright: ignore[reportArgumentType]
+        row["time"] = states.time[a] + late
+
+    @cached_property
+    def spacing_error(self) -> float:
+        """The largest relative error of an impulse that the spacing of the times allows."""
+        body, found = self.scenario.body, self.stretches[0]
+        spans = np.array([self.states.time[b] - self.states.time[a] for a, b in found])
+        spins = np.array(
+            [np.linalg.norm(self.states.angular_velocity[[a, b]], axis=1).max() for a, b in found]
+        )
+        sizes = np.array([np.linalg.norm(self.gains[a:b].sum(axis=0)) for a, b in found])
+        return float(np.max(spans * (spins + body.gravity / sizes), initial=0.0))
+
+    @cached_property
+    def ended(self) -> tuple[int, Outcome, Ending]:
+        """The sample at which the toss ends, its outcome, and why: its energy can turn it no more."""
+        scenario, states = self.scenario, self.states
+        body, n_z = scenario.body, states.normal[:, 2]
+        caught = scenario.ending.caught
+        last = len(states.time) - 1
+        if caught is not None:
+            down = (states.position[:-1, 2] > caught) & (states.position[1:, 2] <= caught)
+            if down.any():
+                last = int(np.argmax(down)) + 1
+                return last, _face(n_z[last]), Ending.CAUGHT
+            return last, Outcome.UNDECIDED, Ending.MAX_TIME
+        passes = np.array([barrier(body, 1.0), barrier(body, -1.0)])
+        low = energies(body, states) < np.where(n_z > 0, *passes)
+        half = body.thickness / 2
+        if abs(n_z[-1]) < half / np.hypot(body.radius, half) and low[-1]:
+            return last, Outcome.EDGE, Ending.STANDING
+        if low[-1]:
+            settled = last - int(np.argmin(low[::-1])) + 1 if not low.all() else 0
+            return settled, _face(n_z[-1]), Ending.SETTLED
+        speed = np.linalg.norm(states.velocity[-1]) / (body.gravity * body.radius) ** 0.5
+        spin = np.linalg.norm(states.angular_velocity[-1]) * (body.radius / body.gravity) ** 0.5
+        if max(speed, spin) < STILL and abs(n_z[-1]) < 0.5:
+            return last, Outcome.EDGE, Ending.STANDING
+        return last, Outcome.UNDECIDED, Ending.MAX_TIME
+
+    def toss(self, engine: str, settings: dict[str, str | float]) -> Toss:
+        """Return the record of the toss, up to its ending.
+
+        Args:
+            engine: its name.
+            settings: what it says of itself.
+        """
+        last, outcome, ending = self.ended
+        end, impacts = float(self.states.time[last]), self.impacts
+        kept = impacts.time <= end
+        most = self.scenario.ending.max_impacts
+        if most is not None and kept.sum() >= most:
+            kept[np.flatnonzero(kept)[most:]] = False
+            end, outcome, ending = float(impacts.time[kept][-1]), Outcome.UNDECIDED, Ending.MAX_IMPACTS
+        kept_impacts = Impacts(**{name: column[kept] for name, column in vars(impacts).items()})
+        time = self.states.time
+        contacts = np.array([(time[a], min(time[b], end)) for a, b in self.stretches[1] if time[a] < end])
+        return Toss(
+            engine=engine,
+            scenario=self.scenario,
+            impacts=kept_impacts,
+            contacts=contacts.reshape(-1, 2),
+            outcome=outcome,
+            ending=ending,
+            end_time=end,
+            outcome_certain=None,
+            other_outcome=None,
+            trusted_impacts=len(kept_impacts),
+            trust_end=TrustEnd.NONE,
+            certificate=(
+                *(Setting(name=name, value=value) for name, value in settings.items()),
+                Setting(name="spacing of the times", value=float(np.diff(time).max(initial=0.0)), unit="s"),
+                Setting(
+                    name="error of an impulse that this spacing allows, relative", value=self.spacing_error
+                ),
+            ),
+            path=Samples(self.states, self.scenario.coin.mass * self.gains / np.diff(time)[:, None]),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """A path between samples: linear, but for the attitude, which is of norm 1."""
+
+    states: States
+    forces: Array
+    """Of the floor in each interval, (n - 1, 3) [N]."""
+
+    def sample(self, times: Array) -> States:
+        """Return the states at `times` [s]."""
+        known = self.states
+        i = np.clip(np.searchsorted(known.time, times, side="right") - 1, 0, len(known.time) - 2)
+        part = ((times - known.time[i]) / (known.time[i + 1] - known.time[i]))[:, None]
+
+        def between(column: Array) -> Array:
+            return (1 - part) * column[i] + part * column[i + 1]
+
+        e, after = known.quaternion[i], known.quaternion[i + 1]
+        mixed = (1 - part) * e + part * np.where(np.sum(e * after, axis=1)[:, None] < 0, -after, after)
+        return States(
+            time=times,
+            position=between(known.position),
+            velocity=between(known.velocity),
+            quaternion=mixed / np.linalg.norm(mixed, axis=1)[:, None],
+            angular_velocity=between(known.angular_velocity),
+        )
+
+    def floor_force(self, times: Array) -> Array:
+        """Return the mean force of the floor in the interval of each time, (n, 3) [N]."""
+        i = np.searchsorted(self.states.time, times, side="right") - 1
+        return self.forces[np.clip(i, 0, len(self.forces) - 1)]
+
+
+def _free_acceleration(scenario: Scenario, states: States) -> Array:
+    """Return the acceleration by weight and linear air, (n, 3) [m/s²]."""
+    body = scenario.body
+    weight = np.broadcast_to([0.0, 0.0, -body.gravity], states.velocity.shape)
+    if not any(body.drag) or scenario.air.exponent:
+        return weight
+    back = states.quaternion * [1, -1, -1, -1]
+    v = turned(back, states.velocity) - np.cross(states.angular_velocity, body.center)
+    drag = np.array([body.drag.force_tangential, body.drag.force_tangential, body.drag.force_normal])
+    return weight - turned(states.quaternion, drag * v) / body.mass
+
+
+def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Return where each run of flags begins, and where it has ended."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(np.int8)))
+    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
+
+
+def _state(states: States, i: int) -> State:
+    return state(
+        vector(states.position[i]),
+        vector(states.velocity[i]),
+        euler_parameters(states.quaternion[i]),
+        vector(states.angular_velocity[i]),
+    )
+
+
+def _touch(scenario: Scenario, at: State, span: float) -> tuple[float, State]:
+    """Return how long after a state a coin touches the floor [s], and its state then.
+
+    Where free flight does not touch within a span, or the coin is in the floor, that is at once.
+    """
+    release = dict(zip(("position", "velocity", "quaternion", "angular_velocity"), at[:4], strict=True))
+    if gaps(scenario.body, _as_states(at))[0] <= 0:
+        return 0.0, at
+    first = scenario.replace("release", release, "ending", {"max_impacts": 1, "max_time": span})
+    rows = analytic.toss(first).impacts
+    if not len(rows):
+        return 0.0, at
+    return float(rows.time[0]), state(
+        vector(rows.position[0]),
+        vector(rows.velocity_before[0]),
+        euler_parameters(rows.quaternion[0]),
+        vector(rows.angular_velocity_before[0]),
+    )
+
+
+def _as_states(at: State) -> States:
+    x, v, e, w = (np.array([part]) for part in at[:4])
+    return States(time=np.zeros(1), position=x, velocity=v, quaternion=e, angular_velocity=w)
+
+
+def _spun_back(inertia: object, w: Array, span: float) -> Vector:
+    """Return the angular velocity a span earlier, by Euler's equations, body frame, (3,) [rad/s]."""
+    J = np.asarray(inertia)
+    steps = 8
+    for _ in range(steps):
+        half = w - span / steps / 2 * np.linalg.solve(J, np.cross(J @ w, w))
+        w = w - span / steps * np.linalg.solve(J, np.cross(J @ half, half))
+    return vector(w)
+
+
+def _face(n_z: float) -> Outcome:
+    return Outcome.HEADS if n_z > 0 else Outcome.TAILS

@@ -1,0 +1,252 @@
+"""The suite of cases: right values by closed forms, both engines, and engines with planted errors."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cointoss import analytic
+from cointoss.compare.conform.agreeing import assert_agrees, assert_met
+from cointoss.compare.conform.card import Card
+from cointoss.compare.conform.case import cases
+from cointoss.compare.conform.quantities import QUANTITIES
+from cointoss.compare.conform.running import Status, conform, full, run_case
+from cointoss.compare.engines import Engine
+from cointoss.compare.simulators.simulator import simulator_of
+from cointoss.models.records import Ending
+from tests.helpers.command_line import cointoss, python, refused
+from tests.helpers.own_engines import Newton
+from tests.helpers.right_values import RIGHT
+
+CASES = {case.name: case for case in cases()}
+SLOW = {("mujoco", "shares")}
+EACH = [
+    pytest.param(
+        str(engine), name, marks=pytest.mark.slow if (engine, name) in SLOW else (), id=f"{engine}-{name}"
+    )
+    for engine in Engine
+    for name in CASES
+]
+
+
+@pytest.mark.parametrize("name", RIGHT)
+def test_a_right_value_is_that_of_its_closed_form(name):
+    case = CASES[name]
+    assert case.right == pytest.approx(RIGHT[name](case), rel=1e-11, abs=1e-13)
+
+
+def test_each_case_has_a_quantity_a_source_and_a_reason():
+    assert len(CASES) == len(cases()) >= 28
+    for case in cases():
+        assert case.quantity in QUANTITIES or case.quantity == "share_of_heads"
+        assert set(case.tolerance) == {"event_driven", "stepping"}
+        assert all((case.source, case.reason, case.points_to))
+        assert len(case.right) > 0
+
+
+@pytest.mark.parametrize(("engine", "name"), EACH)
+def test_the_engines_of_cointoss_meet_the_suite(engine, name):
+    """The sequence of faces is that within the analytic engine's horizon."""
+    run = run_case(simulator_of(engine), CASES[name], None)
+    assert (run.status, run.why) == (Status.MET, "")
+    if name == "faces" and engine == "analytic":
+        assert run.error == 0
+        assert analytic.toss(CASES[name].scenario).trusted_impacts == len(CASES[name].right)
+
+
+PLANTED = {
+    "a limit on spin": (
+        Newton(most_spin=100.0),
+        "spin_kept",
+        (0.0, 0.0, 100.0),
+        "a limit on the angular velocity",
+    ),
+    "another normal": (Newton(lean=0.05), "sideways", (np.sin(0.05),), "an impulse along another normal"),
+    "energy at a touch": (
+        Newton(gain=1e-2, dt=1e-4),
+        "energy",
+        (1e-2,),
+        "energy gained or lost at each touch",
+    ),
+}
+
+
+@pytest.mark.parametrize(("engine", "name", "found", "words"), PLANTED.values(), ids=PLANTED)
+def test_a_card_names_a_planted_error(engine, name, found, words):
+    case = CASES[name]
+    if name == "energy":
+        case = replace(case, until=1.0, every=None)
+    right = run_case(simulator_of(Newton()), case, 1e-4)
+    (result,) = conform([simulator_of(engine)], [replace(case, full_until=1.0)])
+    assert (result.own.status, right.error < result.own.error / 5) == (Status.MISSED, True)
+    assert result.own.found == pytest.approx(found, rel=0.2 if name == "energy" else 2e-2)
+    card = Card.of(simulator_of(engine), [result])
+    told = card.as_lines()
+    for part in (words, case.title, "0 of 1 cases met, 1 missed", "steps of "):
+        assert part in told
+
+
+def test_a_card_has_errors_by_step_and_their_order():
+    engine = simulator_of(Newton())
+    chosen = [CASES[name] for name in ("parabola", "terminal_speed", "flat_50")]
+    parabola, terminal, flat = conform([engine], chosen)
+    assert [run.dt for run in parabola.runs] == pytest.approx([2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5])
+    # Half-implicit Euler is g t dt/2 off after t.
+    assert [run.error for run in parabola.runs] == pytest.approx(
+        [(run.dt or 0) / 0.4 for run in parabola.runs], rel=1e-6
+    )
+    assert parabola.order == pytest.approx(1.0, abs=1e-6)
+    assert terminal.own.status == Status.NOT_REALISABLE
+    assert flat.own.status == Status.MET
+    card = Card.of(engine, [parabola, terminal, flat])
+    assert card.told == "2 of 3 cases met, 1 not realisable"
+    assert not card.missed
+    told = json.loads(json.dumps(card.as_json()))
+    assert [each["status"] for each in told["cases"]] == ["met", "not realisable", "met"]
+    assert told["cases"][1]["why"] == "air.normal = 20.0: accepted: 0"
+    page = card.page()
+    for part in (
+        "A coin falls on its parabola",
+        "air.normal = 20.0: accepted: 0",
+        "at 0.0625 ms",
+        "half-implicit",
+    ):
+        assert part in page
+
+
+def test_full_is_an_hour_and_10000_tosses():
+    rest, shares = full(CASES["rest"]), full(CASES["shares"])
+    assert (rest.until, shares.tosses) == (3600.0, 10_000)
+    assert shares.tolerance["stepping"] == pytest.approx(CASES["shares"].tolerance["stepping"] / 50**0.5)
+    assert full(CASES["tilted"]) == CASES["tilted"]
+
+
+def test_a_case_in_which_nothing_happens_has_failed_and_says_why():
+    away = replace(CASES["tilted"], until=0.1)
+    run = run_case(simulator_of("analytic"), away, None)
+    assert (run.status, run.why) == (Status.FAILED, "no impact was seen in 0.1 s")
+    for name in ("period_of_spin", "exponent_of_the_fall"):
+        run = run_case(simulator_of("analytic"), replace(away, quantity=name), None)
+        assert run.status == Status.FAILED
+    assert "the coin did not come down from 0.2 to 0.05 rad" in run.why
+
+
+def test_a_toss_that_agrees_passes():
+    assert_agrees(analytic.toss("fig24a"), "fig24a")
+    assert_agrees("analytic", "fig24a", tolerance=1e-6)
+    smooth = CASES["tilted"].scenario.replace("ending.max_impacts", 2)
+    assert_agrees(Newton(dt=5e-5), smooth, tolerance=2e-2)
+
+
+@pytest.mark.parametrize(
+    ("engine", "words"),
+    [
+        (
+            Newton(lean=0.05),
+            r"Newton's steps: impact 1 at 0\.2\d+ s: impulse \(.*\) N s against the contact law: off by ",
+        ),
+        (
+            type("Floats", (), {"simulate": lambda _, case, times: _floating(case, times)})(),
+            "Floats: no impact was seen in",
+        ),
+        (
+            type("Late", (), {"simulate": lambda _, case, times: _late(case, times)})(),
+            "Late: impact 1: time .* s, right .* s: off",
+        ),
+    ],
+)
+def test_a_toss_that_does_not_agree_is_told_by_impact_quantity_and_size(engine, words):
+    with pytest.raises(AssertionError, match=words):
+        assert_agrees(engine, CASES["tilted"].scenario.replace("ending.max_impacts", 2))
+
+
+def _floating(case, times):
+    release = case.release
+    return [
+        [row] * len(times)
+        for row in (release.position, release.attitude, release.velocity, release.angular_velocity)
+    ]
+
+
+def _late(case, times):
+    return analytic.toss(case.replace("gravity", 9.5, "ending.max_impacts", None)).sample(times)
+
+
+def test_a_face_within_the_horizon_must_agree():
+    right = analytic.toss("fig24a")
+    turned = replace(right, impacts=replace(right.impacts, face=3 - right.impacts.face))
+    with pytest.raises(
+        AssertionError, match=r"analytic: impact 1: face T, right H; with impulses off by .* the first 16"
+    ):
+        assert_agrees(turned, "fig24a")
+
+
+def test_a_case_that_is_missed_or_failed_is_asserted_with_its_numbers():
+    assert_met(simulator_of("analytic"), CASES["tilted"])
+    with pytest.raises(
+        AssertionError,
+        match=r"sideways .*: sideways_impulse 0\.049979, right 0: off by 5\.0e-02, allowed 1\.0e-02",
+    ):
+        assert_met(simulator_of(Newton(lean=0.05)), CASES["sideways"])
+    with pytest.raises(AssertionError, match=r"tilted: no impact was seen in 0\.1 s"):
+        assert_met(simulator_of("analytic"), replace(CASES["tilted"], until=0.1))
+
+
+SUITE = """
+def test_suite(cointoss_engine, cointoss_case):
+    from cointoss.testing import assert_met
+    if cointoss_case.name in ("tilted", "sideways", "terminal_speed"):
+        assert_met(cointoss_engine, cointoss_case)
+"""
+
+
+@pytest.mark.parametrize(
+    ("options", "status", "words"),
+    [
+        (["--cointoss-engine", "tests.helpers.own_engines:right"], 0, f"{len(CASES)} passed"),
+        (["--cointoss-engine", "tests.helpers.own_engines:leaning"], 1, "off by 5.0e-02, allowed 1.0e-02"),
+        ([], 1, "--cointoss-engine: missing; accepted: package.module:name"),
+    ],
+)
+def test_pytest_takes_the_suite_by_a_plugin(tmp_path, options, status, words):
+    (tmp_path / "test_mine.py").write_text(SUITE)
+    answered = python(
+        "-m", "pytest", "-q", "-p", "no:cacheprovider", "-p", "cointoss.testing", *options, folder=tmp_path
+    )
+    assert answered.returncode == status, answered.stdout
+    assert words in answered.stdout
+
+
+def test_the_command_prints_a_card_and_ends_with_1_where_a_case_is_missed(tmp_path):
+    page = tmp_path / "card.html"
+    met = cointoss("conform", "analytic", "--case", "tilted", "--case", "faces", "--out", page)
+    assert met.exit_code == 0
+    assert "2 of 2 cases met" in met.stdout
+    assert "A coin tilted by 45°" in page.read_text(encoding="utf-8")
+    missed = cointoss("conform", "tests.helpers.own_engines:leaning", "--case", "sideways", "--json")
+    assert missed.exit_code == 1
+    (told,) = json.loads(missed.stdout)["cases"]
+    assert (told["status"], told["right"]) == ("missed", [0.0])
+    assert len(told["runs"]) == 6
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["conform", "nowhere"], "engine: nowhere, accepted: analytic, mujoco, or package.module:name"),
+        (["conform", "analytic", "--case", "none"], "--case none: accepted: parabola, "),
+        (["conform", "analytic", "--out", "card.txt"], "card.txt"),
+        (["conform", "a:b", "--python", "/no/python"], "/no/python: can't be run"),
+    ],
+)
+def test_the_command_refuses_in_one_line(words, told):
+    assert told in refused(*words)
+
+
+def test_an_engine_asked_for_states_goes_on_where_a_period_is_repeated():
+    case = CASES["critical_speed"].scenario
+    assert analytic.toss(case).ending == Ending.PERIODIC
+    seen = simulator_of("analytic").observe(case, 1.0)
+    assert seen.states.time[-1] == pytest.approx(1.0)
+    assert np.abs(seen.states.normal[:, 2]).max() < 0.018
