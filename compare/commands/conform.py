@@ -38,26 +38,17 @@ def conform(engine: str, asked: Suite) -> None:
     ENGINE is analytic, mujoco, the name of an entry point cointoss.engines, or package.module:name of an
     object with a function simulate(scenario, times). The exit status is 1 where a case is missed.
     """
-    with plain_errors("conform"):
-        from cointoss.compare.conform.card import Card
-        from cointoss.compare.conform.case import cases
-        from cointoss.compare.conform.running import conform, full
+    with plain_errors(engine):
+        from cointoss.compare.conform import suite
         from cointoss.compare.output.files import require_file, write_text
-        from cointoss.compare.simulators.simulator import simulators_of
-        from cointoss.models.stages import stage
 
-        known = {case.name: case for case in cases()}
-        for name in asked.case:
-            if name not in known:
-                refuse(f"--case {name}: accepted: {', '.join(known)}")
         require_file(asked.out, ".html", engine)
-        chosen = [known[name] for name in asked.case] or list(known.values())
-        chosen = [full(case) for case in chosen] if asked.full else chosen
-        with (
-            simulators_of(engine, limit=asked.time_limit, python=asked.python) as engines,
-            stage(f"holding {engines[0].name} against {len(chosen)} cases", "runs") as progress,
-        ):
-            card = Card.of(engines[0], conform(engines, chosen, progress))
+        try:
+            card = suite.conform(
+                engine, cases=asked.case, full=asked.full, python=asked.python, time_limit=asked.time_limit
+            )
+        except ValueError as error:
+            refuse(f"--case {error}")
         if asked.out is not None:
             write_text(asked.out, card.page())
         if asked.json:

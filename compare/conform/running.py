@@ -76,7 +76,7 @@ class Result:
 _ROUNDING = 1e-7
 
 
-def conform(
+def run_cases(
     engines: Sequence[Simulator],
     cases: Sequence[Case],
     progress: Callable[[int, int], None] = lambda *_: None,

@@ -11,7 +11,7 @@ from cointoss.compare.conform.agreeing import assert_agrees, assert_met
 from cointoss.compare.conform.card import Card
 from cointoss.compare.conform.case import cases
 from cointoss.compare.conform.quantities import QUANTITIES
-from cointoss.compare.conform.running import Status, conform, full, run_case
+from cointoss.compare.conform.running import Status, full, run_case, run_cases
 from cointoss.compare.engines import Engine
 from cointoss.compare.simulators.simulator import simulator_of
 from cointoss.models.records import Ending
@@ -78,7 +78,7 @@ def test_a_card_names_a_planted_error(engine, name, found, words):
     if name == "energy":
         case = replace(case, until=1.0, every=None)
     right = run_case(simulator_of(Newton()), case, 1e-4)
-    (result,) = conform([simulator_of(engine)], [replace(case, full_until=1.0)])
+    (result,) = run_cases([simulator_of(engine)], [replace(case, full_until=1.0)])
     assert (result.own.status, right.error < result.own.error / 5) == (Status.MISSED, True)
     assert result.own.found == pytest.approx(found, rel=0.2 if name == "energy" else 2e-2)
     card = Card.of(simulator_of(engine), [result])
@@ -90,7 +90,7 @@ def test_a_card_names_a_planted_error(engine, name, found, words):
 def test_a_card_has_errors_by_step_and_their_order():
     engine = simulator_of(Newton())
     chosen = [CASES[name] for name in ("parabola", "terminal_speed", "flat_50")]
-    parabola, terminal, flat = conform([engine], chosen)
+    parabola, terminal, flat = run_cases([engine], chosen)
     assert [run.dt for run in parabola.runs] == pytest.approx([2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5])
     # Half-implicit Euler is g t dt/2 off after t.
     assert [run.error for run in parabola.runs] == pytest.approx(

@@ -1,0 +1,47 @@
+"""The verb: an engine held against the suite of cases."""
+
+from collections.abc import Iterable
+from typing import Any
+
+from cointoss.compare.conform.card import Card
+from cointoss.compare.conform.case import cases as all_cases
+from cointoss.compare.conform.running import full as at_full_length
+from cointoss.compare.conform.running import run_cases
+from cointoss.compare.simulators.simulator import LIMIT, simulators_of
+from cointoss.models.stages import stage
+
+
+def conform(
+    engine: Any, *, cases: Iterable[str] = (), full: bool = False, python: str = "", time_limit: float = LIMIT
+) -> Card:
+    """Hold an engine against cases with known answers.
+
+    Args:
+        engine: an object with a function `simulate(scenario, times)`, see
+            `cointoss.compare.simulators.simulator.Simulates`; or "package.module:name" of one, or the name of
+            an entry point `cointoss.engines`, which runs in processes of its own, side by side; or "analytic"
+            or "mujoco".
+        cases: the names of some, by default all.
+        full: an hour in place of a minute, and 10,000 tosses in place of 200.
+        python: which runs an engine given as text, by default this one; it needs NumPy, and not cointoss.
+        time_limit: the longest time for one answer of the engine [s].
+
+    Returns:
+        What came of each case.
+
+    Raises:
+        ValueError: for the name of no case.
+        TypeError: for an object that is no engine.
+        UnusableEngineError: for an engine that can't be started.
+    """
+    known = {case.name: case for case in all_cases()}
+    for name in (asked := tuple(cases)):
+        if name not in known:
+            raise ValueError(f"{name}: accepted: {', '.join(known)}")
+    chosen = [known[name] for name in asked] or list(known.values())
+    chosen = [at_full_length(case) for case in chosen] if full else chosen
+    with (
+        simulators_of(engine, limit=time_limit, python=python) as engines,
+        stage(f"holding {engines[0].name} against {len(chosen)} cases", "runs") as progress,
+    ):
+        return Card.of(engines[0], run_cases(engines, chosen, progress))
