@@ -17,7 +17,8 @@ def agreement_horizon(toss: Toss, errors: Array) -> int:
     """Count the leading impacts whose faces must be shared by an engine that makes `errors` in its impulses.
 
     The toss is repeated from each of its impacts in turn, with that impulse too large, and too small, by
-    `SAFETY` times the largest error up to there: only chaos separates these from the toss.
+    `SAFETY` times the largest error up to there: only chaos separates these from the toss. After an impulse
+    that is as wrong as none, no face must be shared.
 
     Args:
         toss: by the analytic engine.
@@ -29,6 +30,8 @@ def agreement_horizon(toss: Toss, errors: Array) -> int:
         if i >= shared:
             break
         error = SAFETY * errors[: i + 1].max()
+        if error >= 1:
+            return i + 1
         for part in (error, -error):
             spin, spin_after = impacts.angular_velocity_before[i], impacts.angular_velocity_after[i]
             release = {

@@ -1,5 +1,7 @@
 """Impacts of two tosses are matched by number, and both engines' agree within the horizon."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -27,6 +29,14 @@ def test_impacts_are_matched_by_number():
 
 def test_the_papers_own_impacts_have_no_error():
     assert errors_of_impacts(analytic.toss(scenario(release=TUMBLING, air=AIR))).max() < 1e-12
+
+
+def test_an_impact_that_the_law_knows_nothing_of_is_wrong_beyond_measure():
+    """A coin that flies up touches nothing before the toss ends."""
+    toss = analytic.toss(scenario(release=TUMBLING, ending={"max_impacts": 1}))
+    case = toss.scenario.replace("ending.max_time", 1e-3)
+    impacts = replace(toss.impacts, velocity_before=-toss.impacts.velocity_before)
+    assert errors_of_impacts(replace(toss, scenario=case, impacts=impacts)).tolist() == [np.inf]
 
 
 @pytest.mark.parametrize("thickness", [0.0, 2e-3])

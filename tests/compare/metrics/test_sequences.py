@@ -22,3 +22,9 @@ def test_the_horizon_shrinks_with_the_error():
     assert horizons[0] == n
     assert horizons == sorted(horizons, reverse=True)
     assert horizons[-1] < n / 2
+
+
+def test_no_face_must_be_shared_after_an_impulse_that_is_as_wrong_as_none():
+    tossed = analytic.toss(scenario(release=TUMBLING, air=AIR))
+    for wrong in (0.5, np.inf):
+        assert agreement_horizon(tossed, np.array([1e-15, 1e-15, wrong, 0.0, 0.0])) == 3
