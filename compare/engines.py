@@ -77,6 +77,16 @@ class Engine(StrEnum):
         return versions_of(_MADE_OF[self])
 
 
+def is_own(engine: str) -> bool:
+    """Return whether an engine is one of this package's."""
+    return engine in tuple(Engine)
+
+
+def label_of(engine: str) -> str:
+    """Return what an engine is called in words."""
+    return "MuJoCo" if engine == Engine.MUJOCO else engine
+
+
 _PACKAGES = {Engine.ANALYTIC: "cointoss.analytic", Engine.MUJOCO: "cointoss.coin_mj"}
 _OF_BOTH = ("cointoss", "numpy")
 _MADE_OF = {Engine.ANALYTIC: _OF_BOTH, Engine.MUJOCO: (*_OF_BOTH, "mujoco")}

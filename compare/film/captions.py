@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from PIL import Image, ImageDraw, ImageFont
 
+from cointoss.compare.engines import label_of
 from cointoss.compare.film.drawing import FORCE_COLOR, IMPULSE_COLOR
 from cointoss.compare.film.play import Play
 from cointoss.compare.output.style import HEADS, TAILS
@@ -25,16 +26,16 @@ def _color(color: str | tuple[float, float, float]) -> Color:
 
 
 INK, WHITE, GREY = (27, 36, 48), (255, 255, 255), (91, 102, 117)
-TITLES: dict[str, tuple[str, Color]] = {
-    "analytic": ("analytic", (0, 90, 142)),
-    "mujoco": ("MuJoCo", (170, 68, 0)),
-}
-"""Name and colour of each engine."""
+TITLES: dict[str, Color] = {"analytic": (0, 90, 142), "mujoco": (170, 68, 0)}
+"""The colour of each engine's name; another's is written in ink."""
 LABELS: dict[Outcome, tuple[Color, Color]] = {
     Outcome.HEADS: (_color(HEADS), INK),
     Outcome.TAILS: (_color(TAILS), WHITE),
 }
 """Ground and ink of a face's label; an outcome that is none is grey."""
+
+WIDEST_NAME = 0.4
+"""The part of its panel's width that an engine's name takes at most."""
 
 
 class Line(NamedTuple):
@@ -94,7 +95,8 @@ def caption_of(play: Play, i: int) -> Caption:
         weight = toss.scenario.coin.mass * toss.scenario.gravity
         weights = np.linalg.norm(play.forces[i]) / weight
         lines.append(Line(f"floor's force {weights:.2f} m g", _color(FORCE_COLOR)))
-    return Caption(Line(*TITLES[toss.engine]), label.upper(), *LABELS.get(outcome, (GREY, WHITE)), lines)
+    title = Line(label_of(toss.engine), TITLES.get(toss.engine, INK))
+    return Caption(title, label.upper(), *LABELS.get(outcome, (GREY, WHITE)), lines)
 
 
 def written(frame: np.ndarray, captions: Sequence[Caption], below: str) -> np.ndarray:
@@ -114,8 +116,9 @@ def written(frame: np.ndarray, captions: Sequence[Caption], below: str) -> np.nd
     font, large = _font(size), _font(1.5 * size)
     for number, caption in enumerate(captions):
         left = number * image.width / len(captions) + size / 2
-        draw.text((left, 1.5 * size), caption.title.text, caption.title.color, font, "lm")
-        start = left + draw.textlength(caption.title.text, font=font) + size / 2
+        name = _fitting(draw, caption.title.text, size, WIDEST_NAME * image.width / len(captions))
+        draw.text((left, 1.5 * size), caption.title.text, caption.title.color, name, "lm")
+        start = left + draw.textlength(caption.title.text, font=name) + size / 2
         end = start + draw.textlength(caption.label, font=large) + size
         draw.rounded_rectangle((start, 0.4 * size, end, 2.6 * size), size / 3, fill=caption.ground)
         draw.text((start + size / 2, 1.5 * size), caption.label, font=large, fill=caption.ink, anchor="lm")
@@ -126,6 +129,11 @@ def written(frame: np.ndarray, captions: Sequence[Caption], below: str) -> np.nd
             draw.line((x, 0, x, image.height), fill=WHITE, width=max(2, image.width // 400))
     draw.text((image.width / 2, image.height - size), below, INK, font, "mm")
     return np.asarray(image)
+
+
+def _fitting(draw: ImageDraw.ImageDraw, text: str, size: float, most: float) -> Font:
+    """Return the font in which a text is at most so wide, and no larger than `size` [pixels]."""
+    return _font(size * min(1.0, most / draw.textlength(text, font=_font(size))))
 
 
 @cache

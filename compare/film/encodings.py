@@ -9,7 +9,7 @@ class Format(NamedTuple):
     """The size and the speed of a film."""
 
     width: int
-    """The width of a picture [pixels]."""
+    """The width of a picture of one toss or two [pixels]."""
     height: int
     """The height of a picture [pixels]."""
     frames_per_second: int

@@ -3,7 +3,7 @@
 import warnings
 from dataclasses import dataclass
 
-from cointoss.compare.engines import Engine, EngineSettings
+from cointoss.compare.engines import Engine, EngineSettings, is_own
 from cointoss.models.records import ApproximationWarning, Ending, Toss
 from cointoss.models.stages import stage
 
@@ -23,8 +23,11 @@ class Filmed:
 
 
 def goes_on(toss: Toss) -> bool:
-    """Return whether a film goes on beyond the ending of a toss: its face is settled, and its coin moves."""
-    return toss.ending in _GOES_ON
+    """Return whether a film goes on beyond the ending of a toss: its face is settled, and its coin moves.
+
+    The toss of an engine that is none of ours is filmed as it is.
+    """
+    return is_own(toss.engine) and toss.ending in _GOES_ON
 
 
 def followed(toss: Toss, settings: EngineSettings | None = None) -> Filmed:
@@ -33,7 +36,7 @@ def followed(toss: Toss, settings: EngineSettings | None = None) -> Filmed:
     The coin is tossed again, and waited for: up to its ending it does the same, bit for bit.
 
     Args:
-        toss: by either engine.
+        toss: by any engine.
         settings: of its engine, by default those of one toss.
     """
     if not goes_on(toss):

@@ -1,4 +1,4 @@
-"""A toss, or two side by side, as a film in a file."""
+"""A toss, or several side by side, as a film in a file."""
 
 import errno
 import itertools
@@ -31,13 +31,13 @@ def frames(shown: Sequence[Filmed], camera: Camera, form: Format) -> Iterator[np
     """Draw the frames of a film, one at a time, (height, width, 3) of uint8.
 
     Args:
-        shown: tosses by either engine, of coins of one radius; they stand side by side.
+        shown: tosses by any engines, of coins of one radius; they stand side by side.
         camera: from where.
         form: of the film.
     """
     times, speeds = film_times(shown, form.frames_per_second, form.longest)
     plays = [play_of(each, times) for each in shown]
-    box, width = box_of(plays), form.width // len(shown)
+    box, width = box_of(plays), _width(shown, form) // len(shown)
     with ExitStack() as stack:
         drawers = [
             stack.enter_context(Drawer(play, camera, box, height=form.height, width=width)) for play in plays
@@ -56,7 +56,7 @@ def write_video(
     """Write a film to a file.
 
     Args:
-        shown: tosses by either engine, of one coin; they stand side by side.
+        shown: tosses by any engines, of one coin; they stand side by side.
         camera: from where.
         form: of the film.
         path: of the file, with a suffix of `ENCODINGS`.
@@ -70,7 +70,7 @@ def write_video(
     """
     mediapy.set_ffmpeg(imageio_ffmpeg.get_ffmpeg_exe())
     encoding = ENCODINGS[path.suffix.lower()]
-    count, shape = frame_count(shown, form), (form.height, form.width)
+    count, shape = frame_count(shown, form), (form.height, _width(shown, form))
     chosen, poster = _poster_number(shown, form), np.zeros((*shape, 3), np.uint8)
     writer = mediapy.VideoWriter(
         str(path),
@@ -117,6 +117,11 @@ def _poster_number(shown: Sequence[Filmed], form: Format) -> int:
     times, _ = film_times(shown, form.frames_per_second, form.longest)
     firsts = [np.append(each.motion.impacts.time, each.motion.end_time)[0] for each in shown]
     return 1 + int(np.searchsorted(times, min(firsts)))
+
+
+def _width(shown: Sequence[Filmed], form: Format) -> int:
+    """Return the width of a film: of more than two tosses each has the half of its form [pixels]."""
+    return form.width // 2 * max(2, len(shown))
 
 
 def _held(form: Format) -> int:

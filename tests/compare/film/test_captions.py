@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from cointoss.compare.film.captions import caption_of, written
+from cointoss.compare.film.captions import Line, caption_of, written
 from cointoss.compare.film.play import play_of
 from cointoss.models.records import Outcome
 from tests.helpers.films import FLAT, TURNED, MadePath, blue, golden, made, shown
@@ -37,3 +37,14 @@ def test_the_caption_tells_impacts_height_and_the_floors_action():
         "2 impacts, height 12.3 cm; floor's force 1.00 m g",
         "2 impacts, height 12.3 cm; settled at 1.000 s",
     ]
+
+
+def test_a_long_name_leaves_its_panel_room_for_the_label():
+    """It is written smaller; a name without a colour of its own is written in ink."""
+    blank = np.full((480, 640, 3), 220, np.uint8)
+    for name, label in (("off", "HEADS"), ("an engine of a long name, as documented", "HEADS")):
+        toss = made(MadePath(position=(0, 0, 0.1)), engine=name)
+        caption = caption_of(play_of(shown(toss), np.array([1])), 0)
+        assert (caption.title, caption.label) == (Line(name), label)
+        ground = golden(written(blank, [caption], "").astype(int)[:60])
+        assert np.flatnonzero(ground.any(axis=0)).max() < 600

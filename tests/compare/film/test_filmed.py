@@ -39,6 +39,11 @@ def test_what_has_ended_otherwise_is_filmed_as_it_is(ending):
     assert followed(toss).motion is toss
 
 
+def test_the_toss_of_another_engine_is_filmed_as_it_is():
+    toss = made(MadePath(position=(0, 0, 0.1)), engine="off")
+    assert followed(toss).motion is toss
+
+
 def going_on(end=1.0, until=2.0, then=Ending.LYING):
     path = MadePath(position=(0, 0, 0.1))
     toss = made(path, impacts=[(0.3, 1e-3)], end=end)

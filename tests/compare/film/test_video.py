@@ -70,3 +70,13 @@ def test_the_time_is_written_into_the_frame():
     rows = np.flatnonzero((first != second).any(axis=(1, 2)))
     assert len(rows) > 3
     assert min(rows) > 0.9 * 240
+
+
+def test_of_more_than_two_tosses_each_has_half_a_picture():
+    tosses = [
+        shown(made(MadePath(position=(0, 0, 0.1)), engine=name)) for name in ("analytic", "mujoco", "off")
+    ]
+    frame = next(frames(tosses, Camera.TOP, TINY))
+    assert frame.shape == (TINY.height, 3 * TINY.width // 2, 3)
+    for panel in np.array_split(frame[20:].astype(int), 3, axis=1):
+        assert golden(panel).any()
