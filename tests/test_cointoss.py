@@ -161,7 +161,7 @@ def test_the_package_compare_is_described_as_the_function_once_it_is_asked():
     assert inspect.signature(cointoss.compare) == inspect.signature(compare)
     assert f"compare{inspect.signature(compare)}\n" in told
     assert all(
-        words in told for words in ("Both engines asked the same question", "mujoco: MuJoCo's settings")
+        words in told for words in ("Both engines asked the same question", "settings: of our engines")
     )
 
 

@@ -1,7 +1,8 @@
-"""`cointoss compare`: one toss by both engines, and its report."""
+"""`cointoss compare`: one toss by several engines, and its report."""
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import click
 
@@ -18,6 +19,8 @@ class Report:
 
     out: Path | None = None
     """Folder of the report, made if missing; by default NAME-report, as in fig24a-report."""
+    engine: tuple[Literal["analytic", "mujoco"], ...] = ()
+    """An engine to hold against the analytic one; may be given again. By default mujoco."""
     no_video: bool = False
     """Draw no video, which takes longest."""
 
@@ -28,22 +31,23 @@ class Report:
 @options_of(Report)
 @with_scenario
 def compare(source: Source, asked: Report) -> None:
-    """Toss one coin by both engines and write a report.
+    """Toss one coin by several engines and write a report.
 
-    The report shows both tosses side by side, with a video. The page is there before the video is drawn.
+    The report shows the tosses side by side, with a video. The page is there before the video is drawn.
     """
     from cointoss.compare.report.contents import NOT_ASKED, require_folder
     from cointoss.models.stages import stage
 
     folder = asked.out or Path(f"{source.stem}-report")
-    require_folder(folder, source.name)
+    require_folder(folder, source.name, asked.engine)
 
     with stage("getting ready"):  # what is imported takes long on a busy machine
         from cointoss.compare.film.back_end import drawing_problem
 
         problem = NOT_ASKED if asked.no_video else drawing_problem()
 
-        from cointoss.compare.report.comparison import compared
+        from cointoss.compare.report.comparison import BOTH, compared
         from cointoss.compare.report.folder import write_report
 
-    click.echo(write_report(compared(source.scenario, source.text, source.stem), folder, problem))
+    found = compared(source.scenario, source.text, source.stem, asked.engine or BOTH)
+    click.echo(write_report(found, folder, problem))

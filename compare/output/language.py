@@ -1,8 +1,15 @@
 """The language of a message: the keywords of Python, or the options of the command line."""
 
 import re
+from collections.abc import Iterable
 
 _KEYWORD = re.compile(r"`([a-z]+(?:_[a-z]+)*)`")
+
+
+def listed(things: Iterable[object]) -> str:
+    """Return things as a sentence lists them: "a", "a and b", "a, b and c"."""
+    *first, last = map(str, things)
+    return f"{', '.join(first)} and {last}" if first else last
 
 
 def option_of(keyword: str) -> str:

@@ -1,6 +1,8 @@
 """How all pictures look: the colours beside those of outcomes, and the style of plots."""
 
-from typing import Any
+from collections.abc import Iterable
+from itertools import cycle
+from typing import Any, NamedTuple
 
 from matplotlib.colors import LinearSegmentedColormap
 
@@ -15,6 +17,28 @@ INK, GREY, PALE, GRID = "#1b2430", "#5b6675", "#9aa4b0", "#d9dee5"
 OUTCOMES = {outcome: COLORS[str(outcome)] for outcome in Outcome}
 ANALYTIC, MUJOCO = BLUE, VERMILION
 """The engines."""
+
+
+class Look(NamedTuple):
+    """How an engine's toss is told from the others."""
+
+    kind: str
+    """The class of what shows it on a page; shared.css has its colours."""
+    color: str
+    line: str
+    """The style of its line in a plot."""
+
+
+_OWN = {"analytic": Look("analytic", ANALYTIC, "-"), "mujoco": Look("mujoco", MUJOCO, "--")}
+_OTHERS = (GREEN, "-."), (PURPLE, ":"), (ORANGE, "-."), (SKY, ":")
+
+
+def looks_of(engines: Iterable[str]) -> list[Look]:
+    """Return the look of each engine; others than ours have theirs in turn."""
+    others = (Look(f"other-{number}", *drawn) for number, drawn in enumerate(cycle(_OTHERS), start=1))
+    return [_OWN.get(engine) or next(others) for engine in engines]
+
+
 SHARE_OF_HEADS = LinearSegmentedColormap.from_list("share of heads", [TAILS, "#FFFFFF", HEADS])
 """The colours of a share of heads from 0 to 1."""
 

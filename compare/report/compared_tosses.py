@@ -1,6 +1,7 @@
-"""What two tosses of one scenario have in common, and what they do not: numbers alone."""
+"""What the tosses of one scenario have in common, and what they do not: numbers alone."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -38,47 +39,28 @@ class Together:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class ComparedTosses:
-    """The numbers of a `cointoss.compare.report.comparison.Comparison`, without what shows them."""
+class Against:
+    """A toss held against the measure; how they differ is computed when it is first asked for."""
 
-    name: str
-    """The name of the scenario."""
-    text: str
-    """The scenario's TOML."""
-    analytic: Toss
-    mujoco: Toss | None
-    not_realisable: str | None = None
-    """Why MuJoCo can't toss the scenario, where it can't."""
-    settings: EngineSettings
-    """MuJoCo's settings."""
+    measure: Toss
+    """The analytic toss."""
+    toss: Toss
+    """The toss of the other engine."""
 
     @property
-    def scenario(self) -> Scenario:
-        """What was tossed."""
-        return self.analytic.scenario
-
-    @property
-    def tosses(self) -> tuple[Toss, ...]:
-        """The tosses there are, the analytic first."""
-        return (self.analytic,) if self.mujoco is None else (self.analytic, self.mujoco)
-
-    @property
-    def both(self) -> tuple[Toss, Toss]:
-        """The analytic toss and MuJoCo's."""
-        if self.mujoco is None:
-            raise UnsupportedError(self.not_realisable)
-        return self.analytic, self.mujoco
+    def most_impacts(self) -> int:
+        """The number of impacts of the toss that has more."""
+        return max(len(self.measure.impacts), len(self.toss.impacts))
 
     @cached_property
     def differences(self) -> Differences:
-        """The differences of the impacts, MuJoCo against analytic."""
-        a, b = self.both
-        return match(a.impacts, b.impacts)
+        """The differences of the impacts, the measure's minus the other's."""
+        return match(self.measure.impacts, self.toss.impacts)
 
     @cached_property
     def together(self) -> Together:
         """Both paths at the same times."""
-        a, b = self.both
+        a, b = self.measure, self.toss
         times = np.linspace(0, min(a.end_time, b.end_time), TIMES)
         path_a, path_b = a.sample(times), b.sample(times)
         apart = distance(path_a, path_b)
@@ -86,36 +68,77 @@ class ComparedTosses:
             time=times,
             distance=apart,
             attitude_angle=attitude_angle(path_a, path_b),
-            parting_time=parting_time(times, apart, PARTED * self.scenario.coin.radius),
+            parting_time=parting_time(times, apart, PARTED * a.scenario.coin.radius),
         )
 
     @cached_property
     def common_prefix(self) -> int:
         """Leading symbols of the sequences that agree."""
-        a, b = self.both
-        return common_prefix(a.sequence, b.sequence)
+        return common_prefix(self.measure.sequence, self.toss.sequence)
 
     @cached_property
     def errors(self) -> Array:
-        """Relative error of each of MuJoCo's impulses: see `errors_of_impacts`, (n,), read-only."""
-        errors = errors_of_impacts(self.both[1])
+        """Relative error of each of the other engine's impulses: see `errors_of_impacts`, (n,), read-only."""
+        errors = errors_of_impacts(self.toss)
         errors.setflags(write=False)
         return errors
 
     @cached_property
     def horizon(self) -> int:
-        """Leading symbols that must agree: within MuJoCo's own horizon, and that of its errors."""
-        a, b = self.both
-        return min(b.trusted_impacts, agreement_horizon(a, self.errors))
+        """Leading symbols that must agree: within the other engine's own horizon, and that of its errors."""
+        return min(self.toss.trusted_impacts, agreement_horizon(self.measure, self.errors))
 
     @property
     def horizon_time(self) -> float | None:
         """The time of the last impact whose face must be shared, where others follow [s]."""
-        a, b = self.both
-        follows = self.horizon < max(len(a.impacts), len(b.impacts))
-        return float(a.impacts.time[self.horizon - 1]) if 0 < self.horizon and follows else None
+        times = self.measure.impacts.time
+        return float(times[self.horizon - 1]) if 0 < self.horizon < self.most_impacts else None
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ComparedTosses:
+    """The numbers of a `cointoss.compare.report.comparison.Comparison`, without what shows them."""
+
+    name: str
+    """The name of the scenario."""
+    text: str
+    """The scenario's TOML."""
+    tosses: tuple[Toss, ...]
+    """One toss by each engine that can toss the scenario; the first is the measure, the analytic toss."""
+    absent: Mapping[str, str] = field(default_factory=dict)
+    """Why the other engines can't toss the scenario, by their names."""
+    settings: Mapping[str, EngineSettings] = field(default_factory=dict)
+    """The settings of our engines, by their names; where there are none, those of one toss."""
+
+    @property
+    def measure(self) -> Toss:
+        """The analytic toss, against which the others are held."""
+        return self.tosses[0]
+
+    @property
+    def scenario(self) -> Scenario:
+        """What was tossed."""
+        return self.measure.scenario
+
+    @cached_property
+    def against(self) -> tuple[Against, ...]:
+        """Each other toss, held against the measure."""
+        return tuple(Against(measure=self.measure, toss=toss) for toss in self.tosses[1:])
+
+    def __getitem__(self, engine: str) -> Against:
+        """Return the toss of an engine, held against the measure.
+
+        Raises:
+            UnsupportedError: for an engine that can't toss the scenario.
+            KeyError: for one that was not asked, naming those that were.
+        """
+        if engine in self.absent:
+            raise UnsupportedError(self.absent[engine])
+        pairs = {pair.toss.engine: pair for pair in self.against}
+        if engine not in pairs:
+            raise KeyError(f"{engine}; accepted: {', '.join([*pairs, *self.absent])}")
+        return pairs[engine]
 
     def filmed(self) -> list[Filmed]:
         """Return the tosses as films show them: on, beyond their endings, until the coin lies still."""
-        settings = {"analytic": None, "mujoco": self.settings}
-        return [followed(toss, settings[toss.engine]) for toss in self.tosses]
+        return [followed(toss, self.settings.get(toss.engine)) for toss in self.tosses]

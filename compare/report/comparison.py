@@ -1,20 +1,23 @@
-"""One scenario tossed by both engines, how the answers compare, and what shows it."""
+"""One scenario tossed by several engines, how the answers compare, and what shows it."""
 
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from html import escape
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
-from cointoss.compare.engines import Engine, EngineSettings
+from cointoss.compare.engines import Engine, EngineSettings, label_of, toss
 from cointoss.compare.film.back_end import BackEndError, drawing_problem
+from cointoss.compare.output.language import listed
 from cointoss.compare.output.plots import axes_or_new
-from cointoss.compare.output.style import ANALYTIC, GREY, MUJOCO
+from cointoss.compare.output.style import GREY, looks_of
 from cointoss.compare.report.compared_tosses import ComparedTosses
-from cointoss.compare.report.contents import require_folder
+from cointoss.compare.report.contents import require_folder, slug_of
 from cointoss.compare.report.folder import write_report
-from cointoss.compare.report.verdict import verdict_of
+from cointoss.compare.report.verdict import verdicts_of
 from cointoss.models.reading import ScenarioSource, parse, scenario_text
-from cointoss.models.records import UnsupportedError
+from cointoss.models.records import Toss, UnsupportedError
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import stage
 
@@ -22,29 +25,58 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-class Comparison(ComparedTosses):
-    """The tosses of one scenario by both engines, or by the analytic one alone where MuJoCo can't toss it.
+BOTH = ("analytic", "mujoco")
+"""The engines of a comparison by default."""
 
-    How they differ is computed when it is first asked for; without a toss by MuJoCo it raises
-    `UnsupportedError`.
+
+class Comparing(Protocol):
+    """An engine to compare."""
+
+    @property
+    def name(self) -> str:
+        """Its name, which stands beside what it tosses."""
+        ...
+
+    def toss(self, scenario: Scenario) -> Toss:
+        """Toss a coin; raise `UnsupportedError` for what the engine can't toss."""
+        ...
+
+
+@dataclass(frozen=True)
+class _Own:
+    """One of our engines, and its settings of one toss."""
+
+    name: Engine
+    settings: EngineSettings | None
+
+    def toss(self, scenario: Scenario) -> Toss:
+        """Toss a coin."""
+        return toss(scenario, self.name, settings=self.settings)
+
+
+class Comparison(ComparedTosses):
+    """The tosses of one scenario by the analytic engine and by others, where they can toss it.
+
+    `comparison["mujoco"]` holds the toss of an engine against the analytic one, which is `measure`. How they
+    differ is computed when it is first asked for.
     """
 
     def __repr__(self) -> str:
-        """Return the verdict."""
+        """Return the verdicts."""
         return f"<Comparison of {self.name}: {self._verdict}>"
 
     def _repr_html_(self) -> str:
-        """Return the verdict, and what each toss shows."""
-        tosses = "".join(toss._repr_html_() for toss in self.tosses)
+        """Return the verdicts, and what each toss shows."""
+        tosses = "".join(each._repr_html_() for each in self.tosses)
         return f"<div><strong>{escape(f'{self.name}: {self._verdict}')}</strong>{tosses}</div>"
 
     @property
     def _verdict(self) -> str:
-        reason = "" if self.mujoco else f" {self.not_realisable}."
-        return f"{verdict_of(self).text}{reason}"
+        reasons = [f"{reason}." for reason in self.absent.values()]
+        return " ".join([*(verdict.text for verdict in verdicts_of(self)), *reasons])
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
-        """Plot the heights of the mass centre over time, and a line up to which the faces must agree.
+        """Plot the heights of the mass centre over time, and lines up to which the faces must agree.
 
         Args:
             ax: where to draw, by default in a new figure of pyplot.
@@ -53,13 +85,16 @@ class Comparison(ComparedTosses):
             The axes.
         """
         axes = axes_or_new(ax)
-        for toss, color, style in zip(self.tosses, (ANALYTIC, MUJOCO), ("-", "--"), strict=False):
-            toss.plot(axes, color=color, linestyle=style, label=toss.engine)
-        if self.mujoco and self.horizon_time is not None:
-            axes.axvline(
-                self.horizon_time, color=GREY, linestyle=":", label="up to here the faces must agree"
-            )
-        axes.set_title(f"{self.name}, by {' and '.join(toss.engine for toss in self.tosses)}")
+        names = [each.engine for each in self.tosses]
+        looks, several = looks_of(names), len(self.against) > 1
+        for each, look in zip(self.tosses, looks, strict=True):
+            each.plot(axes, color=look.color, linestyle=look.line, label=each.engine)
+        for pair, look in zip(self.against, looks[1:], strict=True):
+            if pair.horizon_time is not None:
+                color, whose = (look.color, f" of {label_of(pair.toss.engine)}") if several else (GREY, "")
+                label = f"up to here the faces{whose} must agree"
+                axes.axvline(pair.horizon_time, color=color, linestyle=":", label=label)
+        axes.set_title(f"{self.name}, by {listed(names)}")
         axes.legend()
         return axes
 
@@ -72,7 +107,7 @@ class Comparison(ComparedTosses):
         Raises:
             OSError: naming the folder and why.
         """
-        require_folder(Path(out), self.name)
+        require_folder(Path(out), self.name, [each.engine for each in self.tosses])
         return write_report(self, Path(out), drawing_problem())
 
     def film(self, out: str | PathLike[str]) -> Path:
@@ -101,42 +136,77 @@ class Comparison(ComparedTosses):
         return path
 
 
-def compare(scenario: ScenarioSource, mujoco: EngineSettings | None = None) -> Comparison:
-    """Toss a scenario by both engines.
+def compare(
+    scenario: ScenarioSource,
+    engines: Sequence[str | Comparing] = BOTH,
+    *,
+    settings: Mapping[str, EngineSettings] | None = None,
+) -> Comparison:
+    """Toss a scenario by several engines, and hold them against the analytic one.
 
     Args:
         scenario: what to toss, or its path or name.
-        mujoco: MuJoCo's settings, by default those of one toss.
+        engines: "analytic", "mujoco", or anything that has a `name` and a method `toss(scenario)`, which
+            returns a `Toss` or raises `UnsupportedError`. The analytic engine comes first, and is added
+            where it is missing.
+        settings: of our engines, by their names; by default those of one toss.
 
     Returns:
-        Both tosses and how they differ; or, where MuJoCo can't toss the scenario, the analytic toss and why.
+        The tosses and how they differ, and why an engine can't toss the scenario.
 
     Raises:
         ScenarioError: for a scenario, a file or a name that can't be used.
-        TypeError: for settings that are none of MuJoCo's.
+        TypeError: for what is no engine, and for settings of another engine.
+        ValueError: for another name of an engine, and for names that are alike or have settings in vain.
     """
     drawing_problem()  # Its back end is chosen before MuJoCo is imported, for a film.
     if isinstance(scenario, Scenario):
-        return compared(scenario, scenario.to_toml(), "scenario", mujoco)
+        return compared(scenario, scenario.to_toml(), "scenario", engines, settings)
     text = scenario_text(scenario)
-    return compared(parse(text, str(scenario)), text, Path(scenario).stem, mujoco)
+    return compared(parse(text, str(scenario)), text, Path(scenario).stem, engines, settings)
 
 
-def compared(scenario: Scenario, text: str, name: str, mujoco: EngineSettings | None = None) -> Comparison:
-    """Toss a scenario by both engines.
+def compared(
+    scenario: Scenario,
+    text: str,
+    name: str,
+    engines: Sequence[str | Comparing] = BOTH,
+    settings: Mapping[str, EngineSettings] | None = None,
+) -> Comparison:
+    """Toss a scenario by several engines; the arguments are as of `compare`.
 
     Args:
         scenario: what to toss.
         text: the text it was read from.
         name: what to call it.
-        mujoco: MuJoCo's settings, by default those of one toss.
+        engines: the engines.
+        settings: of ours.
     """
-    analytic, engine = Engine.ANALYTIC.package.toss(scenario), Engine.MUJOCO.package
-    settings, toss, why = engine.FINE if mujoco is None else mujoco, None, None
-    try:
-        toss = engine.toss(scenario, settings=settings)
-    except UnsupportedError as error:
-        why = str(error)
-    return Comparison(
-        name=name, text=text, analytic=analytic, mujoco=toss, not_realisable=why, settings=settings
-    )
+    chosen = settings or {}
+    missing = () if "analytic" in engines else ("analytic",)
+    asked = [_tosser(engine, chosen) for engine in (*missing, *engines)]
+    asked.sort(key=lambda each: each.name != "analytic")
+    names = [each.name for each in asked]
+    if len({slug_of(each) for each in names} - {""}) < len(names):
+        raise ValueError(f"engines: {', '.join(names)}, accepted: names that differ in letters or digits")
+    if not chosen.keys() <= set(names):
+        raise ValueError(f"settings: of {', '.join(chosen)}, accepted: of {', '.join(names)}")
+    tosses, absent = [], {}
+    for each in asked:
+        try:
+            # Held against what was asked, whatever it tossed.
+            tosses.append(replace(each.toss(scenario), engine=str(each.name), scenario=scenario))
+        except UnsupportedError as error:
+            absent[str(each.name)] = str(error)
+    return Comparison(name=name, text=text, tosses=tuple(tosses), absent=absent, settings=chosen)
+
+
+def _tosser(given: str | Comparing, settings: Mapping[str, EngineSettings]) -> Comparing:
+    """Return what tosses by an engine that is given by its name, or itself."""
+    if isinstance(given, str):
+        return _Own(Engine(given), settings.get(given))
+    if not (isinstance(getattr(given, "name", None), str) and callable(getattr(given, "toss", None))):
+        raise TypeError(
+            f"engines: {given!r}, accepted: {', '.join(Engine)}, or what has a name and a method toss"
+        )
+    return given

@@ -1,6 +1,6 @@
 """What stands below the film of a report: which tosses it shows, how fast it runs, and where it ends."""
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 
 from cointoss.compare.film.filmed import FOLLOWED_FOR, goes_on
 from cointoss.models.records import Ending, Toss
@@ -12,20 +12,28 @@ ARROWS = (
 )
 
 
-def film_caption(tosses: Sequence[Toss]) -> str:
+def film_caption(tosses: Sequence[Toss], absent: Container[str] = ()) -> str:
     """Return the caption of a film.
 
     Args:
-        tosses: by one engine or by both, side by side.
+        tosses: by one engine or several, side by side.
+        absent: the engines that can't toss what the film shows.
     """
     touches = any(len(toss.impacts) or len(toss.contacts) or goes_on(toss) for toss in tosses)
-    return " ".join([_shown(tosses), COLORS, *_slows(tosses), _ends(tosses), *([ARROWS] if touches else [])])
+    return " ".join(
+        [_shown(tosses, absent), COLORS, *_slows(tosses), _ends(tosses), *([ARROWS] if touches else [])]
+    )
 
 
-def _shown(tosses: Sequence[Toss]) -> str:
+def _shown(tosses: Sequence[Toss], absent: Container[str]) -> str:
     if len(tosses) > 1:
-        return "Both tosses at the same times, drawn by MuJoCo."
-    return "The toss by the analytic engine, drawn by MuJoCo, which can’t toss it."
+        return f"{_all(tosses).capitalize()} tosses at the same times, drawn by MuJoCo."
+    but = ", which can’t toss it" if "mujoco" in absent else ""
+    return f"The toss by the analytic engine, drawn by MuJoCo{but}."
+
+
+def _all(tosses: Sequence[Toss]) -> str:
+    return "both" if len(tosses) == 2 else "all"
 
 
 def _slows(tosses: Sequence[Toss]) -> list[str]:
@@ -39,7 +47,7 @@ def _slows(tosses: Sequence[Toss]) -> list[str]:
 def _ends(tosses: Sequence[Toss]) -> str:
     many = len(tosses) > 1
     if any(goes_on(toss) for toss in tosses):
-        settled = "both faces are settled" if many else "the face is settled"
+        settled = f"{_all(tosses)} faces are settled" if many else "the face is settled"
         still = "the coins lie still" if many else "the coin lies still"
         return f"It goes on at real speed when {settled}, until {still} or {FOLLOWED_FOR:g} s have passed."
     if all(toss.ending == Ending.CAUGHT for toss in tosses):

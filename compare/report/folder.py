@@ -10,8 +10,8 @@ import numpy as np
 from cointoss.compare.output import answer
 from cointoss.compare.output.files import written_together
 from cointoss.compare.output.plain import json_text
-from cointoss.compare.report.compared_tosses import ComparedTosses
-from cointoss.compare.report.contents import FILES, OF_THE_FILM
+from cointoss.compare.report.compared_tosses import Against, ComparedTosses
+from cointoss.compare.report.contents import OF_THE_FILM, names_in, path_name
 from cointoss.compare.report.map_section import MapSection
 from cointoss.compare.report.page import render, versions
 from cointoss.models.stages import stage
@@ -47,16 +47,16 @@ def write_report(
         UnsupportedError: for a path of too many rows.
         UnwritableError: naming the folder and why.
     """
-    with written_together(folder, FILES) as aside, stage("making the report"):
+    engines = [toss.engine for toss in comparison.tosses]
+    with written_together(folder, names_in(folder, engines)) as aside, stage("making the report"):
         numbers = _numbers(comparison) | ({"map": maps.numbers} if maps else {})
         (aside / "numbers.json").write_text(json_text(numbers), encoding="utf-8")
         for toss in comparison.tosses:
             states = toss.sample(answer.path_times(toss))
-            (aside / f"path-{toss.engine}.csv").write_text(
-                answer.path_csv(states, toss.scenario), encoding="utf-8"
-            )
+            path = answer.path_csv(states, toss.scenario)
+            (aside / path_name(toss.engine)).write_text(path, encoding="utf-8")
 
-        being_drawn = BEING_DRAWN.format(engines="both" if comparison.mujoco else "analytic")
+        being_drawn = BEING_DRAWN.format(engines="both" if "mujoco" in engines else "analytic")
         page = render(comparison, no_video=no_video or being_drawn, maps=maps)
         (aside / "report.html").write_text(page, encoding="utf-8")
     if no_video is None:
@@ -74,28 +74,27 @@ def write_report(
 
 
 def _numbers(comparison: ComparedTosses) -> dict[str, Any]:
-    numbers: dict[str, Any] = {
+    return {
         "name": comparison.name,
         "versions": versions(),
         "tosses": [
             {**answer.as_json(toss), "certificate": [asdict(setting) for setting in toss.certificate]}
             for toss in comparison.tosses
         ],
+        "comparisons": {pair.toss.engine: _compared(pair) for pair in comparison.against},
+        "absent": comparison.absent,
     }
-    if comparison.mujoco is None:
-        return {**numbers, "not_realisable": comparison.not_realisable}
-    together = comparison.together
+
+
+def _compared(pair: Against) -> dict[str, Any]:
     return {
-        **numbers,
-        "comparison": {
-            "common_prefix": comparison.common_prefix,
-            "horizon": comparison.horizon,
-            "impulse_error": comparison.errors,
-            "parting_time": together.parting_time,
-            "time_difference": comparison.differences.time,
-            "impulse_difference": comparison.differences.impulse,
-            "angular_velocity_difference": comparison.differences.angular_velocity,
-        },
+        "common_prefix": pair.common_prefix,
+        "horizon": pair.horizon,
+        "impulse_error": pair.errors,
+        "parting_time": pair.together.parting_time,
+        "time_difference": pair.differences.time,
+        "impulse_difference": pair.differences.impulse,
+        "angular_velocity_difference": pair.differences.angular_velocity,
     }
 
 

@@ -1,10 +1,13 @@
 """The motion of a report's tosses, as the scripts of its page draw it."""
 
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
 
-from cointoss.compare.report.compared_tosses import PARTED, ComparedTosses
+from cointoss.compare.engines import label_of
+from cointoss.compare.output.style import Look, looks_of
+from cointoss.compare.report.compared_tosses import PARTED, Against, ComparedTosses
 from cointoss.compare.web.playable import coin_of, path_of, rounded
 from cointoss.models.records import Array, Toss
 
@@ -20,20 +23,29 @@ def motion_of(comparison: ComparedTosses) -> dict[str, Any]:
     """Return the motion of the tosses, for JSON.
 
     Returns:
-        `tosses`; `apart`, how the differences between the engines grow, or None; and `horizon`, the time of
-        the last impact whose face must be shared where others follow, or None [s].
+        `tosses`; `apart`, how the difference of each other engine from the analytic one grows; `parted` and
+        `rounding`, levels of that; and `bars`, the times of the last impacts whose faces must be shared where
+        others follow [s], in the order of time.
     """
+    looks = looks_of(toss.engine for toss in comparison.tosses)
+    others = list(zip(comparison.against, looks[1:], strict=True))
     return {
-        "tosses": [_played(toss) for toss in comparison.tosses],
-        "apart": _apart(comparison) if comparison.mujoco else None,
-        "horizon": comparison.horizon_time if comparison.mujoco else None,
+        "tosses": [_played(toss, look) for toss, look in zip(comparison.tosses, looks, strict=True)],
+        "apart": [_apart(pair, look) for pair, look in others],
+        "parted": PARTED,
+        "rounding": ROUNDING,
+        "bars": sorted(
+            ({"time": pair.horizon_time, "engine": look.kind} for pair, look in others if pair.horizon_time),
+            key=itemgetter("time"),
+        ),
     }
 
 
-def _played(toss: Toss) -> dict[str, Any]:
+def _played(toss: Toss, look: Look) -> dict[str, Any]:
     impacts = toss.impacts
     return {
-        "engine": toss.engine,
+        "engine": look.kind,
+        "label": label_of(toss.engine),
         "outcome": str(toss.outcome),
         "end_time": toss.end_time,
         "times": rounded(impacts.time[:MOST_TOUCHES], 7),
@@ -43,14 +55,14 @@ def _played(toss: Toss) -> dict[str, Any]:
     }
 
 
-def _apart(comparison: ComparedTosses) -> dict[str, Any]:
-    together, radius = comparison.together, comparison.scenario.coin.radius
+def _apart(pair: Against, look: Look) -> dict[str, Any]:
+    together, radius = pair.together, pair.measure.scenario.coin.radius
     return {
+        "engine": look.kind,
+        "label": label_of(pair.toss.engine),
         "time": rounded(together.time, 7),
         "distance": _above_rounding(together.distance / radius),
         "angle": _above_rounding(together.attitude_angle),
-        "parted": PARTED,
-        "rounding": ROUNDING,
     }
 
 

@@ -10,14 +10,16 @@ import jinja2
 import numpy as np
 from pydantic import BaseModel
 
+from cointoss.compare.engines import is_own, label_of
 from cointoss.compare.metrics.sequences import SAFETY
 from cointoss.compare.output.answer import contact_line, counted
-from cointoss.compare.report.compared_tosses import ComparedTosses
+from cointoss.compare.output.style import looks_of
+from cointoss.compare.report.compared_tosses import Against, ComparedTosses
 from cointoss.compare.report.counts import counts_sentence
 from cointoss.compare.report.film_caption import film_caption
 from cointoss.compare.report.map_section import MapSection
 from cointoss.compare.report.motion import motion_of
-from cointoss.compare.report.verdict import horizon_sentence, verdict_of
+from cointoss.compare.report.verdict import horizon_sentence, verdicts_of
 from cointoss.compare.web.scripts import POLICY, data_element, import_map, shared_files
 from cointoss.models import certificate
 from cointoss.models.distribution import versions_of
@@ -29,6 +31,7 @@ from cointoss.models.units import printed_unit
 
 MOST_SHOWN = 200
 """Symbols of a sequence, and impacts, that the page shows."""
+_NUMBERS = ("no engine", "one engine", "two engines", "three engines", "four engines", "five engines")
 PACKAGES = ("cointoss", "mujoco", "numpy", "scipy", "matplotlib", "mediapy")
 
 
@@ -52,6 +55,9 @@ def render(
     shared = {name: content.decode("utf-8") for name, content in shared_files().items()}
     modules = {name: text for name, text in shared.items() if name.endswith(".js")}
     modules |= {name: (folder / name).read_text(encoding="utf-8") for name in ("report.js", "present.js")}
+    engines = [toss.engine for toss in comparison.tosses]
+    horizons = _horizons(comparison)
+    asked = len(engines) + len(comparison.absent)
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
     return environment.from_string(template).render(
         no_video=no_video,
@@ -59,7 +65,11 @@ def render(
         compared=comparison,
         tosses=comparison.tosses,
         measured=certificate.NAMES,
-        labels={"analytic": "analytic", "mujoco": "MuJoCo"},
+        engines=_NUMBERS[asked] if asked < len(_NUMBERS) else f"{asked} engines",
+        label_of=label_of,
+        is_own=is_own,
+        kinds=[look.kind for look in looks_of(engines)],
+        horizons=horizons,
         parameters=_parameters(comparison.scenario),
         policy=POLICY,
         style=shared["shared.css"],
@@ -67,20 +77,20 @@ def render(
         scripts=import_map(modules),
         data=data_element(motion_of(comparison), id_="data"),
         about=_about(comparison.text),
-        verdict=verdict_of(comparison),
-        horizon=horizon_sentence(comparison) if comparison.mujoco else "",
+        verdicts=verdicts_of(comparison),
+        horizon_sentence=horizon_sentence,
         contact_line=contact_line,
         counted=counted,
         counts=counts_sentence(comparison.tosses),
         rows=list(zip_longest(*(toss.sequence for toss in comparison.tosses), fillvalue="")),
         most_shown=MOST_SHOWN,
-        impacts=_impact_rows(comparison),
+        impacts=_impact_rows(comparison, horizons),
         film=[b64encode(part).decode("ascii") for part in film] if film else None,
         map_picture=b64encode(maps.picture).decode("ascii") if maps else None,
         words=WORDS,
         printed_unit=printed_unit,
         safety=SAFETY,
-        film_caption=film_caption(comparison.tosses),
+        film_caption=film_caption(comparison.tosses, comparison.absent),
         versions=versions(),
     )
 
@@ -119,23 +129,30 @@ def _shown(value: Any) -> str:
     return f"{value:.10g}" if isinstance(value, float) else str(value)
 
 
-def _impact_rows(comparison: ComparedTosses) -> list[dict[str, Any]]:
-    """Return the rows of the table of impacts: as many as the longer toss has, at most `MOST_SHOWN`."""
-    analytic, b = comparison.analytic, comparison.mujoco
-    count = max(len(toss.impacts) for toss in comparison.tosses)
-    matched, errors = (len(comparison.differences.time), len(comparison.errors)) if b else (0, 0)
+def _horizons(comparison: ComparedTosses) -> list[int]:
+    """Return how many faces of each toss must agree: of the measure, with any other."""
+    others = [pair.horizon for pair in comparison.against]
+    return [max(others, default=len(comparison.measure.impacts)), *others]
+
+
+def _impact_rows(comparison: ComparedTosses, horizons: list[int]) -> list[dict[str, Any]]:
+    """Return the rows of the table of impacts: as many as the longest toss has, at most `MOST_SHOWN`."""
+    count = min(max(len(toss.impacts) for toss in comparison.tosses), MOST_SHOWN)
     return [
         {
             "number": i + 1,
-            "within": b is None or i < comparison.horizon,
-            "analytic": _impact(analytic, i),
-            "mujoco": _impact(b, i) if b else None,
-            "time_difference": comparison.differences.time[i] if i < matched else None,
-            "error": comparison.errors[i] if i < errors else None,
-            "impulse_difference": comparison.differences.impulse[i] if i < matched else None,
+            "classes": ["beyond" * (i >= end) + "bar" * (i + 1 == end < count) for end in horizons],
+            "impacts": [_impact(toss, i) for toss in comparison.tosses],
+            "differences": [_difference(pair, i) for pair in comparison.against],
         }
-        for i in range(min(count, MOST_SHOWN))
+        for i in range(count)
     ]
+
+
+def _difference(pair: Against, i: int) -> dict[str, Any]:
+    """Return by how much an impact differs from the measure's, and its error; None for what is missing."""
+    found = {"time": pair.differences.time, "impulse": pair.differences.impulse, "error": pair.errors}
+    return {name: values[i] if i < len(values) else None for name, values in found.items()}
 
 
 def _impact(toss: Toss, i: int) -> dict[str, Any] | None:

@@ -5,29 +5,36 @@ import { makePlot, makeSpan } from "./plot.js";
 import { makePresentation } from "./present.js";
 import { makeStage } from "./stage.js";
 
-const { tosses, apart, horizon } = JSON.parse(document.getElementById("data").textContent);
+const { tosses, apart, parted, rounding, ...data } = JSON.parse(document.getElementById("data").textContent);
 const byId = (id) => document.getElementById(id);
 const span = makeSpan(Math.max(...tosses.map((toss) => toss.end_time)));
 
-function apartOf({ time, distance, angle, parted, rounding }) {
-  return {
-    title: "difference of the engines", log: true, range: [rounding, 1e3], marks: tosses[0].times,
-    levels: [{ value: parted, text: `${parted} r` }],
-    lines: [
-      { name: "distance / r", kind: "green", time, values: distance },
-      { name: "angle [rad]", kind: "purple", time, values: angle },
-    ],
-  };
+// Of one other engine two lines in colours of their own; those of several have the colours of their engines.
+function apartLines({ engine, label, time, distance, angle }) {
+  const [kinds, of] = apart.length > 1 ? [[engine, `${engine} second`], `, ${label}`] : [["green", "purple"], ""];
+  return [
+    { name: `distance / r${of}`, kind: kinds[0], time, values: distance },
+    { name: `angle [rad]${of}`, kind: kinds[1], time, values: angle },
+  ];
 }
+
+const apartPlot = {
+  title: "difference of the engines", log: true, range: [rounding, 1e3], marks: tosses[0].times,
+  levels: [{ value: parted, text: `${parted} r` }], lines: apart.flatMap(apartLines),
+};
 
 const plots = {
   height: heightOf(tosses), place: placeOf(tosses), tilt: tiltsOf(tosses), spin: spinOf(tosses), energy: energyOf(tosses),
-  ...(apart && { apart: apartOf(apart) }),
+  ...(apart.length && { apart: apartPlot }),
 };
-const bars = horizon === null ? [] : [{ time: horizon, text: "horizon" }];
+// Bars of several engines have their colours, and one name, over the last.
+const bars = data.bars.map(({ time, engine }, i) => apart.length > 1
+  ? { time, kind: engine, text: i === data.bars.length - 1 ? "horizons" : "" }
+  : { time, text: "horizon" });
 for (const [name, about] of Object.entries(plots)) makePlot(byId(`plot-${name}`), { ...about, bars }, span);
 
-const stage = makeStage(byId("played"), { without: "The plots work without it.", onTime: span.play });
+const labels = Object.fromEntries(tosses.map(({ engine, label }) => [engine, label]));
+const stage = makeStage(byId("played"), { without: "The plots work without it.", labels, onTime: span.play });
 stage.show(tosses, tosses.map((toss) => toss.outcome), true);
 span.pick = (time) => {
   byId("played").scrollIntoView({ block: "nearest" });

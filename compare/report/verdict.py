@@ -1,17 +1,20 @@
 """The verdict on a comparison, in plain words."""
 
+import math
 from enum import StrEnum
 from typing import NamedTuple
 
-from cointoss.compare.report.compared_tosses import ComparedTosses
+from cointoss.compare.engines import is_own, label_of
+from cointoss.compare.output.language import listed
+from cointoss.compare.report.compared_tosses import Against, ComparedTosses
 from cointoss.models.records import Ending, Outcome, Toss, TrustEnd
 
 REPORT_IT = "One engine is wrong: please report it"
 TINY_ERRORS = "tiny errors decide, and neither engine is wrong"
-MUJOCOS_ERRORS = "MuJoCo’s own errors decide what it shows"
-"""The sentence for a toss in which the analytic engine's errors change nothing."""
 OFF_THE_LAW = (TrustEnd.SECOND_POINT, TrustEnd.RESTITUTION)
 """Ends of MuJoCo's trust where its impulse is not that of the contact law, however well the toss is known."""
+MISSES = 1e-2
+"""An impulse of another engine than ours misses the contact law where its relative error is larger."""
 
 
 class VerdictKind(StrEnum):
@@ -28,33 +31,45 @@ class VerdictKind(StrEnum):
 
 
 class Verdict(NamedTuple):
-    """A sentence or two, and how good the news is."""
+    """A sentence or two on one engine, and how good the news is."""
 
+    engine: str
+    """The engine that is held against the analytic one, which is its own where it is alone."""
     text: str
     kind: VerdictKind
 
 
-def verdict_of(comparison: ComparedTosses) -> Verdict:
-    """Return the verdict."""
-    analytic, mujoco = comparison.analytic, comparison.mujoco
-    a, doubt = _outcome(analytic), _doubt(analytic)
-    if mujoco is None:
-        says = f"{a} by the analytic engine alone{', and that is certain' * analytic.is_certain}"
-        return Verdict(
-            _sentence(f"{says}: MuJoCo can't toss this coin on this floor") + doubt, VerdictKind.ALONE
-        )
-    b = _outcome(mujoco)
-    agreement, kind = _agreement(comparison, a == b)
+def verdicts_of(comparison: ComparedTosses) -> list[Verdict]:
+    """Return the verdict on each other engine, or one on the analytic engine where it is alone."""
+    measure, absent = comparison.measure, comparison.absent
+    cannot = "{} can't toss this coin on this floor"
+    if comparison.against:
+        many = len(comparison.tosses) > 2
+        return [
+            *(_verdict(pair, many=many) for pair in comparison.against),
+            *(Verdict(name, f"{cannot.format(label_of(name))}.", VerdictKind.ALONE) for name in absent),
+        ]
+    says = f"{_outcome(measure)} by the analytic engine alone{', and that is certain' * measure.is_certain}"
+    why = f": {cannot.format(listed(map(label_of, absent)))}" if absent else ""
+    return [Verdict(measure.engine, _sentence(says + why) + _doubt(measure), VerdictKind.ALONE)]
+
+
+def _verdict(pair: Against, *, many: bool) -> Verdict:
+    """Return the verdict on an engine, which is named where there are more than two."""
+    analytic, other, label = pair.measure, pair.toss, label_of(pair.toss.engine)
+    a, b, doubt = _outcome(analytic), _outcome(other), _doubt(analytic)
+    agreement, kind = _agreement(pair, a == b)
     if a == b:
         proviso = analytic.ending.proviso
-        has_reserve = analytic.outcome.is_decided and proviso and proviso == mujoco.ending.proviso
+        has_reserve = analytic.outcome.is_decided and proviso and proviso == other.ending.proviso
         reserve = f", {proviso}" if has_reserve else ""
-        says = f"{a} by both engines{', and certain by the analytic one' * analytic.is_certain}{reserve}"
+        both = f"the analytic engine and {label}" if many else "both engines"
+        says = f"{a} by {both}{', and certain by the analytic one' * analytic.is_certain}{reserve}"
     else:
-        says = f"{a} by the analytic engine, {b} by MuJoCo"
+        says = f"{a} by the analytic engine, {b} by {label}"
         if analytic.is_sure and kind != VerdictKind.FAULT:
             doubt = " The analytic engine's own errors are too small to change its outcome."
-    return Verdict(_sentence(f"{says}: {agreement}") + doubt, kind)
+    return Verdict(other.engine, _sentence(f"{says}: {agreement}") + doubt, kind)
 
 
 def _doubt(toss: Toss) -> str:
@@ -64,20 +79,19 @@ def _doubt(toss: Toss) -> str:
     return f" {_sentence(f'{_told(toss.outcome)} or {_told(other.outcome)}: {other.told}')}"
 
 
-def horizon_sentence(comparison: ComparedTosses) -> str:
-    """Return what the horizon of a comparison means."""
-    horizon, count = comparison.horizon, _most_impacts(comparison)
-    caught = _is_caught(comparison)
+def horizon_sentence(pair: Against) -> str:
+    """Return what the horizon of an engine means."""
+    horizon, count, caught = pair.horizon, pair.most_impacts, _is_caught(pair)
     if count == 0:
         before = "The coin is caught before its first impact: without" if caught else "Without"
         return f"{before} an impact nothing amplifies small errors."
-    whose = "MuJoCo’s" if comparison.analytic.is_sure else "the engines’ own"
+    whose = f"{label_of(pair.toss.engine)}’s" if pair.measure.is_sure else "the engines’ own"
     errors = f"errors as small as {whose}"
     if horizon >= count and caught:
         return f"All faces must agree: the coin is caught before {errors} change one."
     if horizon >= count:
         return f"All faces must agree: {errors} change none."
-    off_the_law = _off_the_law(comparison)
+    off_the_law = _off_the_law(pair)
     if horizon == 0:
         return f"Not even the first face must agree: {off_the_law or f'{errors} can change it'}."
     first = "The first face" if horizon == 1 else f"The first {horizon} faces"
@@ -89,21 +103,19 @@ def horizon_sentence(comparison: ComparedTosses) -> str:
     )
 
 
-def _agreement(comparison: ComparedTosses, same_outcome: bool) -> tuple[str, VerdictKind]:
-    a, b = comparison.both
-    prefix, horizon, count = comparison.common_prefix, comparison.horizon, _most_impacts(comparison)
-    in_contact, caught = len(a.contacts) + len(b.contacts) > 0, _is_caught(comparison)
+def _agreement(pair: Against, same_outcome: bool) -> tuple[str, VerdictKind]:
+    a, b = pair.measure, pair.toss
+    prefix, horizon, count = pair.common_prefix, pair.horizon, pair.most_impacts
+    in_contact, caught = len(a.contacts) + len(b.contacts) > 0, _is_caught(pair)
     # Bounces that die out have no last one: each engine takes the smallest for contact from its own on.
     dies_out = len(a.contacts) > 0 < len(b.contacts) and 0 < prefix == min(len(a.impacts), len(b.impacts))
     agree = prefix == len(a.impacts) == len(b.impacts) or (dies_out and same_outcome)
     kind = VerdictKind.AGREE if agree and same_outcome else VerdictKind.DIFFER
     if prefix < horizon:
-        return (
-            f"they differ at impact {prefix + 1}, although {_first(horizon)} must agree. {REPORT_IT}",
-            VerdictKind.FAULT,
-        )
-    off_the_law = _off_the_law(comparison)
-    decide = MUJOCOS_ERRORS if a.is_sure else TINY_ERRORS
+        must = f"although {_first(horizon)} must agree" if is_own(b.engine) else "within the horizon"
+        return f"they differ at impact {prefix + 1}, {must}{_fault(pair)}", VerdictKind.FAULT
+    off_the_law = _off_the_law(pair)
+    decide = f"{label_of(b.engine)}’s own errors decide what it shows" if a.is_sure else TINY_ERRORS
     then = off_the_law or f"after that {decide}"
     as_they_must = agree and horizon == prefix
     decided = a.outcome.is_decided and b.outcome.is_decided
@@ -111,7 +123,7 @@ def _agreement(comparison: ComparedTosses, same_outcome: bool) -> tuple[str, Ver
     leads_to_it = not in_contact and not (caught and count) and a.outcome_certain is not False
     if as_they_must and decided and not same_outcome and leads_to_it:
         why = f"{_all(count)} must lead to the same" if count else "the coin only flew"
-        return f"they differ, although {why}. {REPORT_IT}", VerdictKind.FAULT
+        return f"they differ, although {why}{_fault(pair)}", VerdictKind.FAULT
     if count == 0:
         return _without_impact(a, b, in_contact), kind
     if not agree and prefix == 0:
@@ -136,15 +148,34 @@ def _agreement(comparison: ComparedTosses, same_outcome: bool) -> tuple[str, Ver
 def _further(a: Toss, b: Toss) -> str:
     """Return which engine counts more impacts than both share; empty where neither does."""
     more = len(a.impacts) - len(b.impacts)
-    who = "the analytic engine" if more > 0 else "MuJoCo"
+    who = "the analytic engine" if more > 0 else label_of(b.engine)
     return f"; after that {who} counts {abs(more)} more" if more else ""
 
 
-def _off_the_law(comparison: ComparedTosses) -> str:
-    """Return why MuJoCo's impulse after the horizon is not that of the law; empty where errors end it."""
-    _, mujoco = comparison.both
-    ends_it = comparison.horizon == mujoco.trusted_impacts and mujoco.trust_end in OFF_THE_LAW
-    return mujoco.trust_reason if ends_it else ""
+def _fault(pair: Against) -> str:
+    """Return whose fault it is that an engine differs where it must not."""
+    if is_own(pair.toss.engine):
+        return f". {REPORT_IT}"
+    missed = _missed(pair, "its impulse")
+    return f": {label_of(pair.toss.engine)} is wrong there{missed and f' ({missed})'}"
+
+
+def _off_the_law(pair: Against) -> str:
+    """Return which impulse is not that of the law where that, and no tiny error, ends the horizon."""
+    toss = pair.toss
+    if not is_own(toss.engine):
+        return _missed(pair, f"the impulse of {label_of(toss.engine)}")
+    ends_it = pair.horizon == toss.trusted_impacts and toss.trust_end in OFF_THE_LAW
+    return toss.trust_reason if ends_it else ""
+
+
+def _missed(pair: Against, impulse: str) -> str:
+    """Return the first impulse within the horizon that misses the law, and by how much; empty for none."""
+    for number, error in enumerate(pair.errors[: pair.horizon].tolist(), start=1):
+        if error > MISSES:
+            off = f"{100 * error:.0f} % off" if math.isfinite(error) else "nothing like that of"
+            return f"at impact {number} {impulse} is {off} the contact law"
+    return ""
 
 
 def _without_impact(a: Toss, b: Toss, in_contact: bool) -> str:
@@ -180,12 +211,8 @@ def _first(count: int) -> str:
     return "the first impact" if count == 1 else f"the first {count} impacts"
 
 
-def _is_caught(comparison: ComparedTosses) -> bool:
-    return all(toss.ending == Ending.CAUGHT for toss in comparison.both)
-
-
-def _most_impacts(comparison: ComparedTosses) -> int:
-    return max(len(toss.impacts) for toss in comparison.both)
+def _is_caught(pair: Against) -> bool:
+    return pair.measure.ending == pair.toss.ending == Ending.CAUGHT
 
 
 def _sentence(text: str) -> str:

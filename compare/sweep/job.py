@@ -125,7 +125,7 @@ def make(job: Job, source: Source, command: str, say: Say) -> Iterator[str]:
         from cointoss.compare.report.folder import write_report
 
         fine = replace(Engine.MUJOCO.package.FINE, contact=job.contact)
-        both = compared(made[0].scenario, source.text, source.stem, fine)
+        both = compared(made[0].scenario, source.text, source.stem, settings={"mujoco": fine})
         shown = show.section(maps, made, job, command, untrusted=untrusted)
         page = write_report(both, job.report, no_video, maps=shown)
         yield f"report     {page}"

@@ -6,9 +6,8 @@ from itertools import product
 import numpy as np
 import pytest
 
-from cointoss import coin_mj
 from cointoss.compare.report.comparison import Comparison
-from cointoss.compare.report.verdict import VerdictKind, horizon_sentence, verdict_of
+from cointoss.compare.report.verdict import VerdictKind, horizon_sentence, verdicts_of
 from cointoss.models.records import IMPACT_ROW, Ending, Impacts, OtherOutcome, Outcome, TrustEnd
 from tests.helpers.films import MadePath
 from tests.helpers.films import made as made_by_formulas
@@ -106,10 +105,11 @@ def test_no_word_on_a_comparison_denies_those_on_its_tosses(known):
         ends = {"ending": ending, "contacts": lasting if in_contact else np.zeros((0, 2))}
         analytic = made(a, a, TrustEnd.NONE, outcome=mine, **ends, **known)
         mujoco = made(b, b, TrustEnd.NONE, outcome=its, **ends, outcome_certain=None)
-        both = Comparison(name="", text="", analytic=analytic, mujoco=mujoco, settings=coin_mj.FINE)
-        vars(both).update(common_prefix=9, horizon=9 if settled else 4)
-        verdict, kind = verdict_of(both)
-        told = f"{analytic.outcome_told}\n{mujoco.outcome_told}\n{verdict}\n{horizon_sentence(both)}"
+        both = Comparison(name="", text="", tosses=(analytic, mujoco))
+        (pair,) = both.against
+        vars(pair).update(common_prefix=9, horizon=9 if settled else 4)
+        ((_, verdict, kind),) = verdicts_of(both)
+        told = f"{analytic.outcome_told}\n{mujoco.outcome_told}\n{verdict}\n{horizon_sentence(pair)}"
         kinds.add(kind)
         # What is certain is so by the analytic engine, whose box says so too; MuJoCo's says why it does not.
         if "certain by the analytic one" in verdict:

@@ -52,7 +52,7 @@ export function makeSpan(until) {
 
 // Puts a plot into a box. `about` has: title, unit, lines of { name, kind, time, values }; and where wanted
 // height, log, range (both ends, or from which value on), at (ticks of [value, text]), levels of { value, text },
-// dots of { kind, time, values }, marks (times), and bars of { time, text }.
+// dots of { kind, time, values }, marks (times), and bars of { time, text } and where wanted kind.
 export function makePlot(box, about, span) {
   const { title, unit = "", lines, height = 290, levels = [], dots = [], marks = [], bars = [] } = about;
   const svg = element("svg", { role: "img", tabindex: "0", height, "aria-label": label(about) });
@@ -131,8 +131,8 @@ export function makePlot(box, about, span) {
       if (shown.length > MOST_DOTS) continue;
       for (const [each, value] of shown) frame.append(element("circle", { class: kind, cx: x(each), cy: y(value), r: 2.8 }));
     }
-    for (const { time, text } of bars.filter((bar) => visible(bar.time))) {
-      frame.append(element("line", { class: "bar", x1: x(time), x2: x(time), y1: TOP, y2: foot }));
+    for (const { time, text, kind = "" } of bars.filter((bar) => visible(bar.time))) {
+      frame.append(element("line", { class: `bar ${kind}`, x1: x(time), x2: x(time), y1: TOP, y2: foot }));
       made.push(element("text", { class: "bar", x: Math.min(Math.max(x(time), LEFT + 30), right - 30), y: TOP - 6, "text-anchor": "middle" }, text));
     }
     frame.append(...named);

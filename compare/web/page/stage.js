@@ -1,4 +1,4 @@
-// One coin, or two side by side, in 3D, with their clock and what one can choose.
+// One coin, or several side by side, in 3D, with their clock and what one can choose.
 
 import { LABELS } from "./motion.js";
 import { makePlayer } from "./player.js";
@@ -28,9 +28,11 @@ export function makeStage(box, { hint = "", without, labels = LABELS, shown = "T
   box.innerHTML = MARKUP;
   const byId = (id) => document.getElementById(id);
   byId("coins").setAttribute("aria-label", shown);
-  const states = Object.entries(labels).map(([engine, label]) => {
+  const states = Object.entries(labels).map(([engine, label], i, all) => {
     const panel = document.createElement("div"), name = document.createElement("b"), state = document.createElement("span");
     panel.className = `panel ${engine}`;
+    panel.style.setProperty("--place", String(i / all.length));
+    panel.style.setProperty("--part", String(1 / all.length));
     name.textContent = label;
     state.id = `state-${engine}`;
     panel.append(name, " ", state);

@@ -1,17 +1,21 @@
-"""A comparison in Python: one record, also of what MuJoCo can't toss; its text, its picture, its numbers."""
+"""A comparison in Python: one record of any engines, also of what one can't toss; its text and picture."""
+
+import re
+from typing import Any
 
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
 import cointoss
+from cointoss import coin_mj
 from cointoss.compare.report.comparison import Comparison, compare
-from cointoss.compare.report.verdict import verdict_of
+from cointoss.compare.report.verdict import VerdictKind, verdicts_of
 from cointoss.models.reading import load
+from tests.helpers.off import Off
 
 SHORT = load("fig24a").replace("ending.max_impacts", 3)
 KNURLED = load("contact_knurled").replace("ending.max_impacts", 3)
-DERIVED = ("both", "differences", "together", "common_prefix", "errors", "horizon", "horizon_time")
 
 
 @pytest.fixture(scope="module")
@@ -21,24 +25,27 @@ def found():
 
 def test_both_tosses_are_compared(found):
     assert isinstance(found, Comparison)
-    assert (found.scenario, found.not_realisable) == (SHORT, None)
+    assert (found.scenario, found.absent) == (SHORT, {})
     assert [toss.engine for toss in found.tosses] == ["analytic", "mujoco"]
-    assert found.tosses == found.both == (found.analytic, found.mujoco)
-    assert (found.horizon, found.common_prefix) == (3, 3)
-    assert found.horizon_time is None
-    assert len(found.errors) == len(found.differences.time) == 3
+    pair = found["mujoco"]
+    assert found.against == (pair,)
+    assert found.tosses == (found.measure, pair.toss)
+    assert (pair.horizon, pair.common_prefix) == (3, 3)
+    assert pair.horizon_time is None
+    assert len(pair.errors) == len(pair.differences.time) == 3
     with pytest.raises(ValueError, match="read-only"):
-        found.errors[0] = 0
+        pair.errors[0] = 0
+    with pytest.raises(KeyError, match="off; accepted: mujoco"):
+        found["off"]
 
 
 def test_what_mujoco_cannot_toss_is_a_comparison_that_says_why():
     alone = compare(KNURLED)
     assert isinstance(alone, Comparison)
-    assert (alone.mujoco, alone.tosses) == (None, (alone.analytic,))
-    reason = str(alone.not_realisable)
-    for name in DERIVED:
-        with pytest.raises(cointoss.UnsupportedError, match="knurled"):
-            getattr(alone, name)
+    assert (alone.tosses, alone.against) == ((alone.measure,), ())
+    reason = alone.absent["mujoco"]
+    with pytest.raises(cointoss.UnsupportedError, match="knurled"):
+        alone["mujoco"]
     assert reason.replace('"', "&quot;") in alone._repr_html_()
     axes = alone.plot(Figure().add_subplot())
     assert axes.get_lines()[0].get_label() == "analytic"
@@ -46,10 +53,10 @@ def test_what_mujoco_cannot_toss_is_a_comparison_that_says_why():
 
 
 def test_a_comparison_shows_its_verdict_and_both_tosses(found):
-    assert repr(found) == f"<Comparison of scenario: {verdict_of(found).text}>"
+    assert repr(found) == f"<Comparison of scenario: {verdicts_of(found)[0].text}>"
     html = found._repr_html_()
     assert html.count("<svg") == 2
-    assert all(toss._repr_html_() in html for toss in found.both)
+    assert all(toss._repr_html_() in html for toss in found.tosses)
 
 
 def test_the_name_is_that_of_the_file(tmp_path):
@@ -65,9 +72,69 @@ def test_a_plot_shows_both_paths_and_up_to_where_the_faces_must_agree():
     axes = found.plot(given)
     assert axes is given
     lines = {str(line.get_label()): line for line in axes.get_lines()}
-    assert found.horizon_time == found.analytic.impacts.time[found.horizon - 1]
-    assert lines["up to here the faces must agree"].get_xdata() == [found.horizon_time] * 2
-    for toss in found.both:
+    pair = found["mujoco"]
+    assert pair.horizon_time == found.measure.impacts.time[pair.horizon - 1]
+    assert lines["up to here the faces must agree"].get_xdata() == [pair.horizon_time] * 2
+    for toss in found.tosses:
         assert np.max(lines[toss.engine].get_xdata()) == toss.end_time
     _, legend = axes.get_legend_handles_labels()
     assert len(legend) == len(set(legend)) == 5
+
+
+def test_another_engine_is_held_against_what_was_asked():
+    """It tosses on a softer floor: its impulses are off the law of the scenario, each by as much."""
+    found = compare("fig24a", [Off(), "mujoco", "analytic"])
+    assert [toss.engine for toss in found.tosses] == ["analytic", "off", "mujoco"]
+    assert all(toss.scenario == load("fig24a") for toss in found.tosses)
+    restitution = found.scenario.floor.restitution
+    assert found["off"].errors == pytest.approx(restitution / 2 / (1 + restitution), rel=1e-6)
+    assert found["mujoco"].errors.max() < 1e-3
+    axes = found.plot(Figure().add_subplot())
+    assert axes.get_title() == "fig24a, by analytic, off and mujoco"
+    labels = {str(line.get_label()): line.get_xdata() for line in axes.get_lines()}
+    for pair in found.against:
+        label = f"up to here the faces of {pair.toss.engine.replace('mujoco', 'MuJoCo')} must agree"
+        assert labels[label] == [pair.horizon_time] * 2
+    colors = {
+        line.get_color() for line in axes.get_lines() if line.get_label() in ("analytic", "off", "mujoco")
+    }
+    assert len(colors) == 3
+
+
+def test_engines_that_toss_nothing_are_absent():
+    found = compare(KNURLED, ["mujoco", Off(factor=0.0), Off("less", 0.9)])
+    assert found.absent.keys() == {"mujoco", "off"}
+    assert found["less"].toss is found.tosses[1]
+    told = [(verdict.engine, verdict.kind) for verdict in verdicts_of(found)]
+    assert told[1:] == [("mujoco", VerdictKind.ALONE), ("off", VerdictKind.ALONE)]
+    assert repr(found).endswith(
+        "off can't toss this coin on this floor. " + found.absent["mujoco"] + ". off tosses nothing.>"
+    )
+
+
+def test_the_analytic_engine_may_stand_alone():
+    assert (
+        repr(compare(SHORT, ["analytic"]))
+        == "<Comparison of scenario: Undecided by the analytic engine alone.>"
+    )
+
+
+@pytest.mark.parametrize(
+    ("engines", "settings", "says"),
+    [
+        (["newton"], None, "engine: 'newton', accepted: analytic, mujoco"),
+        (["mujoco", "mujoco"], None, "engines: analytic, mujoco, mujoco, accepted: names that differ"),
+        ([Off("A b"), Off("a-B")], None, "engines: analytic, A b, a-B, accepted: names that differ"),
+        ([Off("!")], None, "engines: analytic, !, accepted: names that differ"),
+        (["analytic"], {"mujoco": coin_mj.FINE}, "settings: of mujoco, accepted: of analytic"),
+    ],
+)
+def test_engines_that_cannot_be_told_apart_are_refused(engines, settings, says):
+    with pytest.raises(ValueError, match=re.escape(says)):
+        compare(SHORT, engines, settings=settings)
+
+
+def test_what_is_no_engine_is_refused():
+    given: Any = [3]
+    with pytest.raises(TypeError, match="engines: 3, accepted: analytic, mujoco, or what has a name"):
+        compare(SHORT, given)

@@ -9,7 +9,7 @@ from cointoss.models.records import IMPACT_ROW, Impacts
 from tests.helpers.films import MadePath, made
 
 DYING = (
-    "Until the coin first stays on the floor the engines count {} and {} impacts: bounces that die out have "
+    "Until the coin first stays on the floor the engines count {} impacts: bounces that die out have "
     "no last one, and each engine takes the smallest for contact."
 )
 
@@ -27,7 +27,8 @@ def staying(first, after=0):
 
 
 def test_bounces_that_die_out_are_counted_up_to_the_first_contact():
-    assert counts_sentence([staying(4), staying(2)]) == DYING.format(4, 2)
+    assert counts_sentence([staying(4), staying(2)]) == DYING.format("4 and 2")
+    assert counts_sentence([staying(4), staying(2), staying(3)]) == DYING.format("4, 2 and 3")
 
 
 def test_impacts_after_a_contact_are_counted_for_themselves():
@@ -39,8 +40,10 @@ def test_impacts_after_a_contact_are_counted_for_themselves():
         f"Once the coin has been in contact {said.format(0, 2)}"
     )
     assert counts_sentence([staying(3, after=1), staying(2)]) == (
-        f"{DYING.format(3, 2)} After that {said.format(1, 0)}"
+        f"{DYING.format('3 and 2')} After that {said.format(1, 0)}"
     )
+    others = [replace(toss, engine=name) for toss, name in ((staying(3), "a"), (staying(3, after=2), "b"))]
+    assert counts_sentence(others) == "Once the coin has been in contact they count 0 and 2."
 
 
 def test_counts_that_need_no_reason_have_none():

@@ -1,5 +1,7 @@
 """What stands below a report's film: one sentence for each thing that the film does, of real tosses."""
 
+from dataclasses import replace
+
 import pytest
 
 from cointoss.compare.engines import Engine
@@ -39,3 +41,5 @@ def test_the_caption_says_what_the_film_shows(parts, ending, slows, ends):
         assert {place for place in (STRONG, HAND) if place in told} == slows
         assert ends in told
         assert told.endswith(ARROWS) == (STRONG in slows)
+    several = film_caption([*tosses, replace(tosses[0], engine="off")])
+    assert several == film_caption(tosses).replace("Both", "All").replace("both", "all")

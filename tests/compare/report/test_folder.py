@@ -20,6 +20,7 @@ from cointoss.compare.report.page import versions
 from cointoss.models.reading import parse, scenario_text
 from tests.helpers.draws import scenario
 from tests.helpers.films import film_written
+from tests.helpers.off import Off
 from tests.helpers.site import read
 
 SHORT = scenario_text("zloty").replace("0.40001", "0.05") + "\n[ending]\nmax_impacts = 2\n"
@@ -49,9 +50,11 @@ def test_the_page_stands_alone_and_names_the_versions(folder):
 def test_the_numbers_are_those_of_the_tosses(found, folder):
     numbers = json.loads((folder / "numbers.json").read_text(encoding="utf-8"))
     assert [toss["engine"] for toss in numbers["tosses"]] == ["analytic", "mujoco"]
-    assert numbers["tosses"][0]["impacts"][1]["time"] == found.analytic.impacts.time[1]
-    assert numbers["comparison"]["impulse_difference"] == found.differences.impulse.tolist()
-    assert numbers["comparison"]["horizon"] == found.horizon
+    pair, written = found["mujoco"], numbers["comparisons"]["mujoco"]
+    assert numbers["tosses"][0]["impacts"][1]["time"] == found.measure.impacts.time[1]
+    assert written["impulse_difference"] == pair.differences.impulse.tolist()
+    assert written["horizon"] == pair.horizon
+    assert numbers["absent"] == {}
 
 
 def test_the_film_has_its_frames(found, folder):
@@ -163,3 +166,25 @@ def test_what_is_no_file_of_a_report_is_refused(folder, tmp_path):
     (earlier / "report.html").rmdir()
     with pytest.raises(UnwritableError, match="is the scenario; accepted: another file"):
         require_folder(earlier, str(earlier / "path-mujoco.csv"))
+
+
+def test_a_report_owns_the_paths_of_its_engines_alone(tmp_path):
+    """An earlier report's path of another engine goes with it; a user's file of such a name is in the way."""
+    case, path = parse(SHORT, "short"), tmp_path / "path-off-2-0.csv"
+    path.write_text("mine")
+    with pytest.raises(UnwritableError, match=r"path-off-2-0\.csv is in the way"):
+        require_folder(tmp_path, "short", ["Off 2.0"])
+    path.unlink()
+    write_report(compared(case, SHORT, "short", [Off("Off 2.0"), Off("gone", 0)]), tmp_path, ADVICE)
+    paths = {"path-analytic.csv", path.name}
+    assert {each.name for each in tmp_path.iterdir()} == {"report.html", "numbers.json", *paths}
+    numbers = json.loads((tmp_path / "numbers.json").read_text(encoding="utf-8"))
+    assert numbers["comparisons"].keys() == {"Off 2.0"}
+    assert numbers["absent"] == {"gone": "gone tosses nothing"}
+    (tmp_path / "path-mine.csv").write_text("mine")
+    with pytest.raises(UnwritableError, match=r"path-mine\.csv is in the way"):
+        require_folder(tmp_path, "short", ["mine"])
+    require_folder(tmp_path, "short", ["Off 2.0"])
+    write_report(compared(case, SHORT, "short", ["analytic"]), tmp_path, ADVICE)
+    kept = {"report.html", "numbers.json", "path-analytic.csv", "path-mine.csv"}
+    assert {each.name for each in tmp_path.iterdir()} == kept

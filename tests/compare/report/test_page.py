@@ -11,6 +11,7 @@ from cointoss.compare.report.folder import write_report
 from cointoss.compare.report.page import render
 from cointoss.models.reading import parse, scenario_text
 from tests.helpers.coins_shown import UNNAMED, faces, picture, set_time
+from tests.helpers.off import Off
 
 TEXT = scenario_text("fig24a") + "\n[ending]\nmax_impacts = 6\n"
 LEFT, RIGHT = 66, 14
@@ -189,6 +190,32 @@ def test_the_page_of_one_engine_shows_one_coin(page, tmp_path):
     text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 2")
     write_report(compared(parse(text, "knurled"), text, "knurled"), tmp_path, "none here")
     page.open((tmp_path / "report.html").as_uri())
-    assert page.value("document.querySelector('.panel.mujoco').hidden")
+    assert texts(page, ".panel b") == ["analytic"]
     assert faces(picture(page, "coins")) > 500
+    assert page.complaints() == []
+
+
+@pytest.mark.parametrize("width", [1280, 420])
+def test_the_page_of_three_engines_tells_them_apart(page, tmp_path, width):
+    found = compared(parse(TEXT, "made"), TEXT, "made", ["mujoco", Off("Off 2.0, as documented")])
+    write_report(found, tmp_path, "none here")
+    page.open((tmp_path / "report.html").as_uri(), width=width)
+    assert texts(page, "title") == ["made: one coin, three engines"]
+    names = ["analytic", "MuJoCo", "Off 2.0, as documented"]
+    assert texts(page, ".panel b") == names
+    shown = "[...document.querySelectorAll('.rowlabels span')].map((one) => getComputedStyle(one).color)"
+    assert len(set(page.value(shown))) == 3
+    page.value("document.getElementById('played').scrollIntoView()")
+    for part in np.array_split(picture(page, "coins"), 3, axis=1):
+        assert faces(part) > 300
+    drawn = page.value("document.querySelectorAll('#plot-apart polyline').length")
+    assert (drawn, len(texts(page, ".verdict"))) == (4, 2)
+    # The bar of each engine's row is after the faces that must agree, and so are its pale faces.
+    horizons = [max(pair.horizon for pair in found.against), *(pair.horizon for pair in found.against)]
+    for row, (toss, horizon) in enumerate(zip(found.tosses, horizons, strict=True), start=1):
+        assert len(texts(page, f".pair span:nth-child({row}):not(.beyond):not(.none)")) == horizon
+        assert len(texts(page, f".bars i.bar:nth-child({row})")) == (horizon < len(found.measure.impacts))
+        assert horizon < len(toss.impacts)
+    assert page.value("document.documentElement.scrollWidth <= innerWidth")
+    assert page.value(SMALLEST) >= 16
     assert page.complaints() == []

@@ -6,9 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cointoss import coin_mj
 from cointoss.compare.report.comparison import Comparison
-from cointoss.compare.report.verdict import VerdictKind, horizon_sentence, verdict_of
+from cointoss.compare.report.verdict import VerdictKind, horizon_sentence, verdicts_of
 from cointoss.models.records import IMPACT_ROW, Ending, Face, Impacts, OtherOutcome, Outcome, TrustEnd
 from tests.helpers.films import MadePath
 from tests.helpers.films import made as made_by_formulas
@@ -34,13 +33,11 @@ def made(sequence, outcome=Outcome.HEADS, *, engine="analytic", ending=Ending.SE
     )
 
 
-def compared(a, b, prefix, horizon):
-    """Return a comparison of which two numbers are as given."""
-    found = Comparison(
-        name="made", text="", analytic=a, mujoco=replace(b, engine="mujoco"), settings=coin_mj.FINE
-    )
-    vars(found).update(common_prefix=prefix, horizon=horizon)
-    return found
+def compared(a, b, prefix, horizon, engine="mujoco", errors=()):
+    """Return a comparison of which some numbers are as given, and its pair."""
+    found = Comparison(name="made", text="", tosses=(a, replace(b, engine=engine)))
+    vars(found[engine]).update(common_prefix=prefix, horizon=horizon, errors=np.array(errors))
+    return found, found[engine]
 
 
 TOSSES = {
@@ -149,18 +146,16 @@ def test_the_verdict_of_every_case(case):
     first, *lines = case.splitlines()
     a, b, prefix, horizon, kind = first.split()
     text = re.sub("|".join(WORDS), lambda word: WORDS[word[0]], " ".join(map(str.strip, lines)))
-    found = verdict_of(compared(TOSSES[a], TOSSES[b], int(prefix), int(horizon)))
-    assert found == (text, VerdictKind[kind])
+    found, _ = compared(TOSSES[a], TOSSES[b], int(prefix), int(horizon))
+    assert verdicts_of(found) == [("mujoco", text, VerdictKind[kind])]
 
 
 def test_what_mujoco_cannot_toss_is_said():
-    alone = Comparison(
-        name="made", text="", analytic=TOSSES["HHT"], mujoco=None, not_realisable="no", settings=coin_mj.FINE
-    )
-    assert verdict_of(alone) == (
-        "Heads by the analytic engine alone: MuJoCo can't toss this coin on this floor.",
-        VerdictKind.ALONE,
-    )
+    absent, alone = {"mujoco": "no"}, "Heads by the analytic engine alone"
+    for names, why in ((absent, "MuJoCo can't"), (absent | {"off": "no"}, "MuJoCo and off can't")):
+        found = Comparison(name="made", text="", tosses=(TOSSES["HHT"],), absent=names)
+        text = f"{alone}: {why} toss this coin on this floor."
+        assert verdicts_of(found) == [("analytic", text, VerdictKind.ALONE)]
 
 
 @pytest.mark.parametrize(
@@ -177,7 +172,8 @@ def test_what_mujoco_cannot_toss_is_said():
     ],
 )
 def test_the_horizon_is_told_in_plain_words(name, horizon, begins):
-    told = horizon_sentence(compared(TOSSES[name], TOSSES[name], len(TOSSES[name].impacts), horizon))
+    _, pair = compared(TOSSES[name], TOSSES[name], len(TOSSES[name].impacts), horizon)
+    told = horizon_sentence(pair)
     assert told.startswith(begins)
     assert told.endswith(".")
 
@@ -204,10 +200,55 @@ def test_an_impact_that_is_not_the_laws_is_named_where_it_ends_the_horizon(b, pr
     """There no tiny error decides: MuJoCo is wrong, and says so."""
     ends = replace(TOSSES[b], trusted_impacts=horizon, trust_end=TrustEnd.SECOND_POINT)
     told = TOLD[horizon]
-    found, reason = compared(TOSSES["HHT"], ends, prefix, horizon), SECOND_POINT.format(horizon + 1)
+    (found, pair), reason = compared(TOSSES["HHT"], ends, prefix, horizon), SECOND_POINT.format(horizon + 1)
     begins = verdict.replace("HEADS", WORDS["HEADS"]).replace("TAILS", WORDS["TAILS"])
-    assert verdict_of(found).text == begins + reason
-    assert horizon_sentence(found) == told + reason.removeprefix("a" if told.endswith("A") else "")
-    earlier = compared(TOSSES["HHT"], replace(ends, trusted_impacts=horizon + 1), prefix, horizon)
-    assert "tiny errors" in verdict_of(earlier).text
-    assert "errors" in horizon_sentence(earlier)
+    assert verdicts_of(found)[0].text == begins + reason
+    assert horizon_sentence(pair) == told + reason.removeprefix("a" if told.endswith("A") else "")
+    earlier, pair = compared(TOSSES["HHT"], replace(ends, trusted_impacts=horizon + 1), prefix, horizon)
+    assert "tiny errors" in verdicts_of(earlier)[0].text
+    assert "errors" in horizon_sentence(pair)
+
+
+THERE = "within the horizon: off is wrong there"
+
+
+@pytest.mark.parametrize(
+    ("b", "prefix", "horizon", "errors", "kind", "says"),
+    [
+        (
+            *("HTT", 1, 2, [0.68, 0.1], VerdictKind.FAULT),
+            f"they differ at impact 2, {THERE} (at impact 1 its impulse is 68 % off the contact law).",
+        ),
+        ("HTT", 1, 2, [1e-6, 1e-6], VerdictKind.FAULT, f"they differ at impact 2, {THERE}."),
+        (
+            *("turned", 3, 3, [1e-6, 0.02, 0.3], VerdictKind.FAULT),
+            "off is wrong there (at impact 2 its impulse is 2 % off the contact law).",
+        ),
+        (
+            *("HTT", 1, 1, [np.inf], VerdictKind.DIFFER),
+            "as they must; at impact 1 the impulse of off is nothing like that of the contact law.",
+        ),
+        (
+            *("HTT", 1, 1, [1e-6, 0.5], VerdictKind.DIFFER),
+            "as they must; after that tiny errors decide, and neither engine is wrong.",
+        ),
+    ],
+)
+def test_another_engine_is_told_where_its_impulse_misses_the_law(b, prefix, horizon, errors, kind, says):
+    """Within the horizon the fault is its own, and no report is asked for."""
+    found, _ = compared(TOSSES["HHT"], TOSSES[b], prefix, horizon, "off", errors)
+    (verdict,) = verdicts_of(found)
+    assert verdict.kind == kind
+    assert verdict.text.endswith(says)
+
+
+def test_each_of_several_engines_has_a_verdict_that_names_it():
+    tosses = (TOSSES["HHT"], replace(TOSSES["HHT"], engine="mujoco"), replace(TOSSES["HTT"], engine="off"))
+    found = Comparison(name="made", text="", tosses=tosses, absent={"gone": "no"})
+    vars(found["mujoco"]).update(common_prefix=3, horizon=3)
+    vars(found["off"]).update(common_prefix=1, horizon=1, errors=np.zeros(3))
+    assert [(verdict.engine, verdict.text.partition(":")[0]) for verdict in verdicts_of(found)] == [
+        ("mujoco", "Heads by the analytic engine and MuJoCo"),
+        ("off", "Heads by the analytic engine, tails by off"),
+        ("gone", "gone can't toss this coin on this floor."),
+    ]

@@ -79,7 +79,8 @@ def test_the_report_has_the_numbers_of_both_maps_and_the_command(coin, tmp_path,
         assert np.array_equal(np.asarray(ours), np.asarray(theirs))
 
     # The report's own toss is by the contact of the maps.
-    mujoco = compare(parse(COIN, "coin"), MujocoSettings(contact=Realisation(contact))).both[1]
+    settings = {"mujoco": MujocoSettings(contact=Realisation(contact))}
+    mujoco = compare(parse(COIN, "coin"), settings=settings)["mujoco"].toss
     assert found["tosses"][1]["impacts"][1]["impulse"] == mujoco.impacts.impulse[1].tolist()
 
 

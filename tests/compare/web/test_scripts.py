@@ -6,7 +6,7 @@ from html.parser import HTMLParser
 
 import pytest
 
-from cointoss import analytic, coin_mj
+from cointoss import analytic
 from cointoss.compare.explorer import static
 from cointoss.compare.explorer.page_files import page_files
 from cointoss.compare.explorer.static import write_static
@@ -71,10 +71,8 @@ def report(words):
         Comparison(
             name=words,
             text=text,
-            analytic=analytic.toss(scenario),
-            mujoco=None,
-            not_realisable=words,
-            settings=coin_mj.FINE,
+            tosses=(analytic.toss(scenario),),
+            absent={"mujoco": words},
         ),
         no_video=words,
         maps=MapSection(picture=b"", numbers=numbers),
