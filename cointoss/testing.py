@@ -27,9 +27,8 @@ def cointoss_engine(request: pytest.FixtureRequest) -> Iterator[Simulator]:
         pytest.fail(
             "--cointoss-engine: missing; accepted: package.module:name, or an entry point cointoss.engines"
         )
-    engine = simulator_of(given)
-    yield engine
-    engine.answering.close()
+    with simulator_of(given) as engine:
+        yield engine
 
 
 @pytest.fixture(params=cases(), ids=lambda case: case.name)

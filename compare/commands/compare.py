@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 import click
 
@@ -19,8 +18,8 @@ class Report:
 
     out: Path | None = None
     """Folder of the report, made if missing; by default NAME-report, as in fig24a-report."""
-    engine: tuple[Literal["analytic", "mujoco"], ...] = ()
-    """An engine to hold against the analytic one; may be given again. By default mujoco."""
+    engine: tuple[str, ...] = ()
+    """An engine to hold against the analytic one, as of conform; may be given again. By default mujoco."""
     no_video: bool = False
     """Draw no video, which takes longest."""
 
@@ -39,7 +38,7 @@ def compare(source: Source, asked: Report) -> None:
     from cointoss.models.stages import stage
 
     folder = asked.out or Path(f"{source.stem}-report")
-    require_folder(folder, source.name, asked.engine)
+    require_folder(folder, source.name)
 
     with stage("getting ready"):  # what is imported takes long on a busy machine
         from cointoss.compare.film.back_end import drawing_problem
@@ -50,4 +49,5 @@ def compare(source: Source, asked: Report) -> None:
         from cointoss.compare.report.folder import write_report
 
     found = compared(source.scenario, source.text, source.stem, asked.engine or BOTH)
+    require_folder(folder, source.name, [toss.engine for toss in found.tosses])
     click.echo(write_report(found, folder, problem))

@@ -19,8 +19,6 @@ class Suite:
     """Run this case alone; may be given several times."""
     full: bool = False
     """Run an hour in place of a minute, and 10,000 tosses in place of 200."""
-    python: str = ""
-    """The Python that runs the engine, with NumPy and without cointoss; by default this one."""
     time_limit: Annotated[int, Within(1, 86400)] = 60
     """The longest time for one answer of the engine, in seconds."""
     out: Path | None = None
@@ -36,7 +34,8 @@ def conform(engine: str, asked: Suite) -> None:
     """Hold an engine against cases with known answers, and print a card.
 
     ENGINE is analytic, mujoco, the name of an entry point cointoss.engines, or package.module:name of an
-    object with a function simulate(scenario, times). The exit status is 1 where a case is missed.
+    object with a function simulate(scenario, times); "PYTHON -m package.module:name" is run by another
+    Python, which needs NumPy alone. The exit status is 1 where a case is missed.
     """
     with plain_errors(engine):
         from cointoss.compare.conform import suite
@@ -44,9 +43,7 @@ def conform(engine: str, asked: Suite) -> None:
 
         require_file(asked.out, ".html", engine)
         try:
-            card = suite.conform(
-                engine, cases=asked.case, full=asked.full, python=asked.python, time_limit=asked.time_limit
-            )
+            card = suite.conform(engine, cases=asked.case, full=asked.full, time_limit=asked.time_limit)
         except ValueError as error:
             refuse(f"--case {error}")
         if asked.out is not None:

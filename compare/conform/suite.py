@@ -11,19 +11,16 @@ from cointoss.compare.simulators.simulator import LIMIT, simulators_of
 from cointoss.models.stages import stage
 
 
-def conform(
-    engine: Any, *, cases: Iterable[str] = (), full: bool = False, python: str = "", time_limit: float = LIMIT
-) -> Card:
+def conform(engine: Any, *, cases: Iterable[str] = (), full: bool = False, time_limit: float = LIMIT) -> Card:
     """Hold an engine against cases with known answers.
 
     Args:
         engine: an object with a function `simulate(scenario, times)`, see
             `cointoss.compare.simulators.simulator.Simulates`; or "package.module:name" of one, or the name of
             an entry point `cointoss.engines`, which runs in processes of its own, side by side; or "analytic"
-            or "mujoco".
+            or "mujoco". "PYTHON -m package.module:name" is run by another Python, which needs NumPy alone.
         cases: the names of some, by default all.
         full: an hour in place of a minute, and 10,000 tosses in place of 200.
-        python: which runs an engine given as text, by default this one; it needs NumPy, and not cointoss.
         time_limit: the longest time for one answer of the engine [s].
 
     Returns:
@@ -41,7 +38,7 @@ def conform(
     chosen = [known[name] for name in asked] or list(known.values())
     chosen = [at_full_length(case) for case in chosen] if full else chosen
     with (
-        simulators_of(engine, limit=time_limit, python=python) as engines,
+        simulators_of(engine, time_limit) as engines,
         stage(f"holding {engines[0].name} against {len(chosen)} cases", "runs") as progress,
     ):
         return Card.of(engines[0], run_cases(engines, chosen, progress))

@@ -1,11 +1,11 @@
 """One scenario tossed by several engines, how the answers compare, and what shows it."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from contextlib import ExitStack
 from html import escape
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any
 
 from cointoss.compare.engines import Engine, EngineSettings, label_of, toss
 from cointoss.compare.film.back_end import BackEndError, drawing_problem
@@ -16,8 +16,9 @@ from cointoss.compare.report.compared_tosses import ComparedTosses
 from cointoss.compare.report.contents import require_folder, slug_of
 from cointoss.compare.report.folder import write_report
 from cointoss.compare.report.verdict import verdicts_of
+from cointoss.compare.simulators.simulator import Simulator, simulator_of
 from cointoss.models.reading import ScenarioSource, parse, scenario_text
-from cointoss.models.records import Toss, UnsupportedError
+from cointoss.models.records import UnsupportedError
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import stage
 
@@ -29,29 +30,8 @@ BOTH = ("analytic", "mujoco")
 """The engines of a comparison by default."""
 
 
-class Comparing(Protocol):
-    """An engine to compare."""
-
-    @property
-    def name(self) -> str:
-        """Its name, which stands beside what it tosses."""
-        ...
-
-    def toss(self, scenario: Scenario) -> Toss:
-        """Toss a coin; raise `UnsupportedError` for what the engine can't toss."""
-        ...
-
-
-@dataclass(frozen=True)
-class _Own:
-    """One of our engines, and its settings of one toss."""
-
-    name: Engine
-    settings: EngineSettings | None
-
-    def toss(self, scenario: Scenario) -> Toss:
-        """Toss a coin."""
-        return toss(scenario, self.name, settings=self.settings)
+AFTER = 1.0
+"""An engine of another is asked for states up to so long after the analytic toss has ended [s]."""
 
 
 class Comparison(ComparedTosses):
@@ -138,7 +118,7 @@ class Comparison(ComparedTosses):
 
 def compare(
     scenario: ScenarioSource,
-    engines: Sequence[str | Comparing] = BOTH,
+    engines: Sequence[Any] = BOTH,
     *,
     settings: Mapping[str, EngineSettings] | None = None,
 ) -> Comparison:
@@ -146,9 +126,9 @@ def compare(
 
     Args:
         scenario: what to toss, or its path or name.
-        engines: "analytic", "mujoco", or anything that has a `name` and a method `toss(scenario)`, which
-            returns a `Toss` or raises `UnsupportedError`. The analytic engine comes first, and is added
-            where it is missing.
+        engines: "analytic", "mujoco", or any engine that simulates: an object with a function
+            `simulate(scenario, times)`, or its name, as of `cointoss.conform`. The analytic engine comes
+            first, and is added where it is missing.
         settings: of our engines, by their names; by default those of one toss.
 
     Returns:
@@ -157,7 +137,8 @@ def compare(
     Raises:
         ScenarioError: for a scenario, a file or a name that can't be used.
         TypeError: for what is no engine, and for settings of another engine.
-        ValueError: for another name of an engine, and for names that are alike or have settings in vain.
+        UnusableEngineError: for an engine that can't be started, fails, or answers what can't be.
+        ValueError: for names that are alike or have settings in vain.
     """
     drawing_problem()  # Its back end is chosen before MuJoCo is imported, for a film.
     if isinstance(scenario, Scenario):
@@ -170,7 +151,7 @@ def compared(
     scenario: Scenario,
     text: str,
     name: str,
-    engines: Sequence[str | Comparing] = BOTH,
+    engines: Sequence[Any] = BOTH,
     settings: Mapping[str, EngineSettings] | None = None,
 ) -> Comparison:
     """Toss a scenario by several engines; the arguments are as of `compare`.
@@ -183,30 +164,25 @@ def compared(
         settings: of ours.
     """
     chosen = settings or {}
-    missing = () if "analytic" in engines else ("analytic",)
-    asked = [_tosser(engine, chosen) for engine in (*missing, *engines)]
-    asked.sort(key=lambda each: each.name != "analytic")
-    names = [each.name for each in asked]
-    if len({slug_of(each) for each in names} - {""}) < len(names):
-        raise ValueError(f"engines: {', '.join(names)}, accepted: names that differ in letters or digits")
-    if not chosen.keys() <= set(names):
-        raise ValueError(f"settings: of {', '.join(chosen)}, accepted: of {', '.join(names)}")
-    tosses, absent = [], {}
-    for each in asked:
-        try:
-            # Held against what was asked, whatever it tossed.
-            tosses.append(replace(each.toss(scenario), engine=str(each.name), scenario=scenario))
-        except UnsupportedError as error:
-            absent[str(each.name)] = str(error)
+    asked = [engine for engine in engines if engine != Engine.ANALYTIC]
+    measure = toss(scenario, settings=chosen.get(Engine.ANALYTIC))
+    with ExitStack() as stack:
+        others = [
+            each if each == Engine.MUJOCO else stack.enter_context(simulator_of(each)) for each in asked
+        ]
+        names = ["analytic", *(each.name if isinstance(each, Simulator) else str(each) for each in others)]
+        if len({slug_of(each) for each in names} - {""}) < len(names):
+            raise ValueError(f"engines: {', '.join(names)}, accepted: names that differ in letters or digits")
+        if not chosen.keys() <= set(names):
+            raise ValueError(f"settings: of {', '.join(chosen)}, accepted: of {', '.join(names)}")
+        tosses, absent = [measure], {}
+        for each, called in zip(others, names[1:], strict=True):
+            try:
+                if isinstance(each, Simulator):
+                    with stage(f"tossing by {called}"):
+                        tosses.append(each.toss(scenario, measure.end_time + AFTER))
+                else:
+                    tosses.append(toss(scenario, each, settings=chosen.get(called)))
+            except UnsupportedError as error:
+                absent[called] = str(error)
     return Comparison(name=name, text=text, tosses=tuple(tosses), absent=absent, settings=chosen)
-
-
-def _tosser(given: str | Comparing, settings: Mapping[str, EngineSettings]) -> Comparing:
-    """Return what tosses by an engine that is given by its name, or itself."""
-    if isinstance(given, str):
-        return _Own(Engine(given), settings.get(given))
-    if not (isinstance(getattr(given, "name", None), str) and callable(getattr(given, "toss", None))):
-        raise TypeError(
-            f"engines: {given!r}, accepted: {', '.join(Engine)}, or what has a name and a method toss"
-        )
-    return given

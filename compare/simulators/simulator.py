@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from importlib.metadata import entry_points
 from typing import Any, Protocol
@@ -102,15 +102,23 @@ class Simulator:
             self.name, settings | ({"dt [s]": self.dt} if self.dt else {})
         )
 
+    def __enter__(self) -> "Simulator":
+        """Return the engine, which ends with the block."""
+        return self
 
-def simulator_of(given: Any, *, limit: float = LIMIT, python: str = "") -> Simulator:
+    def __exit__(self, *_: object) -> None:
+        """End what was started for the engine."""
+        self.answering.close()
+
+
+def simulator_of(given: Any, limit: float = LIMIT) -> Simulator:
     """Return the engine that a user gives.
 
     Args:
         given: an object with a function `simulate`, see `Simulates`; or "package.module:name" of one, or the
             name of an entry point `cointoss.engines`, which runs in a process of its own; or an `Engine`.
+            "PYTHON -m package.module:name" is run by another Python, which needs NumPy, and not cointoss.
         limit: of each answer [s].
-        python: which runs an engine given as text, by default this one; it needs NumPy, and not cointoss.
 
     Raises:
         EngineError: for an engine that can't be started.
@@ -120,8 +128,9 @@ def simulator_of(given: Any, *, limit: float = LIMIT, python: str = "") -> Simul
         return Simulator(Called(given, limit))
     if given in list(Engine):
         return Simulator(Called(Own(Engine(given)), limit))
+    python, _, path = given.rpartition(" -m ")
     offered = {point.name: point.value for point in entry_points(group="cointoss.engines")}
-    path = offered.get(given, given)
+    path = offered.get(path, path)
     if ":" not in path:
         known = ", ".join([*Engine, *sorted(offered)])
         raise EngineError(f"engine: {given}, accepted: {known}, or package.module:name")
@@ -129,16 +138,13 @@ def simulator_of(given: Any, *, limit: float = LIMIT, python: str = "") -> Simul
 
 
 @contextmanager
-def simulators_of(given: Any, **how: Any) -> Iterator[list[Simulator]]:
+def simulators_of(given: Any, limit: float) -> Iterator[list[Simulator]]:
     """Yield an engine, once for each core where it runs in processes of its own; see `simulator_of`."""
-    engines = [simulator_of(given, **how)]
-    try:
+    with ExitStack() as stack:
+        engines = [stack.enter_context(simulator_of(given, limit))]
         if isinstance(engines[0].answering, Served):
-            engines += [simulator_of(given, **how) for _ in range(cores_used() - 1)]
+            engines += [stack.enter_context(simulator_of(given, limit)) for _ in range(cores_used() - 1)]
         yield engines
-    finally:
-        for each in engines:
-            each.answering.close()
 
 
 class Own:

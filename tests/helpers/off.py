@@ -1,9 +1,13 @@
 """An engine from outside that is off the contact law: the analytic one, on a floor of another restitution."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
 
 from cointoss import analytic
-from cointoss.models.records import Toss, TrustEnd, UnsupportedError
+from cointoss.compare.simulators.worker import STATE
+from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
 
 
@@ -14,15 +18,11 @@ class Off:
     name: str = "off"
     factor: float = 0.5
 
-    def toss(self, scenario: Scenario) -> Toss:
-        """Toss a coin, and find out nothing of how sure that is."""
+    def simulate(self, scenario: Scenario, times: Array) -> dict[str, Any]:
+        """Return the states and the impacts."""
         if not self.factor:
-            raise UnsupportedError(f"{self.name} tosses nothing")
-        found = analytic.toss(scenario.replace("floor.restitution", self.factor * scenario.floor.restitution))
-        return replace(
-            found,
-            outcome_certain=None,
-            other_outcome=None,
-            trusted_impacts=len(found.impacts),
-            trust_end=TrustEnd.NONE,
-        )
+            raise NotImplementedError(f"{self.name} tosses nothing")
+        toss = analytic.toss(scenario.replace("floor.restitution", self.factor * scenario.floor.restitution))
+        states = toss.sample(np.minimum(times, toss.end_time))
+        columns = {name: getattr(states, name) for name in STATE}
+        return columns | {"impact_time": toss.impacts.time, "impact_impulse": toss.impacts.impulse}

@@ -237,7 +237,7 @@ def test_the_command_prints_a_card_and_ends_with_1_where_a_case_is_missed(tmp_pa
         (["conform", "nowhere"], "engine: nowhere, accepted: analytic, mujoco, or package.module:name"),
         (["conform", "analytic", "--case", "none"], "--case none: accepted: parabola, "),
         (["conform", "analytic", "--out", "card.txt"], "card.txt"),
-        (["conform", "a:b", "--python", "/no/python"], "/no/python: can't be run"),
+        (["conform", "/no/python -m a:b"], "/no/python: can't be run"),
     ],
 )
 def test_the_command_refuses_in_one_line(words, told):

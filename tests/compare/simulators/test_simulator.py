@@ -241,7 +241,7 @@ def test_a_step_is_set_for_a_call_and_put_back(tumbling):
 def test_an_engine_that_hangs_is_ended_and_said(served, tumbling):
     engine = "tests.helpers.own_engines:hanging" if served else Answers(lambda *_: _for_ever())
     begun = time.monotonic()
-    asked = simulator_of(engine, limit=2.0)
+    asked = simulator_of(engine, 2.0)
     with pytest.raises(EngineError, match="no answer within 2 s; ended"):
         asked.observe(tumbling, 0.3)
     assert time.monotonic() - begun < 60
@@ -316,4 +316,4 @@ def test_a_name_that_is_no_engine_is_refused(given, words):
     with pytest.raises(EngineError, match=words):
         simulator_of(given)
     with pytest.raises(EngineError, match=r"can't be run .*; accepted: a Python"):
-        simulator_of("some:engine", python="/no/python")
+        simulator_of("/no/python -m some:engine")
