@@ -36,16 +36,6 @@ def test_momentum_and_restitution_hold_at_every_impact(engine):
     assert ratio == pytest.approx(np.full(len(impacts), 0.8), abs=2e-3)
 
 
-def test_restitution_one_loses_no_energy(engine):
-    tossed = toss(
-        engine,
-        scenario(coin=IMPERFECT, floor={"restitution": 1.0}, release=TUMBLING, ending={"max_impacts": 3}),
-    )
-    assert len(tossed.impacts) == 3
-    assert tossed.impacts.impulse[:, 2].min() > 1e-4, "each should turn the coin back"
-    assert np.abs(tossed.impacts.energy_change / tossed.impacts.energy).max() < 1e-4
-
-
 def test_samples_meet_the_impacts(engine):
     tossed = toss(engine, scenario(coin=IMPERFECT, air=AIR, release=TUMBLING, ending={"max_impacts": 3}))
     states = tossed.sample(tossed.impacts.time)

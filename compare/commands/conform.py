@@ -49,7 +49,7 @@ def conform(engine: str, asked: Suite) -> None:
         if asked.out is not None:
             write_text(asked.out, card.page())
         if asked.json:
-            print_json(card.as_json())
+            print_json(card.as_json(), "analytic")
         else:
             click.echo(card.as_lines())
         if card.missed:

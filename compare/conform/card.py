@@ -93,7 +93,7 @@ def _run_as_json(run: Run) -> dict[str, Any]:
         "status": str(run.status),
         "found": run.found,
         "error": run.error if run.found else None,
-        "seconds": run.seconds,
+        "processor_time": run.processor_time,
         "why": run.why,
     }
 

@@ -1,6 +1,5 @@
 """An engine run through the cases, each with several steps where it has one."""
 
-import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
@@ -14,7 +13,7 @@ from cointoss.compare.conform.quantities import QUANTITIES, NothingSeenError, er
 from cointoss.compare.simulators.answering import EngineError
 from cointoss.compare.simulators.simulator import Simulator
 from cointoss.models.hand import Hand
-from cointoss.models.records import Array, Outcome, UnsupportedError
+from cointoss.models.records import Outcome, UnsupportedError
 from cointoss.models.scenario import Scenario
 
 HAND = Hand.people(height=0.1, speed=1.0, spin=80.0)
@@ -44,7 +43,7 @@ class Run:
     """What was measured, in SI."""
     error: float = float("nan")
     """Its error, against the case's scale."""
-    seconds: float = 0.0
+    processor_time: float = 0.0
     """How long the engine took [s]."""
     why: str = ""
     """Why nothing was measured."""
@@ -135,25 +134,25 @@ def run_case(engine: Simulator, case: Case, dt: float | None) -> Run:
         case: of the suite.
         dt: the step, None for an engine without one [s].
     """
-    begun = time.perf_counter()
     try:
-        found = measured(engine, case, dt)
+        if case.quantity == "share_of_heads":
+            seen = [engine.observe(each, case.until, dt=dt) for each in _by_hand(case)]
+            found = np.array([sum(each.ended[1] == Outcome.HEADS for each in seen) / len(seen)])
+        else:
+            seen = [engine.observe(case.scenario, case.until, dt=dt, every=case.every)]
+            found = QUANTITIES[case.quantity](seen[0])
     except UnsupportedError as error:
         return Run(dt=dt, why=str(error), status=Status.NOT_REALISABLE)
     except (EngineError, NothingSeenError) as error:
-        return Run(dt=dt, why=str(error), status=Status.FAILED, seconds=time.perf_counter() - begun)
+        return Run(dt=dt, why=str(error), status=Status.FAILED)
     error = error_of(found, case.value, case.scale)
-    status = Status.MET if error <= tolerance_of(case, dt) else Status.MISSED
-    seconds = time.perf_counter() - begun
-    return Run(dt=dt, found=tuple(found.tolist()), error=error, seconds=seconds, status=status)
-
-
-def measured(engine: Simulator, case: Case, dt: float | None) -> Array:
-    """Return what is measured of a case."""
-    if case.quantity == "share_of_heads":
-        heads = [engine.observe(each, case.until, dt=dt).ended[1] == Outcome.HEADS for each in _by_hand(case)]
-        return np.array([sum(heads) / len(heads)])
-    return QUANTITIES[case.quantity](engine.observe(case.scenario, case.until, dt=dt, every=case.every))
+    return Run(
+        dt=dt,
+        found=tuple(found.tolist()),
+        error=error,
+        processor_time=sum(each.processor_time for each in seen),
+        status=Status.MET if error <= tolerance_of(case, dt) else Status.MISSED,
+    )
 
 
 def _by_hand(case: Case) -> Iterator[Scenario]:

@@ -1,1 +1,1 @@
-"""Engines of anybody, which are asked for states alone; imports engines and output."""
+"""Engines of anybody, which are asked for states alone; imports metrics, engines and output."""

@@ -1,12 +1,14 @@
 """What states alone show of a toss: touches, impulses, faces, and how it ends."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cointoss import analytic
+from cointoss.compare.metrics.impulses import errors_of_impacts
+from cointoss.compare.metrics.sequences import agreement_horizon
 from cointoss.models.barriers import barrier
 from cointoss.models.certificate import energies, gaps, turned
 from cointoss.models.geometry import lowest_point
@@ -49,6 +51,8 @@ class Observed:
     """From the release on, at times close enough to see impacts apart."""
     told: tuple[Array, Array] | None = None
     """The times of the impacts, (k,) [s], and their impulses, (k, 3) [N s], where the engine gives them."""
+    processor_time: float = 0.0
+    """How long the engine took [s]."""
 
     @cached_property
     def gains(self) -> Array:
@@ -118,15 +122,18 @@ class Observed:
         row["time"] = states.time[a] + late
 
     @cached_property
-    def spacing_error(self) -> float:
-        """The largest relative error of an impulse that the spacing of the times allows."""
-        body, found = self.scenario.body, self.stretches[0]
-        spans = np.array([self.states.time[b] - self.states.time[a] for a, b in found])
-        spins = np.array(
-            [np.linalg.norm(self.states.angular_velocity[[a, b]], axis=1).max() for a, b in found]
-        )
-        sizes = np.array([np.linalg.norm(self.gains[a:b].sum(axis=0)) for a, b in found])
-        return float(np.max(spans * (spins + body.gravity / sizes), initial=0.0))
+    def spacing_errors(self) -> Array:
+        """The relative error of each impulse that the spacing of the times allows, (n,).
+
+        A touch may be so much early or late that the coin turns, and falls, between two times.
+        """
+        found, w = self.stretches[0], self.states.angular_velocity
+        if self.told is not None or not found:
+            return np.zeros(len(found))
+        a, b = np.array(found).T
+        spins = np.maximum(np.linalg.norm(w[a], axis=1), np.linalg.norm(w[b], axis=1))
+        gained = np.linalg.norm(self.impacts.impulse, axis=1) / self.scenario.coin.mass
+        return (self.states.time[b] - self.states.time[a]) * (spins + self.scenario.gravity / gained)
 
     @cached_property
     def ended(self) -> tuple[int, Outcome, Ending]:
@@ -158,40 +165,47 @@ class Observed:
     def toss(self, engine: str, settings: dict[str, str | float]) -> Toss:
         """Return the record of the toss, up to its ending.
 
+        Its impacts are trusted as far as errors of its impulses, and those that the spacing allows, change no
+        face of the analytic toss.
+
         Args:
             engine: its name.
             settings: what it says of itself.
         """
         last, outcome, ending = self.ended
-        end, impacts = float(self.states.time[last]), self.impacts
-        kept = impacts.time <= end
+        time, impacts = self.states.time, self.impacts
+        end, kept = float(time[last]), impacts.time <= time[last]
         most = self.scenario.ending.max_impacts
         if most is not None and kept.sum() >= most:
             kept[np.flatnonzero(kept)[most:]] = False
             end, outcome, ending = float(impacts.time[kept][-1]), Outcome.UNDECIDED, Ending.MAX_IMPACTS
-        kept_impacts = Impacts(**{name: column[kept] for name, column in vars(impacts).items()})
-        time = self.states.time
         contacts = np.array([(time[a], min(time[b], end)) for a, b in self.stretches[1] if time[a] < end])
-        return Toss(
+        allowed = float(np.max(self.spacing_errors, initial=0.0))
+        toss = Toss(
             engine=engine,
             scenario=self.scenario,
-            impacts=kept_impacts,
+            impacts=Impacts(**{name: column[kept] for name, column in vars(impacts).items()}),
             contacts=contacts.reshape(-1, 2),
             outcome=outcome,
             ending=ending,
             end_time=end,
             outcome_certain=None,
             other_outcome=None,
-            trusted_impacts=len(kept_impacts),
+            trusted_impacts=0,
             trust_end=TrustEnd.NONE,
             certificate=(
                 *(Setting(name=name, value=value) for name, value in settings.items()),
                 Setting(name="spacing of the times", value=float(np.diff(time).max(initial=0.0)), unit="s"),
-                Setting(
-                    name="error of an impulse that this spacing allows, relative", value=self.spacing_error
-                ),
+                Setting(name="error of an impulse that this spacing allows, relative", value=allowed),
             ),
             path=Samples(self.states, self.scenario.coin.mass * self.gains / np.diff(time)[:, None]),
+        )
+        errors = errors_of_impacts(toss) + self.spacing_errors[kept]
+        trusted, count = agreement_horizon(analytic.toss(self.scenario), errors), len(toss.impacts)
+        return replace(
+            toss,
+            trusted_impacts=trusted,
+            trust_end=TrustEnd.of(trusted, before_contact=count, count=count),
         )
 
 

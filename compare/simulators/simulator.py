@@ -88,12 +88,13 @@ class Simulator:
             states = checked_states(scenario, times, step, answer)
         except ValueError as error:
             raise EngineError(f"{self.name}: {error}") from None
-        told = (
-            (np.asarray(answer["impact_time"]), np.asarray(answer["impact_impulse"]))
-            if "impact_time" in answer
-            else None
+        given = "impact_time" in answer
+        return Observed(
+            scenario=scenario,
+            states=states,
+            told=(np.asarray(answer["impact_time"]), np.asarray(answer["impact_impulse"])) if given else None,
+            processor_time=float(answer["processor_time"]),
         )
-        return Observed(scenario=scenario, states=states, told=told)
 
     def toss(self, scenario: Scenario, until: float) -> Toss:
         """Return the toss that the engine's states show; see `observe`."""

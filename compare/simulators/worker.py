@@ -8,6 +8,7 @@ import json
 import os
 import struct
 import sys
+import time
 import traceback
 from importlib import import_module
 from pathlib import Path
@@ -81,7 +82,7 @@ def _name(engine: Any) -> str:
 
 
 def simulated(engine: Any, scenario: Any, times: np.ndarray, dt: "float | None") -> "dict[str, np.ndarray]":
-    """Return an engine's states as arrays by name, made with a step where it has one.
+    """Return an engine's states by name, made with a step where it has one, and the `processor_time` [s].
 
     Raises:
         TypeError: for an answer of another kind.
@@ -89,6 +90,7 @@ def simulated(engine: Any, scenario: Any, times: np.ndarray, dt: "float | None")
     kept = getattr(engine, "dt", None)
     if dt is not None:
         engine.dt = dt
+    begun = time.process_time()
     try:
         answer = engine.simulate(scenario, times)
     finally:
@@ -104,7 +106,8 @@ def simulated(engine: Any, scenario: Any, times: np.ndarray, dt: "float | None")
             "by name or in this order"
         )
     names = [name for name in (*STATE, *MORE) if name in parts]
-    return {name: np.asarray(parts[name], dtype=float) for name in names}
+    columns = {name: np.asarray(parts[name], dtype=float) for name in names}
+    return columns | {"processor_time": np.array(time.process_time() - begun)}
 
 
 def scenario_of(text: str) -> Any:
