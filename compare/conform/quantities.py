@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from cointoss.compare.metrics.sequences import common_prefix
-from cointoss.compare.simulators.observed import Observed
+from cointoss.compare.simulators.observed import ObservedToss
 from cointoss.models.certificate import energies, gaps, momentum_residuals
 from cointoss.models.records import Array, Impacts
 
@@ -14,43 +14,43 @@ class NothingSeenError(ValueError):
     """What a quantity is about did not happen in a toss."""
 
 
-def _impacts(seen: Observed) -> Impacts:
+def _impacts(seen: ObservedToss) -> Impacts:
     if not len(seen.impacts):
         raise NothingSeenError(f"no impact was seen in {seen.states.time[-1]:.4g} s")
     return seen.impacts
 
 
-def _first_impact(seen: Observed) -> Impacts:
+def _first_impact(seen: ObservedToss) -> Impacts:
     return Impacts(**{name: column[:1] for name, column in vars(_impacts(seen)).items()})
 
 
-def position_at_the_end(seen: Observed) -> Array:
+def position_at_the_end(seen: ObservedToss) -> Array:
     """Return the position of the mass centre at the end, space frame, (3,) [m]."""
     return seen.states.position[-1]
 
 
-def velocity_at_the_end(seen: Observed) -> Array:
+def velocity_at_the_end(seen: ObservedToss) -> Array:
     """Return the velocity of the mass centre at the end, space frame, (3,) [m/s]."""
     return seen.states.velocity[-1]
 
 
-def angular_velocity_at_the_end(seen: Observed) -> Array:
+def angular_velocity_at_the_end(seen: ObservedToss) -> Array:
     """Return the angular velocity at the end, body frame, (3,) [rad/s]."""
     return seen.states.angular_velocity[-1]
 
 
-def attitude_at_the_end(seen: Observed) -> Array:
+def attitude_at_the_end(seen: ObservedToss) -> Array:
     """Return the Euler parameters at the end, of the sign whose largest is positive, (4,)."""
     e = seen.states.quaternion[-1]
     return e * np.sign(e[np.argmax(np.abs(e))])
 
 
-def period_of_spin(seen: Observed) -> Array:
+def period_of_spin(seen: ObservedToss) -> Array:
     """Return the mean time from one rise of ω_η through 0 to the next [s]."""
     return _period(seen.states.time, seen.states.angular_velocity[:, 1])
 
 
-def period_of_lean(seen: Observed) -> Array:
+def period_of_lean(seen: ObservedToss) -> Array:
     """Return the mean time from one rise of n_z through its middle to the next [s]."""
     n_z = seen.states.normal[:, 2]
     return _period(seen.states.time, n_z - (n_z.max() + n_z.min()) / 2)
@@ -64,47 +64,47 @@ def _period(time: Array, values: Array) -> Array:
     return np.array([(rises[-1] - rises[0]) / (len(rises) - 1)])
 
 
-def restitution(seen: Observed) -> Array:
+def restitution(seen: ObservedToss) -> Array:
     """Return -v_Az'/v_Az of the point that touches first."""
     first = _first_impact(seen)
     return -first.contact_velocity_after[:, 2] / first.contact_velocity_before[:, 2]
 
 
-def rebound_of_the_centre(seen: Observed) -> Array:
+def rebound_of_the_centre(seen: ObservedToss) -> Array:
     """Return -v_z'/v_z of the mass centre at the first impact."""
     first = _first_impact(seen)
     return -first.velocity_after[:, 2] / first.velocity_before[:, 2]
 
 
-def first_impulse(seen: Observed) -> Array:
+def first_impulse(seen: ObservedToss) -> Array:
     """Return the impulse of the first impact, space frame, (3,) [N s]."""
     return _first_impact(seen).impulse[0]
 
 
-def spin_after_the_first_impact(seen: Observed) -> Array:
+def spin_after_the_first_impact(seen: ObservedToss) -> Array:
     """Return the angular velocity after the first impact, body frame, (3,) [rad/s]."""
     return _first_impact(seen).angular_velocity_after[0]
 
 
-def sideways_impulse(seen: Observed) -> Array:
+def sideways_impulse(seen: ObservedToss) -> Array:
     """Return the largest horizontal part of an impulse, |S_xy|/|S|."""
     S = _impacts(seen).impulse
     return np.array([np.max(np.hypot(S[:, 0], S[:, 1]) / np.linalg.norm(S, axis=1))])
 
 
-def moment_of_the_impulse(seen: Observed) -> Array:
+def moment_of_the_impulse(seen: ObservedToss) -> Array:
     """Return by how much J Δω = a × S fails at the first impact, against r |S|."""
     return momentum_residuals(seen.scenario.body, _first_impact(seen))
 
 
-def time_of_rest(seen: Observed) -> Array:
+def time_of_rest(seen: ObservedToss) -> Array:
     """Return the time from which the coin stays within a thousandth of its first height [s]."""
     above = gaps(seen.scenario.body, seen.states)
     high = np.flatnonzero(above > 1e-3 * above[0])
     return seen.states.time[[min(int(high[-1]) + 1, len(above) - 1)]]
 
 
-def exponent_of_the_fall(seen: Observed) -> Array:
+def exponent_of_the_fall(seen: ObservedToss) -> Array:
     """Return p of a lean that falls as (t₀ - t)^p, from the times at which it is 0.2, 0.1 and 0.05 rad."""
     lean, time = np.arccos(np.clip(np.abs(seen.states.normal[:, 2]), 0, 1)), seen.states.time
     last = [np.flatnonzero(lean > each) for each in (0.2, 0.1, 0.05)]
@@ -114,30 +114,30 @@ def exponent_of_the_fall(seen: Observed) -> Array:
     return np.array([np.log(2) / np.log((b - a) / (c - b))])
 
 
-def drift(seen: Observed) -> Array:
+def drift(seen: ObservedToss) -> Array:
     """Return how far the mass centre moves from its release at most [m]."""
     away = seen.states.position - seen.states.position[0]
     return np.array([np.linalg.norm(away, axis=1).max()])
 
 
-def energy_gained_at_a_touch(seen: Observed) -> Array:
+def energy_gained_at_a_touch(seen: ObservedToss) -> Array:
     """Return the mean relative change of energy from touch to touch."""
     E = energies(seen.scenario.body, seen.states)
     return np.array([np.log(E[-1] / E[0]) / len(_impacts(seen))])
 
 
-def faces(seen: Observed) -> Array:
+def faces(seen: ObservedToss) -> Array:
     """Return the faces up at the touches, 1 heads and 2 tails, (n,)."""
     return seen.impacts.face.astype(float)
 
 
-def energy_left(seen: Observed) -> Array:
+def energy_left(seen: ObservedToss) -> Array:
     """Return the energy at the end over that at the release."""
     E = energies(seen.scenario.body, seen.states)
     return np.array([E[-1] / E[0]])
 
 
-QUANTITIES: dict[str, Callable[[Observed], Array]] = {
+QUANTITIES: dict[str, Callable[[ObservedToss], Array]] = {
     each.__name__: each
     for each in (
         position_at_the_end,

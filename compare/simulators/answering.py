@@ -6,8 +6,8 @@ import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Callable, Mapping
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Any, BinaryIO, Protocol, cast
@@ -92,19 +92,8 @@ class Served:
         self._start()
 
     def _start(self) -> None:
-        self._folder = tempfile.TemporaryDirectory()
-        self._said = Path(self._folder.name) / "said"
-        command = [self._python, worker.__file__, self._path]
-        try:
-            with self._said.open("wb") as said:
-                self._process = subprocess.Popen(
-                    command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=said
-                )
-        except OSError as error:
-            self._folder.cleanup()
-            raise EngineError(
-                f"{self._python}: can't be run ({error.strerror}); accepted: a Python"
-            ) from None
+        self._open = ExitStack()
+        self._process, self._said = self._open.enter_context(_started(self._python, self._path))
         try:
             self.about: Message = json.loads(str(_refused(self._answer(), self._path)["about"]))
         except BaseException:
@@ -146,10 +135,29 @@ class Served:
 
     def close(self) -> None:
         """End the process."""
-        self._process.kill()
-        self._process.wait()
-        with self._folder, self._process:  # which close what they opened
-            pass
+        with suppress(BrokenPipeError):  # of what it did not read
+            self._open.close()
+
+
+@contextmanager
+def _started(python: str, path: str) -> Iterator[tuple["subprocess.Popen[bytes]", Path]]:
+    """Start the process of an engine, and end it after; yield it, and the file of what it says."""
+    with tempfile.TemporaryDirectory() as folder:
+        said = Path(folder) / "said"
+        command = [python, worker.__file__, path]
+        try:
+            with (
+                said.open("wb") as stream,
+                subprocess.Popen(
+                    command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=stream
+                ) as process,
+            ):
+                try:
+                    yield process, said
+                finally:
+                    process.kill()
+        except (FileNotFoundError, PermissionError, NotADirectoryError) as error:
+            raise EngineError(f"{python}: can't be run ({error.strerror}); accepted: a Python") from None
 
 
 class _Ended(BaseException):

@@ -43,7 +43,7 @@ STILL = 1e-2
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Observed:
+class ObservedToss:
     """What an engine's states show of a toss."""
 
     scenario: Scenario

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from cointoss.compare.engines import Engine
 from cointoss.compare.simulators.answering import Answering, Called, EngineError, Served
 from cointoss.compare.simulators.checking import checked_states
-from cointoss.compare.simulators.observed import Observed
+from cointoss.compare.simulators.observed import ObservedToss
 from cointoss.models.cores import cores_used
 from cointoss.models.records import Array, Ending, States, Toss, UnsupportedError
 from cointoss.models.scenario import Scenario
@@ -66,7 +66,7 @@ class Simulator:
 
     def observe(
         self, scenario: Scenario, until: float, *, dt: float | None = None, every: float | None = None
-    ) -> Observed:
+    ) -> ObservedToss:
         """Simulate a toss.
 
         Args:
@@ -89,7 +89,7 @@ class Simulator:
         except ValueError as error:
             raise EngineError(f"{self.name}: {error}") from None
         given = "impact_time" in answer
-        return Observed(
+        return ObservedToss(
             scenario=scenario,
             states=states,
             told=(np.asarray(answer["impact_time"]), np.asarray(answer["impact_impulse"])) if given else None,

@@ -7,7 +7,7 @@ import pytest
 
 from cointoss import analytic
 from cointoss.compare.simulators.answering import EngineError
-from cointoss.compare.simulators.observed import Observed
+from cointoss.compare.simulators.observed import ObservedToss
 from cointoss.compare.simulators.simulator import simulator_of
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.reading import load
@@ -53,7 +53,7 @@ def test_states_alone_show_the_impacts_of_the_toss(name):
     case = load(name).replace("ending", {"test": "rigorous"})
     known = analytic.toss(case)
     told = simulator_of("analytic").observe(case, known.end_time + 0.01)
-    seen = Observed(scenario=case, states=told.states).toss("seen", {})
+    seen = ObservedToss(scenario=case, states=told.states).toss("seen", {})
     first = known.impacts.time < (known.contacts[0, 0] if len(known.contacts) else np.inf)
     n = min(int(first.sum()), 10)
     assert n >= 4
@@ -74,7 +74,7 @@ def test_impulses_of_a_coarse_answer_err_as_its_spacing_allows(tumbling):
     known = analytic.toss(tumbling)
     for every in (2e-4, 1e-3):
         told = simulator_of("analytic").observe(tumbling, 0.5, every=every)
-        seen = Observed(scenario=tumbling, states=told.states)
+        seen = ObservedToss(scenario=tumbling, states=told.states)
         size = np.linalg.norm(known.impacts.impulse[:2], axis=1)
         off = np.linalg.norm(seen.impacts.impulse[:2] - known.impacts.impulse[:2], axis=1) / size
         assert np.all(off < seen.spacing_errors[:2])
@@ -105,7 +105,7 @@ def test_a_coin_that_lies_is_held_by_its_weight():
 def test_a_caught_coin_and_one_that_stands_end_so():
     caught = scenario(release=TUMBLING, ending={"caught": 0.2})
     seen = simulator_of("analytic").observe(caught.replace("ending.caught", None), 0.3)
-    toss = Observed(scenario=caught, states=seen.states).toss("seen", {})
+    toss = ObservedToss(scenario=caught, states=seen.states).toss("seen", {})
     assert toss.ending == Ending.CAUGHT
     assert toss.end_time == pytest.approx(analytic.toss(caught).end_time, abs=1e-4)
     upright = {"position": [0, 0, 1.25e-2], "angles": [0, np.pi / 2, 0]}

@@ -1,0 +1,136 @@
+"""The picture and the tables of docs/OTHER_ENGINES.md, from the cards beside the adapters."""
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.figure import Figure
+
+from cointoss.compare.conform.case import cases
+from cointoss.compare.output.style import GREY, PALE, STYLE
+from cointoss.study import table
+
+PAGE, PICTURE = "OTHER_ENGINES.md", "other_engines.png"
+LEVELS = (0.0, 0.01, 0.1, 1.0)
+"""Errors at which the colour changes; the last is for all above."""
+COLORS = ("#cfe8dc", "#fff3c9", "#fbd9b4", "#f4b6a6")
+NEAR = 0.01
+"""The error whose processor time is shown."""
+TIMED = "tilted"
+"""The case that is timed."""
+UNTIL = next(case.until for case in cases() if case.name == TIMED)
+
+
+def cards(adapters: Path) -> list[dict[str, Any]]:
+    """Return the cards of all engines, in the order of their names."""
+    found = [json.loads(path.read_text(encoding="utf-8")) for path in sorted(adapters.glob("*/*.json"))]
+    return sorted(found, key=lambda card: card["engine"].lower())
+
+
+def blocks(docs: Path) -> dict[str, str]:
+    """Return the tables by the names of their places on the page."""
+    known = cards(docs.parent / "adapters")
+    return {"errors": errors(known), "orders": orders(known), "settings": settings(known)}
+
+
+def errors(known: list[dict[str, Any]]) -> str:
+    """Return each engine's error in each case, at its own step."""
+    rows = [
+        [case.title, *(shown(of_case(card, case.name)) for card in known), f"{case.tolerance['stepping']:g}"]
+        for case in cases()
+    ]
+    return table(["case", *(card["engine"] for card in known), "limit"], rows, words=True)
+
+
+def orders(known: list[dict[str, Any]]) -> str:
+    """Return for each engine its step, the cases it meets, orders, and the processor time for 1 %."""
+    rows = [
+        [
+            card["engine"],
+            f"{1e3 * card['dt']:.3g} ms",
+            f"{sum(case['status'] == 'met' for case in card['cases'])} of {asked(card)}",
+            *(order(of_case(card, name)) for name in ("parabola", TIMED, "touch_spin")),
+            cost(card),
+        ]
+        for card in known
+    ]
+    heads = (
+        "engine | own step | met, of those it can do | order: fall | order: rim | order: spin | time for 1 %"
+    )
+    return table(heads, rows, words=True)
+
+
+def settings(known: list[dict[str, Any]]) -> str:
+    """Return the settings of each engine."""
+    rows = [
+        [card["engine"], ", ".join(f"{name} = {value}" for name, value in card["settings"].items())]
+        for card in known
+    ]
+    return table("engine | settings", rows, words=True)
+
+
+def asked(card: dict[str, Any]) -> int:
+    """Return how many cases an engine can do."""
+    return sum(case["status"] != "not realisable" for case in card["cases"])
+
+
+def of_case(card: dict[str, Any], name: str) -> dict[str, Any]:
+    """Return what came of a case."""
+    return next(case for case in card["cases"] if case["name"] == name)
+
+
+def shown(case: dict[str, Any]) -> str:
+    """Return the error of a case, or why there is none."""
+    if case["error"] is None:
+        return {"failed": "failed"}.get(case["status"], "–")
+    return f"{case['error']:.1g}"
+
+
+def order(case: dict[str, Any]) -> str:
+    """Return the order of a case's error in the step."""
+    return "–" if case["order"] is None else f"{case['order']:.1f}"
+
+
+def cost(card: dict[str, Any]) -> str:
+    """Return the least processor time of a simulated second in which the rim's rebound is 1 % off at most."""
+    near = [run[2] / UNTIL for run in of_case(card, TIMED)["runs"] if run[1] is not None and run[1] <= NEAR]
+    return f"{min(near):.2g} s" if near else "not reached"
+
+
+def draw(docs: Path) -> None:
+    """Draw the errors of all engines in all cases, at their own steps."""
+    known = cards(docs.parent / "adapters")
+    with mpl.rc_context(STYLE):
+        drawn(known).savefig(docs / PICTURE, dpi=110, metadata={"Software": None})
+
+
+def drawn(known: list[dict[str, Any]]) -> Figure:
+    """Return a table of errors, an engine a row, coloured by their size."""
+    names = [case.name for case in cases()]
+    found = np.array([[_size(of_case(card, name)) for name in names] for card in known])
+    figure = Figure(figsize=(0.42 * len(names) + 3.2, 0.34 * len(known) + 1.9))
+    axes = figure.add_subplot()
+    levels = BoundaryNorm([*LEVELS, math.inf], len(COLORS))
+    axes.imshow(found, cmap=ListedColormap(COLORS), norm=levels, aspect="auto")
+    for i, card in enumerate(known):
+        for k, name in enumerate(names):
+            text = shown(of_case(card, name)).replace("failed", "×")
+            axes.text(
+                k, i, text, ha="center", va="center", fontsize=6.5, color=PALE if text == "–" else "black"
+            )
+    axes.set_xticks(range(len(names)), [name.replace("_", " ") for name in names], rotation=60, ha="right")
+    axes.set_yticks(range(len(known)), [card["engine"] for card in known])
+    axes.tick_params(length=0, colors=GREY)
+    axes.grid(visible=False)
+    axes.spines[:].set_visible(False)
+    return figure
+
+
+def _size(case: dict[str, Any]) -> float:
+    if case["status"] == "failed":
+        return 10 * LEVELS[-1]
+    return math.nan if case["error"] is None else case["error"]
