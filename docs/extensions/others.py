@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -34,7 +35,21 @@ def cards(adapters: Path) -> list[dict[str, Any]]:
 def blocks(docs: Path) -> dict[str, str]:
     """Return the tables by the names of their places on the page."""
     known = cards(docs.parent / "adapters")
-    return {"errors": errors(known), "orders": orders(known), "settings": settings(known)}
+    return {
+        "errors": errors(known),
+        "orders": orders(known),
+        "settings": settings(known),
+        "findings": findings(docs.parent / "adapters"),
+    }
+
+
+def findings(adapters: Path) -> str:
+    """Return what was found in each engine, as its adapter's findings.md has it, two levels lower.
+
+    Its scripts run in the engine's environment, and not as those of a page.
+    """
+    pages = [path.read_text(encoding="utf-8").strip() for path in sorted(adapters.glob("*/findings.md"))]
+    return "\n\n".join(re.sub(r"^```\w+$", "```py", f"##{page}", flags=re.MULTILINE) for page in pages)
 
 
 def errors(known: list[dict[str, Any]]) -> str:

@@ -7,6 +7,7 @@ from pathlib import Path
 import benchmarks
 import engines
 import nbformat
+import others
 import pictures
 from myst_nb.core.read import read_myst_markdown_notebook
 
@@ -68,6 +69,8 @@ def write(docs: Path) -> None:
     write_results(docs)
     fill(docs / "GALLERY.md", {"figures": figures()})
     fill(docs / engines.PAGE, engines.blocks(docs))
+    fill(docs / others.PAGE, others.blocks(docs))
+    others.draw(docs)
     benchmarks.draw(docs)
     (docs / "house.svg").write_text(pictures.house(), encoding="utf-8")
     (docs / "automaton.svg").write_text(pictures.automaton(), encoding="utf-8")
