@@ -1,0 +1,102 @@
+"""Coins tossed by MuJoCo, with the settings of its documentation and with settings found by measurement."""
+
+from dataclasses import dataclass
+from math import hypot, log, pi
+from operator import attrgetter
+from typing import Any
+
+import mujoco
+import numpy as np
+
+MODEL = """<mujoco>
+  <option timestep="{dt}" gravity="0 0 -{gravity}" {option}><flag {flag}/></option>
+  <worldbody>
+    <geom name="floor" type="plane" size="0 0 1"/>
+    <body><freejoint/><inertial pos="{C}" mass="{coin.mass}" fullinertia="{J}"/>
+      <geom name="coin" type="cylinder" size="{coin.radius} {half}"/></body>
+  </worldbody>
+  <contact><pair geom1="floor" geom2="coin" condim="{condim}" friction="{friction}" {contact}/></contact>
+</mujoco>"""
+SPRING = "spring of time constant 2 dt, damped as the textbook says"
+ONE_STEP = "damper -(1 + restitution)/dt, which reverses the velocity in one step"
+
+
+def contact_of(settings: dict[str, str | float], e: float, dt: float) -> str:
+    """Return the attributes of a contact of restitution e: a textbook spring, or a damper of one step."""
+    if settings["bounce"] == SPRING:
+        return f'solref="{-1 / (2 * dt) ** 2} {log(e) / hypot(pi, log(e)) / dt if e else -1 / dt}"'
+    return (
+        f'solref="{-1e-3 / dt**2} {-(1 + e) / dt}" solreffriction="0 {-1 / dt}" solimp="{settings["solimp"]}"'
+    )
+
+
+def model_of(scenario: Any, settings: dict[str, str | float], dt: float) -> mujoco.MjModel:
+    """Return the model of a coin over a floor; raise NotImplementedError for what MuJoCo has not."""
+    coin, floor = scenario.coin, scenario.floor
+    laws = {"smooth": 0.0, "coulomb": floor.friction, "perfectly_rough": 1e3}
+    for name in ("air.exponent", "floor.restitution_threshold"):
+        if value := attrgetter(name)(scenario):
+            raise NotImplementedError(f"{name}: {value}, accepted: 0")
+    if floor.contact not in laws:
+        raise NotImplementedError(f"floor.contact: {floor.contact}, accepted: {', '.join(laws)}")
+    friction = [*[laws[floor.contact]] * 2, floor.pivoting_friction, *[floor.rolling_friction] * 2]
+    J = np.asarray(coin.moments)[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    rows = {"C": coin.center_of_mass, "J": J, "friction": friction}
+    words = settings | {name: " ".join(map(str, values)) for name, values in rows.items()}
+    words |= {
+        "coin": coin,
+        "half": max(coin.thickness, settings["thinnest shape"]) / 2,
+        "gravity": scenario.gravity,
+        "dt": dt,
+    }
+    words["condim"] = 6 if any(friction[2:]) else 3 if any(friction) else 1
+    words["contact"] = contact_of(settings, floor.restitution, dt)
+    return mujoco.MjModel.from_xml_string(MODEL.format(**words))
+
+
+def drag_of(scenario: Any) -> np.ndarray:
+    """Return the linear drag's coefficients, of force and moment along a cylinder's axes, (6,)."""
+    r, h, ln, lt = scenario.coin.radius, scenario.coin.thickness, scenario.air.normal, scenario.air.tangential
+    disc, wall = pi * r**2, pi * r * h
+    ct, cn = 2 * disc * lt + wall * (lt + ln / 2), disc * ln + 2 * wall * lt
+    d = disc * (r**2 * ln / 4 + h**2 * lt / 2) + wall * (h**2 * (ln + 2 * lt) / 24 + r**2 * lt)
+    return np.array([ct, ct, cn, d, d, (disc + 2 * wall) * r**2 * lt])
+
+
+@dataclass
+class Mujoco:
+    """MuJoCo with a contact and options; what `settings` does not name stays at its default."""
+
+    name: str
+    settings: dict[str, str | float]
+    dt: float = 0.002
+
+    def simulate(self, scenario: Any, times: np.ndarray) -> dict[str, np.ndarray]:
+        """Return the states at the steps next to the times, (n, 3) and (n, 4); spin in the body frame."""
+        model, drag, release = model_of(scenario, self.settings, self.dt), drag_of(scenario), scenario.release
+        data, C, rows = mujoco.MjData(model), np.asarray(scenario.coin.center_of_mass), []
+        R, q, v = data.xmat[1].reshape(3, 3), data.qpos, data.qvel
+        q[3:], v[3:] = release.attitude, release.angular_velocity
+        mujoco.mj_kinematics(model, data)
+        q[:3], v[:3] = release.position - R @ C, release.velocity - R @ np.cross(v[3:], C)
+
+        def air(_: mujoco.MjModel, data: mujoco.MjData) -> None:
+            data.qfrc_passive -= np.concatenate([R @ (drag[:3] * (R.T @ v[:3])), drag[3:] * v[3:]])
+
+        mujoco.set_mjcb_passive(air if drag.any() else None)
+        for n in np.diff(np.rint(np.asarray(times) / self.dt).astype(int), prepend=0):
+            mujoco.mj_step(model, data, int(n)) if n else None
+            mujoco.mj_kinematics(model, data)
+            rows.append(np.concatenate([q[:3] + R @ C, v[:3] + R @ np.cross(v[3:], C), q[3:], v[3:]]))
+        mujoco.set_mjcb_passive(None)
+        names = ("position", "velocity", "quaternion", "angular_velocity")
+        return dict(zip(names, np.split(np.array(rows), [3, 6, 10], axis=1), strict=True))
+
+
+RIGID = "0.9999 0.9999 0.001 0.5 2"
+VERSION = f"MuJoCo {mujoco.__version__}"
+DEFAULT: dict[str, str | float] = {"bounce": SPRING, "option": "", "flag": "", "thinnest shape": 1e-5}
+BEST = {"option": 'integrator="implicitfast" cone="elliptic"', "flag": 'diagexact="enable"', "solimp": RIGID}
+as_documented = Mujoco(f"{VERSION}, as documented", DEFAULT)
+as_documented_rk4 = Mujoco(f"{VERSION}, as documented, RK4", DEFAULT | {"option": 'integrator="RK4"'})
+tuned = Mujoco(f"{VERSION}, tuned", DEFAULT | BEST | {"bounce": ONE_STEP})
