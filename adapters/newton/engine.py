@@ -13,7 +13,7 @@ import warp
 from newton import solvers
 
 SPRING = "spring ke = m/(2 dt)^2 with the textbook's damping kd"
-ACCELERATION = "spring ke = 1/(2 dt)^2 with the textbook's damping kd, friction at least 2e-5"
+ACCELERATION = "spring ke = 1/(2 dt)^2 with the textbook's damping kd, friction at least 0.01"
 
 
 def rotations(q: np.ndarray) -> np.ndarray:
@@ -34,7 +34,7 @@ def model_of(scenario: Any, settings: dict[str, str | float], dt: float) -> newt
     builder = newton.ModelBuilder(gravity=(0, 0, -scenario.gravity))
     shape, e = builder.default_shape_cfg, floor.restitution
     shape.density, shape.restitution = 0.0, e
-    shape.mu = max(laws[floor.contact], 2e-5 if settings["bounce"] == ACCELERATION else 0.0)
+    shape.mu = max(laws[floor.contact], 0.01 if settings["bounce"] == ACCELERATION else 0.0)
     shape.mu_torsional, shape.mu_rolling = floor.pivoting_friction, floor.rolling_friction
     if settings["bounce"] in (SPRING, ACCELERATION):
         mass = coin.mass if settings["bounce"] == SPRING else 1.0
