@@ -39,7 +39,7 @@ def model_of(scenario: Any, settings: dict[str, str | float], dt: float) -> newt
     if settings["bounce"] in (SPRING, ACCELERATION):
         mass = coin.mass if settings["bounce"] == SPRING else 1.0
         shape.ke = mass / (2 * dt) ** 2
-        shape.kd = mass * (-log(e) / hypot(pi, log(e)) if e else 1.0) / dt
+        shape.kd = mass * max(-log(e) / hypot(pi, log(e)) if e else 1.0, 1e-6) / dt
     builder.add_ground_plane()
     own = {name: value for name, value in settings.items() if name.startswith("steel:")}
     if own:
