@@ -127,4 +127,4 @@ RIGID = {
 }
 as_documented = Mjx(f"{VERSION}, as documented", DEFAULT)
 as_documented_rk4 = Mjx(f"{VERSION}, as documented, RK4", DEFAULT | {"option": 'integrator="RK4"'})
-tuned = Mjx(f"{VERSION}, tuned", DEFAULT | RIGID)
+tuned = Mjx(f"{VERSION}, tuned", DEFAULT | RIGID, 0.001)

@@ -99,4 +99,4 @@ DEFAULT: dict[str, str | float] = {"bounce": SPRING, "option": "", "flag": "", "
 BEST = {"option": 'integrator="implicitfast" cone="elliptic"', "flag": 'diagexact="enable"', "solimp": RIGID}
 as_documented = Mujoco(f"{VERSION}, as documented", DEFAULT)
 as_documented_rk4 = Mujoco(f"{VERSION}, as documented, RK4", DEFAULT | {"option": 'integrator="RK4"'})
-tuned = Mujoco(f"{VERSION}, tuned", DEFAULT | BEST | {"bounce": ONE_STEP})
+tuned = Mujoco(f"{VERSION}, tuned", DEFAULT | BEST | {"bounce": ONE_STEP}, 0.001)

@@ -103,4 +103,5 @@ DEFAULT: dict[str, str | float] = {
 RIGID = {"bounce": ONE_STEP, "solimp": "0.9999 0.9999 0.001 0.5 2"}
 as_documented = MujocoWarp(f"{VERSION}, as documented", DEFAULT)
 as_documented_rk4 = MujocoWarp(f"{VERSION}, as documented, RK4", DEFAULT | {"option": 'integrator="RK4"'})
-tuned = MujocoWarp(f"{VERSION}, tuned", DEFAULT | RIGID | {"option": 'integrator="implicitfast"'})
+IMPLICIT = {"option": 'integrator="implicitfast"'}
+tuned = MujocoWarp(f"{VERSION}, tuned", DEFAULT | RIGID | IMPLICIT, 0.001)

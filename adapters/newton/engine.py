@@ -114,4 +114,4 @@ steel_tuned.settings["steel:rigid_body_angular_damping"] = 0.0
 semi_implicit = named("semi-implicit, as documented", solvers.SolverSemiImplicit, SPRING)
 featherstone = named("Featherstone, as documented", solvers.SolverFeatherstone, SPRING)
 mujoco = named("MuJoCo, as documented", solvers.SolverMuJoCo, ACCELERATION)
-kamino = named("Kamino, as documented", solvers.SolverKamino)
+tuned.dt = steel_tuned.dt = 0.001
