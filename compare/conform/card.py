@@ -112,12 +112,15 @@ def _lines(result: Result) -> list[str]:
 
 def value(numbers: Sequence[float]) -> str:
     """Return a value as text, its first numbers where there are many."""
-    told = [f"{number + 0:.5g}" for number in numbers[:MOST_SHOWN]]
+    least = 1e-9 * max(map(abs, numbers), default=0.0)
+    told = [f"{number if abs(number) > least else 0:.5g}" for number in numbers[:MOST_SHOWN]]
     return ", ".join([*told, *(["..."] if len(numbers) > MOST_SHOWN else [])]) or "nothing"
 
 
 def error_told(run: Run) -> str:
     """Return the error of a run as text."""
+    if not run.error:
+        return "0"
     return f"{run.error:.1e}" if np.isfinite(run.error) else "-"
 
 

@@ -1,8 +1,17 @@
 """How far two heads-and-tails sequences agree, and how far they must."""
 
-from cointoss import analytic
-from cointoss.models.records import Array, Toss
+import math
 
+import numpy as np
+
+from cointoss import analytic
+from cointoss.models.attitude import quaternion_product, rotation_matrix
+from cointoss.models.geometry import gap
+from cointoss.models.records import Array, Toss
+from cointoss.models.scenario import Scenario, euler_parameters
+
+TOUCHING = 1e-9
+"""A coin that is to touch at once is so much above the floor, over r."""
 SAFETY = 2.0
 """The horizon supposes errors so many times larger than those measured."""
 
@@ -13,7 +22,7 @@ def common_prefix(a: str, b: str) -> int:
     return next((i for i in range(n) if a[i] != b[i]), n)
 
 
-def agreement_horizon(toss: Toss, errors: Array) -> int:
+def agreement_horizon(toss: Toss, errors: Array, late: Array | None = None) -> int:
     """Count the leading impacts whose faces must be shared by an engine that makes `errors` in its impulses.
 
     The toss is repeated from each of its impacts in turn, with that impulse too large, and too small, by
@@ -23,6 +32,8 @@ def agreement_horizon(toss: Toss, errors: Array) -> int:
     Args:
         toss: by the analytic engine.
         errors: relative errors of the other engine's leading impulses, (n,).
+        late: how early or late the other engine's touches may be, (n,) [s]; the toss is repeated from each
+            touch in an attitude that much earlier, and later, too.
     """
     impacts, scenario = toss.impacts, toss.scenario
     shared = min(len(impacts), len(errors))
@@ -43,7 +54,29 @@ def agreement_horizon(toss: Toss, errors: Array) -> int:
             most = max(shared - i - 1, 1)
             again = analytic.toss(scenario.replace("release", release, "ending.max_impacts", most))
             shared = min(shared, i + 1 + common_prefix(toss.sequence[i + 1 :], again.sequence))
+        for span in () if late is None else (late[: i + 1].max(), -late[: i + 1].max()):
+            again = analytic.toss(
+                _touching_at(toss, i, span).replace("ending.max_impacts", max(shared - i, 1))
+            )
+            shared = min(shared, i + common_prefix(toss.sequence[i:], again.sequence))
     return shared
+
+
+def _touching_at(toss: Toss, i: int, late: float) -> Scenario:
+    """Return a scenario that begins at an impact of a toss, in the attitude so much later [s]."""
+    impacts, body = toss.impacts, toss.scenario.body
+    w = impacts.angular_velocity_before[i]
+    half = np.linalg.norm(w) * late / 2
+    turn = (math.cos(half), *(math.sin(half) * w / (np.linalg.norm(w) or 1.0)).tolist())
+    attitude = quaternion_product(euler_parameters(impacts.quaternion[i]), turn)
+    x, y, z = impacts.position[i].tolist()
+    release = {
+        "position": (x, y, z - gap(body, z, rotation_matrix(attitude)[2]) + TOUCHING * body.radius),
+        "velocity": impacts.velocity_before[i],
+        "quaternion": attitude,
+        "angular_velocity": w,
+    }
+    return toss.scenario.replace("release", release)
 
 
 def _beyond(before: Array, after: Array, part: float) -> Array:

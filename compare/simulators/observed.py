@@ -122,18 +122,13 @@ class ObservedToss:
         row["time"] = states.time[a] + late
 
     @cached_property
-    def spacing_errors(self) -> Array:
-        """The relative error of each impulse that the spacing of the times allows, (n,).
-
-        A touch may be so much early or late that the coin turns, and falls, between two times.
-        """
-        found, w = self.stretches[0], self.states.angular_velocity
+    def spans(self) -> Array:
+        """How early or late each touch may be, for the spacing of the times, (n,) [s]."""
+        found = self.stretches[0]
         if self.told is not None or not found:
             return np.zeros(len(found))
         a, b = np.array(found).T
-        spins = np.maximum(np.linalg.norm(w[a], axis=1), np.linalg.norm(w[b], axis=1))
-        gained = np.linalg.norm(self.impacts.impulse, axis=1) / self.scenario.coin.mass
-        return (self.states.time[b] - self.states.time[a]) * (spins + self.scenario.gravity / gained)
+        return self.states.time[b] - self.states.time[a]
 
     @cached_property
     def ended(self) -> tuple[int, Outcome, Ending]:
@@ -165,8 +160,8 @@ class ObservedToss:
     def toss(self, engine: str, settings: dict[str, str | float]) -> Toss:
         """Return the record of the toss, up to its ending.
 
-        Its impacts are trusted as far as errors of its impulses, and those that the spacing allows, change no
-        face of the analytic toss.
+        Its impacts are trusted as far as neither errors such as those of its impulses, nor a touch that comes
+        early or late by the spacing of the times, change a face of the analytic toss.
 
         Args:
             engine: its name.
@@ -180,7 +175,7 @@ class ObservedToss:
             kept[np.flatnonzero(kept)[most:]] = False
             end, outcome, ending = float(impacts.time[kept][-1]), Outcome.UNDECIDED, Ending.MAX_IMPACTS
         contacts = np.array([(time[a], min(time[b], end)) for a, b in self.stretches[1] if time[a] < end])
-        allowed = float(np.max(self.spacing_errors, initial=0.0))
+        late = float(np.max(self.spans, initial=0.0))
         toss = Toss(
             engine=engine,
             scenario=self.scenario,
@@ -196,12 +191,16 @@ class ObservedToss:
             certificate=(
                 *(Setting(name=name, value=value) for name, value in settings.items()),
                 Setting(name="spacing of the times", value=float(np.diff(time).max(initial=0.0)), unit="s"),
-                Setting(name="error of an impulse that this spacing allows, relative", value=allowed),
+                Setting(
+                    name="time from the state before an impact to that after it, at most",
+                    value=late,
+                    unit="s",
+                ),
             ),
             path=Samples(self.states, self.scenario.coin.mass * self.gains / np.diff(time)[:, None]),
         )
-        errors = errors_of_impacts(toss) + self.spacing_errors[kept]
-        trusted, count = agreement_horizon(analytic.toss(self.scenario), errors), len(toss.impacts)
+        errors, measure = errors_of_impacts(toss), analytic.toss(self.scenario)
+        trusted, count = agreement_horizon(measure, errors, self.spans[kept]), len(toss.impacts)
         return replace(
             toss,
             trusted_impacts=trusted,
