@@ -11,6 +11,8 @@ import numpy as np
 from cointoss.compare.conform.running import Result, Run, Status
 from cointoss.compare.simulators.simulator import Simulator
 
+ROUNDING = 1e-12
+"""An error below it is shown as 0."""
 MOST_SHOWN = 6
 """Numbers of a value that are shown."""
 
@@ -101,7 +103,7 @@ def _run_as_json(run: Run) -> dict[str, Any]:
 def _lines(result: Result) -> list[str]:
     own, case = result.own, result.case
     order = order_told(result)
-    lines = [f"{case.name:18} {error_told(own):>8} {result.tolerance:>8.0e} {order:>5}  {own.status}"]
+    lines = [f"{case.name:18} {error_told(own):>8} {result.tolerance:>8g} {order:>5}  {own.status}"]
     if own.status == Status.MISSED:
         lines += [f"  {case.title}", f"  found {value(own.found)}, right {value(case.right)}"]
         lines += [f"  often: {case.points_to}"]
@@ -119,7 +121,7 @@ def value(numbers: Sequence[float]) -> str:
 
 def error_told(run: Run) -> str:
     """Return the error of a run as text."""
-    if not run.error:
+    if run.error < ROUNDING:
         return "0"
     return f"{run.error:.1e}" if np.isfinite(run.error) else "-"
 
