@@ -1,0 +1,100 @@
+"""A coin tossed by Rapier: its cylinder on a half space, in single precision."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from operator import attrgetter
+from typing import Any
+
+import numpy as np
+import rapier3d as rapier
+
+ROWS = ("position", "velocity", "quaternion", "angular_velocity")
+THINNEST, ROUGH = 1e-5, 1e3
+FLOOR = ("floor.rolling_friction", "floor.pivoting_friction", "floor.restitution_threshold")
+
+
+def _friction(scenario: Any) -> float:
+    """Return the friction of the floor's law; raises NotImplementedError for what is not done here."""
+    for what in (*FLOOR, "air.normal", "air.tangential"):
+        if value := attrgetter(what)(scenario):
+            raise NotImplementedError(f"{what}: {value}, accepted: 0")
+    floor = scenario.floor
+    laws = {"smooth": 0.0, "coulomb": floor.friction, "perfectly_rough": ROUGH}
+    if floor.contact not in laws:
+        raise NotImplementedError(f"floor.contact: {floor.contact}, accepted: {', '.join(laws)}")
+    return laws[floor.contact]
+
+
+def _xyz(vector: Any) -> np.ndarray:
+    """Return Rapier's vector as an array."""
+    return np.array([vector.x, vector.y, vector.z])
+
+
+def _matrix(turn: Any) -> np.ndarray:
+    """Return Rapier's rotation as a matrix."""
+    return np.array(turn.to_matrix(), float).reshape(3, 3)
+
+
+@dataclass
+class Rapier:
+    """Rapier with the settings that differ from the defaults, of its world and the coin.
+
+    Rapier averages the restitutions (and frictions) of two colliders, so floor and coin have the same.
+    """
+
+    name: str
+    world: dict[str, float]
+    body: dict[str, float]
+    dt: float = 1 / 60
+
+    @property
+    def settings(self) -> dict[str, str | float]:
+        """Return what is set, and the least thickness [m]."""
+        return {"thinnest": THINNEST} | self.world | self.body
+
+    def simulate(self, scenario: Any, times: Iterable[float]) -> dict[str, np.ndarray]:
+        """Return the coin's states, rows at times: those of the steps nearest to them."""
+        world, handle = self._world(scenario, _friction(scenario))
+        rows, taken, body = [], 0, world.rigid_bodies[handle]
+        for step in np.rint(np.asarray(list(times)) / self.dt).astype(int):
+            for _ in range(step - taken):
+                world.step()
+            taken = step
+            q, spin = body.rotation, _matrix(body.rotation).T @ _xyz(body.angvel)
+            rows.append((_xyz(body.center_of_mass), _xyz(body.linvel), np.array([q.w, q.i, q.j, q.k]), spin))
+        return dict(zip(ROWS, map(np.array, zip(*rows, strict=True)), strict=True))
+
+    def _world(self, scenario: Any, friction: float) -> tuple[Any, Any]:
+        """Return a new world and the coin's handle; the origin of its frame is the geometric centre."""
+        coin, release = scenario.coin, scenario.release
+        world = rapier.PhysicsWorld((0.0, 0.0, -scenario.gravity))
+        for name, value in ({"dt": self.dt} | self.world).items():
+            setattr(world.integration_parameters, name, value)
+        moments = np.diag(coin.moments)
+        if np.any(coin.moments != np.diag(moments)):
+            raise NotImplementedError(f"coin.moments: {coin.moments}, accepted: a diagonal matrix")
+        turn = rapier.Rotation3(*map(float, release.attitude))
+        matrix, centre = _matrix(turn), np.asarray(coin.center_of_mass, float)
+        mass = rapier.MassProperties(tuple(centre), coin.mass, tuple(moments))
+        origin = np.asarray(release.position) - matrix @ centre
+        builder = rapier.RigidBody.dynamic().additional_mass_properties(mass)
+        builder = builder.position(rapier.Isometry3(tuple(origin), turn))
+        builder = builder.linvel(tuple(map(float, release.velocity)))
+        builder = builder.angvel(tuple(matrix @ np.asarray(release.angular_velocity)))
+        for name, value in self.body.items():
+            builder = getattr(builder, name)(value)
+        cylinder = rapier.Collider.cylinder(max(coin.thickness, THINNEST) / 2, coin.radius).density(0.0)
+        floor, cylinder = (
+            shape.restitution(scenario.floor.restitution).friction(friction)
+            for shape in (
+                rapier.Collider.halfspace((0.0, 0.0, 1.0)),
+                cylinder.rotation((np.pi / 2, 0.0, 0.0)),
+            )
+        )
+        world.add_collider(floor)
+        return world, world.add_body(builder, [cylinder])
+
+
+SIZE = {"length_unit": 0.01, "normalized_max_linear_velocity": 1e5}
+as_documented = Rapier("Rapier 0.36.1, as documented", {}, {})
+tuned = Rapier("Rapier 0.36.1, tuned", SIZE, {"can_sleep": False, "allow_fast_rotation": True})
