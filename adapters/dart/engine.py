@@ -84,7 +84,8 @@ class Dart:
         turn = pose.rotation()
         pose.set_translation(np.asarray(release.position) - turn @ centre)
         joint.setTransform(pose)
-        made.setVelocities([*spin, *(turn.T @ np.asarray(release.velocity) - np.cross(spin, centre))])
+        joint.setAngularVelocity(turn @ spin)
+        joint.setLinearVelocity(np.asarray(release.velocity) - turn @ np.cross(spin, centre))
         return world, body
 
 
