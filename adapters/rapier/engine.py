@@ -60,8 +60,9 @@ class Rapier:
             for _ in range(step - taken):
                 world.step()
             taken = step
-            q, spin = body.rotation, _matrix(body.rotation).T @ _xyz(body.angvel)
-            rows.append((_xyz(body.center_of_mass), _xyz(body.linvel), np.array([q.w, q.i, q.j, q.k]), spin))
+            q, turn = body.rotation, _matrix(body.rotation)
+            x, spin = _xyz(body.translation) + turn @ scenario.coin.center_of_mass, turn.T @ _xyz(body.angvel)
+            rows.append((x, _xyz(body.linvel), np.array([q.w, q.i, q.j, q.k]), spin))
         return dict(zip(ROWS, map(np.array, zip(*rows, strict=True)), strict=True))
 
     def _world(self, scenario: Any, friction: float) -> tuple[Any, Any]:
