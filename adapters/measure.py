@@ -1,6 +1,6 @@
 """Hold the engines of this folder against the suite: each in an environment of its own, its cards beside it.
 
-    python adapters/measure.py [--environments DIR] [NAME ...]
+    python adapters/measure.py [--environments DIR] [NAME[:SETTINGS] ...]
 
 An environment is made where it is missing. A card is what `cointoss conform --json` prints, without what
 cases.toml has too.
@@ -62,12 +62,18 @@ def card_of(name: str, settings: str, python: Path) -> dict[str, Any]:
 def main() -> None:
     """Measure the engines that are named, or all."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("names", nargs="*", metavar="NAME", help="folders here; by default all")
+    parser.add_argument(
+        "names",
+        nargs="*",
+        metavar="NAME",
+        help="folders here, by default all; NAME:SETTINGS is one of its engines",
+    )
     parser.add_argument("--environments", type=Path, default=HERE.parent / "out" / "engines", metavar="DIR")
     asked = parser.parse_args()
-    for name in asked.names or sorted(path.parent.name for path in HERE.glob("*/engine.py")):
+    for wanted in asked.names or sorted(path.parent.name for path in HERE.glob("*/engine.py")):
+        name, _, only = wanted.partition(":")
         python = python_of(name, asked.environments)
-        for settings in settings_of(name, python):
+        for settings in [only] if only else settings_of(name, python):
             card = card_of(name, settings, python)
             text = json.dumps(card, separators=(",", ":")).replace('{"name"', '\n{"name"')
             (HERE / name / f"{settings}.json").write_text(text + "\n", encoding="utf-8")

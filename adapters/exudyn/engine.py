@@ -110,4 +110,4 @@ class Exudyn:
 
 CONTACT = {"contactStiffness": 1e5, "impactModel": 2}
 as_documented = Exudyn("Exudyn 1.13.6, as documented", 16, CONTACT)
-tuned = Exudyn("Exudyn 1.13.6, tuned", 32, CONTACT | {"contactStiffness": 1e6}, step=1e-5)
+tuned = Exudyn("Exudyn 1.13.6, tuned", 32, CONTACT | {"contactStiffness": 1e6}, 1e-5, 0.001)

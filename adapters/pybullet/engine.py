@@ -87,5 +87,5 @@ class PyBullet:
 WORLD = {"restitutionVelocityThreshold": 0, "erp": 0, "contactERP": 0}
 BODY = {"linearDamping": 0, "angularDamping": 0, "contactProcessingThreshold": 0, "collisionMargin": 1e-6}
 as_documented = PyBullet("PyBullet 3.2.7, as documented", {}, {})
-tuned = PyBullet("PyBullet 3.2.7, tuned", WORLD, BODY | {"maxJointVelocity": 1e9})
-maximal = PyBullet("PyBullet 3.2.7, tuned, maximal coordinates", WORLD, BODY, maximal=True)
+tuned = PyBullet("PyBullet 3.2.7, tuned", WORLD, BODY | {"maxJointVelocity": 1e9}, dt=0.001)
+maximal = PyBullet("PyBullet 3.2.7, tuned, maximal coordinates", WORLD, BODY, True, 0.001)

@@ -98,4 +98,5 @@ class Rapier:
 
 SIZE = {"length_unit": 0.01, "normalized_max_linear_velocity": 1e5}
 as_documented = Rapier("Rapier 0.36.1, as documented", {}, {})
-tuned = Rapier("Rapier 0.36.1, tuned", SIZE, {"can_sleep": False, "allow_fast_rotation": True})
+AWAKE = {"can_sleep": False, "allow_fast_rotation": True}
+tuned = Rapier("Rapier 0.36.1, tuned", SIZE, AWAKE, 0.001)
