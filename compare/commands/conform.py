@@ -39,13 +39,15 @@ def conform(engine: str, asked: Suite) -> None:
     """
     with plain_errors(engine):
         from cointoss.compare.conform import suite
+        from cointoss.compare.conform.case import cases
         from cointoss.compare.output.files import require_file, write_text
 
         require_file(asked.out, ".html", engine)
-        try:
-            card = suite.conform(engine, cases=asked.case, full=asked.full, time_limit=asked.time_limit)
-        except ValueError as error:
-            refuse(f"--case {error}")
+        known = [case.name for case in cases()]
+        for name in asked.case:
+            if name not in known:
+                refuse(f"--case {name}: accepted: {', '.join(known)}")
+        card = suite.conform(engine, cases=asked.case, full=asked.full, time_limit=asked.time_limit)
         if asked.out is not None:
             write_text(asked.out, card.page())
         if asked.json:

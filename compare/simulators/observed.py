@@ -75,16 +75,21 @@ class ObservedToss:
         acts = near & (up > HELD * weight)
         strikes = acts & (up > np.maximum(STRUCK * weight, SLOWEST * (body.gravity * body.radius) ** 0.5))
         if self.told is not None:
-            strikes = np.zeros(len(dt), dtype=bool)
-            strikes[np.clip(np.searchsorted(time, self.told[0], side="right") - 1, 0, len(dt) - 1)] = True
+            at = np.clip(np.searchsorted(time, self.told[0], side="right") - 1, 0, len(dt) - 1)
+            acts[at] = False
+            return [(i, i + 1) for i in at.tolist()], [run for run in _runs(acts) if run[1] - run[0] > RAMP]
         impacts, contacts = [], []
-        for first, last in _runs(acts | strikes):
+        for first, last in _runs(acts):
             done = first
             for start, end in _runs(strikes[first:last]):
                 a, b = first + start, first + end
-                a = done if a - done <= RAMP else a
                 b = last if last - b <= RAMP else b
-                contacts += [(done, a)] if a - done > RAMP else []
+                if a - done > RAMP:
+                    contacts.append((done, a))
+                elif done > first:  # it goes on
+                    a, _ = impacts.pop()
+                else:
+                    a = first
                 impacts.append((a, b))
                 done = b
             contacts += [(done, last)] if last - done > RAMP else []
@@ -98,19 +103,16 @@ class ObservedToss:
         """
         found = self.stretches[0]
         rows = np.recarray(len(found), IMPACT_ROW)
-        for row, (a, b) in zip(rows, found, strict=True):
-            self._write(row, a, b)
+        for number, (row, (a, b)) in enumerate(zip(rows, found, strict=True)):
+            self._write(row, number, a, b)
         rows.sort(order="time")
         return Impacts.from_rows(rows)
 
-    def _write(self, row: "np.record", a: int, b: int) -> None:
+    def _write(self, row: "np.record", number: int, a: int, b: int) -> None:
         scenario, states = self.scenario, self.states
         body, span = scenario.body, float(states.time[b] - states.time[a])
         late, before = _touch(scenario, _state(states, a), span)
-        gain = self.gains[a:b].sum(axis=0)
-        if self.told is not None:
-            k = int(np.argmin(np.abs(self.told[0] - states.time[a] - late)))
-            gain = self.told[1][k] / body.mass
+        gain = self.gains[a:b].sum(axis=0) if self.told is None else self.told[1][number] / body.mass
         after = state(
             before.position,
             vector(np.array(before.velocity) + gain),
@@ -119,7 +121,7 @@ class ObservedToss:
         )
         point, _ = lowest_point(body, before.R[2], before.spin)
         write_impact(body, vector(body.mass * gain), point, before, after, row)  # pyright: ignore[reportArgumentType]
-        row["time"] = states.time[a] + late
+        row["time"] = states.time[a] + late if self.told is None else self.told[0][number]
 
     @cached_property
     def spans(self) -> Array:
