@@ -134,12 +134,15 @@ def run_case(engine: Simulator, case: Case, dt: float | None) -> Run:
         case: of the suite.
         dt: the step, None for an engine without one [s].
     """
+    step = dt
+    if dt is not None and case.quantity.endswith("_at_the_end"):  # at that very time
+        step = case.until / max(round(case.until / dt), 1)
     try:
         if case.quantity == "share_of_heads":
-            seen = [engine.observe(each, case.until, dt=dt) for each in _by_hand(case)]
+            seen = [engine.observe(each, case.until, dt=step) for each in _by_hand(case)]
             found = np.array([sum(each.ended[1] == Outcome.HEADS for each in seen) / len(seen)])
         else:
-            seen = [engine.observe(case.scenario, case.until, dt=dt, every=case.every)]
+            seen = [engine.observe(case.scenario, case.until, dt=step, every=case.every)]
             found = QUANTITIES[case.quantity](seen[0])
     except UnsupportedError as error:
         return Run(dt=dt, why=str(error), status=Status.NOT_REALISABLE)

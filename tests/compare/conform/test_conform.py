@@ -97,6 +97,8 @@ def test_a_card_has_errors_by_step_and_their_order():
         [(run.dt or 0) / 0.4 for run in parabola.runs], rel=1e-6
     )
     assert parabola.order == pytest.approx(1.0, abs=1e-6)
+    uneven = run_case(engine, CASES["parabola"], 7e-3)
+    assert uneven.error == pytest.approx(0.4 / 57 / 0.4, rel=1e-6), "a step ends with the case"
     assert terminal.own.status == Status.NOT_REALISABLE
     assert flat.own.status == Status.MET
     card = Card.of(engine, [parabola, terminal, flat])
