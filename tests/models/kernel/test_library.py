@@ -163,14 +163,22 @@ def test_processes_that_start_at_once_build_it_once(tmp_path):
     assert len([*(tmp_path / "engines").glob(f"*{MANIFEST}")]) == 1
 
 
-def test_ctrl_c_while_building_leaves_nothing(tmp_path):
-    engines, program = tmp_path / "engines", f"from {MODULE} import engine; engine.loaded"
-    with started("-c", program, env={**HERE, "COINTOSS_CACHE": str(tmp_path)}) as process:
+def left_by_an_interrupted_build(cache):
+    """Return the suffixes of what a process leaves that Ctrl-C ends while it builds, beside its lock."""
+    engines, program = cache / "engines", f"from {MODULE} import engine; engine.loaded"
+    with started("-c", program, env={**HERE, "COINTOSS_CACHE": str(cache)}) as process:
         wait_until(process, lambda: engines.is_dir() and any(engines.iterdir()))
         process.send_signal(signal.SIGINT)
         _, error = process.communicate()
     assert "KeyboardInterrupt" in error
-    assert {file.suffix for file in engines.iterdir()} <= {".lock"}
+    return {file.suffix for file in engines.iterdir()} - {".lock"}
+
+
+def test_ctrl_c_while_building_leaves_nothing(tmp_path):
+    """On a busy machine the signal may come when the small engine is built: then it is there as a whole."""
+    left = [left_by_an_interrupted_build(tmp_path / str(number)) for number in range(3)]
+    assert all(each in (set(), {".so", ".json"}) for each in left)
+    assert set() in left
 
 
 @pytest.mark.parametrize(
