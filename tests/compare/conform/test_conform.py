@@ -42,7 +42,6 @@ def test_each_case_has_a_quantity_a_source_and_a_reason():
         assert case.quantity in QUANTITIES or case.quantity == "share_of_heads"
         assert set(case.tolerance) == {"event_driven", "stepping"}
         assert all((case.source, case.reason, case.points_to))
-        assert len(case.right) > 0
 
 
 @pytest.mark.parametrize(("engine", "name"), EACH)
@@ -99,11 +98,8 @@ def test_a_card_has_errors_by_step_and_their_order():
     assert parabola.order == pytest.approx(1.0, abs=1e-6)
     uneven = run_case(engine, CASES["parabola"], 7e-3)
     assert uneven.error == pytest.approx(0.4 / 57 / 0.4, rel=1e-6), "a step ends with the case"
-    assert terminal.own.status == Status.NOT_REALISABLE
-    assert flat.own.status == Status.MET
     card = Card.of(engine, [parabola, terminal, flat])
     assert card.told == "2 of 3 cases met, 1 not realisable"
-    assert not card.missed
     told = json.loads(json.dumps(card.as_json()))
     assert [each["status"] for each in told["cases"]] == ["met", "not realisable", "met"]
     assert told["cases"][1]["why"] == "air.normal = 20.0: accepted: 0"
