@@ -6,9 +6,6 @@ from functools import cache
 from importlib import resources
 from typing import Any
 
-import numpy as np
-
-from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
 
 
@@ -41,17 +38,13 @@ class Case:
     """What a miss often means."""
     full_until: float | None = None
     full_tosses: int | None = None
-    """The same for `--full`."""
+    full_right: tuple[float, ...] | None = None
+    """The same for `--full`, where they are other."""
 
     @property
     def is_short(self) -> bool:
         """Whether it is run with several steps."""
         return self.full_until is None and self.full_tosses is None
-
-    @property
-    def value(self) -> Array:
-        """The right value, (n,)."""
-        return np.array(self.right, dtype=float)
 
 
 @cache
@@ -64,5 +57,5 @@ def cases() -> tuple[Case, ...]:
 
 def _case(base: dict[str, Any], table: dict[str, Any]) -> Case:
     changed = [part for pair in table.pop("change").items() for part in pair]
-    right = tuple(table.pop("right"))
-    return Case(**table, right=right, scenario=Scenario.checked(base).replace(*changed))
+    table |= {name: tuple(table[name]) for name in ("right", "full_right") if name in table}
+    return Case(**table, scenario=Scenario.checked(base).replace(*changed))

@@ -148,7 +148,7 @@ def run_case(engine: Simulator, case: Case, dt: float | None) -> Run:
         return Run(dt=dt, why=str(error), status=Status.NOT_REALISABLE)
     except (EngineError, NothingSeenError) as error:
         return Run(dt=dt, why=str(error), status=Status.FAILED)
-    error = error_of(found, case.value, case.scale)
+    error = error_of(found, np.array(case.right), case.scale)
     return Run(
         dt=dt,
         found=tuple(found.tolist()),
@@ -172,5 +172,6 @@ def full(case: Case) -> Case:
         case,
         until=case.full_until or case.until,
         tosses=tosses,
+        right=case.full_right or case.right,
         tolerance={kind: narrower * size for kind, size in case.tolerance.items()},
     )

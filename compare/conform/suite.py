@@ -35,8 +35,9 @@ def conform(engine: Any, *, cases: Iterable[str] = (), full: bool = False, time_
     for name in (asked := tuple(cases)):
         if name not in known:
             raise ValueError(f"{name}: accepted: {', '.join(known)}")
-    chosen = [known[name] for name in asked] or list(known.values())
-    chosen = [at_full_length(case) for case in chosen] if full else chosen
+    chosen = [
+        at_full_length(case) if full else case for name, case in known.items() if name in (asked or known)
+    ]
     with (
         simulators_of(engine, time_limit) as engines,
         stage(f"holding {engines[0].name} against {len(chosen)} cases", "runs") as progress,

@@ -40,6 +40,16 @@ def checked_states(scenario: Scenario, times: Array, dt: float | None, answer: M
             raise ValueError(f"{name} at t = {times[k]:.6g} s: {column[k]}, accepted: numbers")
     if "time" in answer:
         _require_times(np.asarray(answer["time"]), times, dt)
+    told = [np.asarray(answer[name]) for name in ("impact_time", "impact_impulse") if name in answer]
+    if told and not (
+        len(told) == 2
+        and told[1].shape == (told[0].size, 3)
+        and np.isfinite(told[1]).all()
+        and np.all(np.diff(told[0], prepend=0.0) >= 0)
+    ):
+        raise ValueError(
+            "impact_time: accepted: times in order, and impact_impulse with three numbers for each"
+        )
     norms = np.linalg.norm(columns["quaternion"], axis=1)
     wrong = np.abs(norms - 1) > ROUNDING * 10
     if wrong.any():

@@ -133,8 +133,9 @@ def simulator_of(given: Any, limit: float = LIMIT) -> Simulator:
     offered = {point.name: point.value for point in entry_points(group="cointoss.engines")}
     path = offered.get(path, path)
     if ":" not in path:
-        known = ", ".join([*Engine, *sorted(offered)])
-        raise EngineError(f"engine: {given}, accepted: {known}, or package.module:name")
+        raise EngineError(
+            f"engine: {given}, accepted: {', '.join([*Engine, *sorted(offered)])}, or package.module:name"
+        )
     return Simulator(Served(path, limit, python or sys.executable))
 
 

@@ -32,8 +32,8 @@ EACH = [
 
 @pytest.mark.parametrize("name", RIGHT)
 def test_a_right_value_is_that_of_its_closed_form(name):
-    case = CASES[name]
-    assert case.right == pytest.approx(RIGHT[name](case), rel=1e-11, abs=1e-13)
+    for case in (CASES[name], full(CASES[name])):
+        assert case.right == pytest.approx(RIGHT[name](case), rel=1e-11, abs=1e-13)
 
 
 def test_each_case_has_a_quantity_a_source_and_a_reason():

@@ -181,6 +181,10 @@ WRONG = {
         changed(time=lambda *_: np.zeros(3)),
         r"time: shape \(3,\), accepted: \(3001,\)",
     ),
+    "impulses without times": (
+        changed(impact_time=lambda *_: np.zeros(2), impact_impulse=lambda *_: np.zeros((3, 3))),
+        "impact_time: accepted: times in order, and impact_impulse with three numbers for each",
+    ),
     "raises": (
         Answers(lambda *_: 1 / 0),
         r"Answers: ZeroDivisionError: division by zero \(test_simulator\.py:\d+\)",
