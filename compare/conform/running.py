@@ -12,6 +12,7 @@ from cointoss.compare.conform.case import Case
 from cointoss.compare.conform.quantities import QUANTITIES, NothingSeenError, error_of
 from cointoss.compare.simulators.answering import EngineError
 from cointoss.compare.simulators.simulator import Simulator
+from cointoss.models.errors import ScenarioError
 from cointoss.models.hand import Hand
 from cointoss.models.records import Outcome, UnsupportedError
 from cointoss.models.scenario import Scenario
@@ -146,7 +147,7 @@ def run_case(engine: Simulator, case: Case, dt: float | None) -> Run:
             found = QUANTITIES[case.quantity](seen[0])
     except UnsupportedError as error:
         return Run(dt=dt, why=str(error), status=Status.NOT_REALISABLE)
-    except (EngineError, NothingSeenError) as error:
+    except (EngineError, NothingSeenError, ScenarioError) as error:
         return Run(dt=dt, why=str(error), status=Status.FAILED)
     error = error_of(found, np.array(case.right), case.scale)
     return Run(

@@ -16,6 +16,7 @@ from cointoss.compare.report.compared_tosses import ComparedTosses
 from cointoss.compare.report.contents import require_folder, slug_of
 from cointoss.compare.report.folder import write_report
 from cointoss.compare.report.verdict import verdicts_of
+from cointoss.compare.simulators.answering import EngineError
 from cointoss.compare.simulators.simulator import Simulator, simulator_of
 from cointoss.models.reading import ScenarioSource, parse, scenario_text
 from cointoss.models.records import UnsupportedError
@@ -137,8 +138,9 @@ def compare(
     Raises:
         ScenarioError: for a scenario, a file or a name that can't be used.
         TypeError: for what is no engine, and for settings of another engine.
-        UnusableEngineError: for an engine that can't be started, fails, or answers what can't be.
-        ValueError: for names that are alike or have settings in vain.
+        UnusableEngineError: for an engine that can't be started, fails, or answers what can't be, and for
+            names that are alike.
+        ValueError: for settings in vain.
     """
     drawing_problem()  # Its back end is chosen before MuJoCo is imported, for a film.
     if isinstance(scenario, Scenario):
@@ -172,7 +174,9 @@ def compared(
         ]
         names = ["analytic", *(each.name if isinstance(each, Simulator) else str(each) for each in others)]
         if len({slug_of(each) for each in names} - {""}) < len(names):
-            raise ValueError(f"engines: {', '.join(names)}, accepted: names that differ in letters or digits")
+            raise EngineError(
+                f"engines: {', '.join(names)}, accepted: names that differ in letters or digits"
+            )
         if not chosen.keys() <= set(names):
             raise ValueError(f"settings: of {', '.join(chosen)}, accepted: of {', '.join(names)}")
         tosses, absent = [measure], {}

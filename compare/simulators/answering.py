@@ -65,7 +65,7 @@ class Called:
         def call() -> Message:
             try:
                 return worker.simulated(self._engine, scenario, times, dt)
-            except (Exception, SystemExit) as error:  # raised again where it is waited for
+            except (Exception, SystemExit, KeyboardInterrupt) as error:  # raised again where it is waited for
                 return worker.failure(error)
 
         return _refused(_within(self._limit, call, self.about["name"]), self.about["name"])

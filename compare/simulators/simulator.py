@@ -99,6 +99,7 @@ class Simulator:
     def toss(self, scenario: Scenario, until: float) -> Toss:
         """Return the toss that the engine's states show; see `observe`."""
         settings = dict(self.answering.about["settings"])
+        until = min(until, scenario.ending.max_time)
         return self.observe(scenario, until).toss(
             self.name, settings | ({"dt [s]": self.dt} if self.dt else {})
         )

@@ -8,6 +8,7 @@ import json
 import os
 import struct
 import sys
+import threading
 import time
 import traceback
 from importlib import import_module
@@ -132,10 +133,18 @@ def failure(error: BaseException) -> "dict[str, str]":
     return {"failed": f"{type(error).__name__}: {error}{where}"}
 
 
+def end_with(parent: int) -> None:
+    """End this process once its parent has ended, however that ends, and whatever an engine does."""
+    while os.getppid() == parent:
+        time.sleep(0.5)
+    os._exit(1)
+
+
 def serve(path: str) -> None:
     """Answer what is asked of the engine that a path names, until standard input ends."""
     taken, given = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what an engine prints is no message
+    threading.Thread(target=end_with, args=(os.getppid(),), daemon=True).start()
     sys.path[0] = str(Path.cwd())
     try:
         engine = imported(path)

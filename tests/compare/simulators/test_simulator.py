@@ -1,6 +1,7 @@
 """An engine is asked for states alone; what they show, and what is refused of them."""
 
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,8 +13,10 @@ from cointoss.compare.simulators.simulator import simulator_of
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.reading import load
 from cointoss.models.records import Ending, Outcome, UnsupportedError
+from tests.helpers.command_line import python
 from tests.helpers.draws import IMPERFECT, scenario
 from tests.helpers.own_engines import Newton
+from tests.helpers.processes import HANGS
 
 TUMBLING = {
     "position": [0.0, 0.0, 0.3],
@@ -266,6 +269,27 @@ def test_an_engine_in_another_process_answers_as_in_this_one(tumbling):
     with pytest.raises(UnsupportedError, match=r"floor\.contact = coulomb: accepted: smooth"):
         asked.observe(tumbling.replace("floor.contact", "coulomb"), 0.3)
     asked.answering.close()
+
+
+ASKS_AND_ENDS = """
+import os, threading, time
+from cointoss import load
+from cointoss.compare.simulators.simulator import simulator_of
+
+asked = simulator_of("tests.helpers.own_engines:hanging")
+threading.Thread(target=asked.observe, args=(load("fig24a"), 1.0), daemon=True).start()
+time.sleep(1)
+print(asked.answering._process.pid, flush=True)
+os._exit(0)
+"""
+
+
+def test_the_process_of_an_engine_ends_with_the_one_that_asks():
+    stat = Path("/proc") / python("-c", ASKS_AND_ENDS).stdout.strip() / "stat"
+    deadline = time.monotonic() + HANGS
+    while stat.exists() and ") Z " not in stat.read_text() and time.monotonic() < deadline:
+        time.sleep(0.1)
+    assert not stat.exists() or ") Z " in stat.read_text()
 
 
 def test_a_process_that_ends_is_said_and_started_again(tumbling):
