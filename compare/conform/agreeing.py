@@ -8,8 +8,7 @@ from cointoss import analytic
 from cointoss.compare.conform.card import value
 from cointoss.compare.conform.case import Case
 from cointoss.compare.conform.running import Status, run_case, tolerance_of
-from cointoss.compare.metrics.impulses import errors_of_impacts
-from cointoss.compare.metrics.sequences import agreement_horizon, common_prefix
+from cointoss.compare.report.compared_tosses import Against
 from cointoss.compare.simulators.simulator import Simulator, simulator_of
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Toss
@@ -29,7 +28,7 @@ def assert_agrees(given: Toss | Any, scenario: ScenarioSource, *, tolerance: flo
         given: a toss of the scenario, or an engine that tosses it, see
             `cointoss.compare.simulators.simulator.simulator_of`.
         scenario: what is tossed; or a file's path, or a name such as "fig24a".
-        tolerance: the largest relative error of the time of the first touch and of an impulse.
+        tolerance: the largest relative error of the flight to the first touch, its time, and an impulse.
 
     Raises:
         AssertionError: naming the impact, the quantity, how far off it is, and what is allowed.
@@ -42,12 +41,14 @@ def assert_agrees(given: Toss | Any, scenario: ScenarioSource, *, tolerance: flo
         len(toss.impacts) > 0 or not len(right.impacts),
         f"{who}: no impact was seen in {toss.end_time:.4g} s; the first is at {expected:.6g} s",
     )
+    pair = Against(measure=right, toss=toss)
+    flight, errors = pair.flight_error, pair.errors
+    _require(flight <= tolerance, f"{who}: flight before impact 1{_off(flight, tolerance)}")
     late = abs(first - expected) / max(expected, 1e-12)
     _require(
         late <= tolerance,
         f"{who}: impact 1: time {first:.6g} s, right {expected:.6g} s{_off(late, tolerance)}",
     )
-    errors = errors_of_impacts(toss)
     for i, error in enumerate(errors.tolist()):
         time, impulse = toss.impacts.time[i], value(toss.impacts.impulse[i])
         _require(
@@ -55,8 +56,7 @@ def assert_agrees(given: Toss | Any, scenario: ScenarioSource, *, tolerance: flo
             f"{who}: impact {i + 1} at {time:.6g} s: impulse ({impulse}) N s against the contact law"
             f"{_off(error, tolerance)}",
         )
-    horizon = min(toss.trusted_impacts, agreement_horizon(right, errors))
-    agreed = common_prefix(right.sequence, toss.sequence)
+    horizon, agreed = pair.horizon, pair.common_prefix
     face = slice(agreed, agreed + 1)
     _require(
         agreed >= horizon,

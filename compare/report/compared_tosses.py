@@ -15,6 +15,8 @@ from cointoss.models.records import Array, Toss, UnsupportedError
 from cointoss.models.scenario import Scenario
 
 TIMES = 2400
+NEARLY = 0.95
+"""Flights are compared up to this part of the time of the first touch."""
 PARTED = 0.1
 """Two paths have parted when they are further apart than this part of the radius."""
 
@@ -70,6 +72,18 @@ class Against:
             attitude_angle=attitude_angle(path_a, path_b),
             parting_time=parting_time(times, apart, PARTED * a.scenario.coin.radius),
         )
+
+    @cached_property
+    def flight_error(self) -> float:
+        """How far the other's first flight is off: part of its way, or of its turn where that is more."""
+        firsts = [
+            time for toss in (self.measure, self.toss) for time in (toss.end_time, *toss.impacts.time[:1])
+        ]
+        k = max(int(np.searchsorted(self.together.time, NEARLY * min(firsts))) - 1, 0)
+        release, (end,) = self.measure.scenario.release, self.measure.sample(self.together.time[k]).position
+        way = max(float(np.linalg.norm(end - release.position)), self.measure.scenario.coin.radius)
+        turn = max(float(np.linalg.norm(release.angular_velocity)) * self.together.time[k], 1.0)
+        return float(max(self.together.distance[k] / way, self.together.attitude_angle[k] / turn))
 
     @cached_property
     def common_prefix(self) -> int:

@@ -14,7 +14,7 @@ TINY_ERRORS = "tiny errors decide, and neither engine is wrong"
 OFF_THE_LAW = (TrustEnd.SECOND_POINT, TrustEnd.RESTITUTION)
 """Ends of MuJoCo's trust where its impulse is not that of the contact law, however well the toss is known."""
 MISSES = 1e-2
-"""An impulse of another engine than ours misses the contact law where its relative error is larger."""
+"""A flight, or an impulse, of another engine than ours is off where its relative error is larger."""
 
 
 class VerdictKind(StrEnum):
@@ -69,6 +69,9 @@ def _verdict(pair: Against, *, many: bool) -> Verdict:
         says = f"{a} by the analytic engine, {b} by {label}"
         if analytic.is_sure and kind != VerdictKind.FAULT:
             doubt = " The analytic engine's own errors are too small to change its outcome."
+    off = _off_the_law(pair)
+    if "flight" in off and "flight" not in agreement:
+        doubt += f" {_sentence(off)}"
     return Verdict(other.engine, _sentence(f"{says}: {agreement}") + doubt, kind)
 
 
@@ -156,7 +159,7 @@ def _fault(pair: Against) -> str:
     """Return whose fault it is that an engine differs where it must not."""
     if is_own(pair.toss.engine):
         return f". {REPORT_IT}"
-    missed = _missed(pair, "its impulse")
+    missed = _missed(pair, "its {}")
     return f": {label_of(pair.toss.engine)} is wrong there{missed and f' ({missed})'}"
 
 
@@ -164,17 +167,19 @@ def _off_the_law(pair: Against) -> str:
     """Return which impulse is not that of the law where that, and no tiny error, ends the horizon."""
     toss = pair.toss
     if not is_own(toss.engine):
-        return _missed(pair, f"the impulse of {label_of(toss.engine)}")
+        return _missed(pair, f"the {{}} of {label_of(toss.engine)}")
     ends_it = pair.horizon == toss.trusted_impacts and toss.trust_end in OFF_THE_LAW
     return toss.trust_reason if ends_it else ""
 
 
-def _missed(pair: Against, impulse: str) -> str:
-    """Return the first impulse within the horizon that misses the law, and by how much; empty for none."""
+def _missed(pair: Against, whose: str) -> str:
+    """Return what is off first, the flight or an impulse within the horizon, and by how much."""
+    if pair.flight_error > MISSES:
+        return f"before impact 1 {whose.format('flight')} is {100 * pair.flight_error:.0f} % off"
     for number, error in enumerate(pair.errors[: pair.horizon].tolist(), start=1):
         if error > MISSES:
             off = f"{100 * error:.0f} % off" if math.isfinite(error) else "nothing like that of"
-            return f"at impact {number} {impulse} is {off} the contact law"
+            return f"at impact {number} {whose.format('impulse')} is {off} the contact law"
     return ""
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cointoss import analytic
+from cointoss import analytic, compare
 from cointoss.compare.conform.agreeing import assert_agrees, assert_met
 from cointoss.compare.conform.card import Card
 from cointoss.compare.conform.case import cases
@@ -150,7 +150,7 @@ def test_a_toss_that_agrees_passes():
         ),
         (
             type("Late", (), {"simulate": lambda _, case, times: _late(case, times)})(),
-            "Late: impact 1: time .* s, right .* s: off",
+            r"Late: flight before impact 1: off by 3\.2e-02, allowed 1\.0e-02",
         ),
     ],
 )
@@ -167,13 +167,35 @@ def _floating(case, times):
     ]
 
 
+def _without_air(case, times):
+    return analytic.toss(case.replace("air", {}, "ending.max_impacts", None)).sample(times)
+
+
+def test_a_flight_that_is_off_is_told_by_both():
+    """A fifth of a second in air ten times as thick as a coin's; without it the flight is a parabola."""
+    case = CASES["tilted"].scenario.replace(
+        "air", {"normal": 8.0, "tangential": 2.0}, "ending.max_impacts", 1
+    )
+    engine = type("Airless", (), {"simulate": lambda _, case, times: _without_air(case, times)})()
+    with pytest.raises(
+        AssertionError, match=r"Airless: flight before impact 1: off by 1\.6e-01, allowed 3\.0e-02"
+    ):
+        assert_agrees(engine, case, tolerance=3e-2)
+    assert "Before impact 1 the flight of Airless is 16 % off." in repr(compare(case, [engine]))
+
+
 def _late(case, times):
     return analytic.toss(case.replace("gravity", 9.5, "ending.max_impacts", None)).sample(times)
 
 
-def test_a_face_within_the_horizon_must_agree():
+def test_the_first_touch_and_the_faces_within_the_horizon_must_agree():
     right = analytic.toss("fig24a")
     turned = replace(right, impacts=replace(right.impacts, face=3 - right.impacts.face))
+    late = replace(right, impacts=replace(right.impacts, time=1.02 * right.impacts.time))
+    with pytest.raises(
+        AssertionError, match=r"impact 1: time 0\.288\d+ s, right 0\.283\d+ s: off by 2\.0e-02"
+    ):
+        assert_agrees(late, "fig24a")
     with pytest.raises(
         AssertionError, match=r"analytic: impact 1: face T, right H; with impulses off by .* the first 10"
     ):
