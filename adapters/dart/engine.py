@@ -2,27 +2,16 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from operator import attrgetter
 from typing import Any
 
 import dartpy
 import numpy as np
 
+from adapters.shared import AIR, RESISTANCE, THRESHOLD, friction_of
+
 ROWS = ("position", "velocity", "quaternion", "angular_velocity")
-THINNEST, ROUGH = 1e-5, 1e3
-FLOOR = ("floor.rolling_friction", "floor.pivoting_friction", "floor.restitution_threshold")
-
-
-def _friction(scenario: Any) -> float:
-    """Return the friction of the floor's law; raises NotImplementedError for what is not done here."""
-    for what in (*FLOOR, "air.normal", "air.tangential"):
-        if value := attrgetter(what)(scenario):
-            raise NotImplementedError(f"{what}: {value}, accepted: 0")
-    floor = scenario.floor
-    laws = {"smooth": 0.0, "coulomb": floor.friction, "perfectly_rough": ROUGH}
-    if floor.contact not in laws:
-        raise NotImplementedError(f"floor.contact: {floor.contact}, accepted: {', '.join(laws)}")
-    return laws[floor.contact]
+THINNEST = 1e-5
+REFUSED = (*AIR, *RESISTANCE, THRESHOLD)
 
 
 @dataclass
@@ -40,7 +29,7 @@ class Dart:
 
     def simulate(self, scenario: Any, times: Iterable[float]) -> dict[str, np.ndarray]:
         """Return the coin's states, rows at times: those of the steps nearest to them."""
-        world, body = self._world(scenario, _friction(scenario))
+        world, body = self._world(scenario, friction_of(scenario, *REFUSED))
         rows, taken = [], 0
         for step in np.rint(np.asarray(list(times)) / self.dt).astype(int):
             for _ in range(step - taken):

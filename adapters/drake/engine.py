@@ -4,7 +4,6 @@ from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 from math import log
-from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -17,21 +16,11 @@ from pydrake.multibody.tree import RotationalInertia, SpatialInertia
 from pydrake.systems.analysis import ResetIntegratorFromFlags, Simulator
 from pydrake.systems.framework import DiagramBuilder
 
+from adapters.shared import AIR, RESISTANCE, THRESHOLD, friction_of
+
 ROWS = ("position", "velocity", "quaternion", "angular_velocity")
-THINNEST, ROUGH = 1e-5, 1e3
-FLOOR = ("floor.rolling_friction", "floor.pivoting_friction", "floor.restitution_threshold")
-
-
-def _friction(scenario: Any) -> float:
-    """Return the friction of the floor's law; raises NotImplementedError for what is not done here."""
-    for what in (*FLOOR, "air.normal", "air.tangential"):
-        if value := attrgetter(what)(scenario):
-            raise NotImplementedError(f"{what}: {value}, accepted: 0")
-    floor = scenario.floor
-    laws = {"smooth": 0.0, "coulomb": floor.friction, "perfectly_rough": ROUGH}
-    if floor.contact not in laws:
-        raise NotImplementedError(f"floor.contact: {floor.contact}, accepted: {', '.join(laws)}")
-    return laws[floor.contact]
+THINNEST = 1e-5
+REFUSED = (*AIR, *RESISTANCE, THRESHOLD)
 
 
 def dissipation(restitution: float, speed: float) -> float:
@@ -69,7 +58,7 @@ class Drake:
 
         A discrete plant is advanced to the middle of its step, so that rounding never adds or omits one.
         """
-        plant, body, simulator = self._plant(scenario, _friction(scenario))
+        plant, body, simulator = self._plant(scenario, friction_of(scenario, *REFUSED))
         context = plant.GetMyMutableContextFromRoot(simulator.get_mutable_context())
         centre, release = np.asarray(scenario.coin.center_of_mass, float), scenario.release
         turn = RotationMatrix(Quaternion(release.attitude / np.linalg.norm(release.attitude)))

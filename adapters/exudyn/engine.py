@@ -7,7 +7,6 @@ radius below the floor, so that a rim touches where the coin's does; friction ac
 from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass
-from operator import attrgetter
 from typing import Any
 
 import exudyn
@@ -15,21 +14,11 @@ import numpy as np
 from exudyn.itemInterface import SensorNode
 from exudyn.rigidBodyUtilities import EulerParameters2RotationMatrix, RigidBodyInertia
 
-WIDE, ROUGH = 1e3, 1e3
-FLOOR = ("floor.rolling_friction", "floor.pivoting_friction", "floor.restitution_threshold")
+from adapters.shared import AIR, RESISTANCE, THRESHOLD, friction_of
+
+WIDE = 1e3
+REFUSED = (*AIR, *RESISTANCE, THRESHOLD)
 OUTPUTS = ("CoordinatesTotal", "Velocity", "AngularVelocityLocal")
-
-
-def _friction(scenario: Any) -> float:
-    """Return the friction of the floor's law; raises NotImplementedError for what is not done here."""
-    for what in (*FLOOR, "air.normal", "air.tangential"):
-        if value := attrgetter(what)(scenario):
-            raise NotImplementedError(f"{what}: {value}, accepted: 0")
-    floor = scenario.floor
-    laws = {"smooth": 0.0, "coulomb": floor.friction, "perfectly_rough": ROUGH}
-    if floor.contact not in laws:
-        raise NotImplementedError(f"floor.contact: {floor.contact}, accepted: {', '.join(laws)}")
-    return laws[floor.contact]
 
 
 def _sensor(node: Any, output: str) -> SensorNode:
@@ -56,7 +45,7 @@ class Exudyn:
     def simulate(self, scenario: Any, times: Iterable[float]) -> dict[str, np.ndarray]:
         """Return the coin's states, rows at times: those of the steps nearest to them; NaN where it stops."""
         steps = np.rint(np.asarray(list(times)) / self.dt).astype(int)
-        system, node = self._system(scenario, _friction(scenario))
+        system, node = self._system(scenario, friction_of(scenario, *REFUSED))
         sensors = [system.AddSensor(_sensor(node, output)) for output in OUTPUTS]
         system.Assemble()
         count, inner = max(int(steps[-1]), 1), max(1, round(self.dt / (self.step or self.dt)))

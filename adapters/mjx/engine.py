@@ -2,70 +2,19 @@
 
 from dataclasses import dataclass
 from importlib.metadata import version
-from math import hypot, log, pi
-from operator import attrgetter
 from typing import Any
 
 import jax
 import jax.numpy as jnp
-import mujoco
 import numpy as np
 from jax import lax
 from mujoco import mjx
 
-MODEL = """<mujoco>
-  <option timestep="{dt}" gravity="0 0 -{gravity}" {option}/>
-  <worldbody>
-    <geom name="floor" type="plane" size="0 0 1"/>
-    <body><freejoint/><inertial pos="{C}" mass="{m}" fullinertia="{J}"/>
-      <geom name="coin" type="cylinder" size="{r} {half}"/></body>
-  </worldbody>
-  <contact><pair geom1="floor" geom2="coin" condim="{condim}" friction="{friction}" {contact}/></contact>
-</mujoco>"""
-SPRING = "spring of time constant 2 dt, damped as the textbook says"
-ONE_STEP = "damper -(1 + restitution)/dt, which reverses the velocity in one step"
+from adapters.mjcf import ONE_STEP, SPRING, model_of
+from adapters.shared import AIR, rotations
+
 ROWS = 256
 """Number of states that a compiled call returns."""
-
-
-def contact_of(settings: dict[str, str | float], e: float, dt: float) -> str:
-    """Return the attributes of a contact of restitution e: a textbook spring, or a damper of one step."""
-    if settings["bounce"] == SPRING:
-        return f'solref="{-1 / (2 * dt) ** 2} {log(e) / hypot(pi, log(e)) / dt if e else -1 / dt}"'
-    friction = f'solreffriction="0 {-1 / dt}"'
-    return f'solref="{-1e-3 / dt**2} {-(1 + e) / dt}" {friction} solimp="{settings["solimp"]}"'
-
-
-def model_of(scenario: Any, settings: dict[str, str | float], dt: float) -> mujoco.MjModel:
-    """Return the model of a coin over a floor; raise NotImplementedError for what is not here."""
-    coin, floor = scenario.coin, scenario.floor
-    laws = {"smooth": 0.0, "coulomb": floor.friction, "perfectly_rough": 1e3}
-    for name in ("air.normal", "air.tangential", "floor.restitution_threshold"):
-        if value := attrgetter(name)(scenario):
-            raise NotImplementedError(f"{name}: {value}, accepted: 0")
-    if floor.contact not in laws:
-        raise NotImplementedError(f"floor.contact: {floor.contact}, accepted: {', '.join(laws)}")
-    L = float(settings["units per metre"])
-    friction = [*[laws[floor.contact]] * 2, floor.pivoting_friction * L, *[floor.rolling_friction * L] * 2]
-    J = np.asarray(coin.moments)[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]] * L**2
-    rows = {"C": np.asarray(coin.center_of_mass) * L, "J": J, "friction": friction}
-    words = settings | {name: " ".join(map(str, values)) for name, values in rows.items()}
-    words |= {
-        "m": coin.mass,
-        "r": coin.radius * L,
-        "half": max(coin.thickness, float(settings["thinnest shape"])) / 2 * L,
-    }
-    words |= {"gravity": scenario.gravity * L, "dt": dt}
-    words["condim"] = 6 if any(friction[2:]) else 3 if any(friction) else 1
-    words["contact"] = contact_of(settings, floor.restitution, dt)
-    cone = 'cone="elliptic"' if any(friction) and settings["bounce"] == ONE_STEP else ""
-    return mujoco.MjModel.from_xml_string(MODEL.format(**words | {"option": f"{settings['option']} {cone}"}))
-
-
-def rotations(q: np.ndarray) -> np.ndarray:
-    """Return the rotation matrices of quaternions, (n, 3, 3)."""
-    cross = np.cross(np.eye(3), q[:, None, 1:])
-    return np.eye(3) + 2 * (q[:, :1, None] * cross + cross @ cross)
 
 
 @jax.jit
@@ -95,7 +44,7 @@ class Mjx:
         w, R = np.asarray(release.angular_velocity), rotations(np.atleast_2d(release.attitude))[0]
         L = float(self.settings["units per metre"])
         with jax.enable_x64(self.settings["precision"] == "float64"):
-            model = mjx.put_model(model_of(scenario, self.settings, self.dt))
+            model = mjx.put_model(model_of(scenario, self.settings, self.dt, *AIR))
             q = jnp.array([*L * (release.position - R @ C), *release.attitude])
             v = jnp.array([*L * (release.velocity - R @ np.cross(w, C)), *w])
             data = mjx.make_data(model).replace(qpos=q, qvel=v)

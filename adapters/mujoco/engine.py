@@ -1,57 +1,13 @@
 """Coins tossed by MuJoCo, with the settings of its documentation and with settings found by measurement."""
 
 from dataclasses import dataclass
-from math import hypot, log, pi
-from operator import attrgetter
+from math import pi
 from typing import Any
 
 import mujoco
 import numpy as np
 
-MODEL = """<mujoco>
-  <option timestep="{dt}" gravity="0 0 -{gravity}" {option}><flag {flag}/></option>
-  <worldbody>
-    <geom name="floor" type="plane" size="0 0 1"/>
-    <body><freejoint/><inertial pos="{C}" mass="{coin.mass}" fullinertia="{J}"/>
-      <geom name="coin" type="cylinder" size="{coin.radius} {half}"/></body>
-  </worldbody>
-  <contact><pair geom1="floor" geom2="coin" condim="{condim}" friction="{friction}" {contact}/></contact>
-</mujoco>"""
-SPRING = "spring of time constant 2 dt, damped as the textbook says"
-ONE_STEP = "damper -(1 + restitution)/dt, which reverses the velocity in one step"
-
-
-def contact_of(settings: dict[str, str | float], e: float, dt: float) -> str:
-    """Return the attributes of a contact of restitution e: a textbook spring, or a damper of one step."""
-    if settings["bounce"] == SPRING:
-        return f'solref="{-1 / (2 * dt) ** 2} {log(e) / hypot(pi, log(e)) / dt if e else -1 / dt}"'
-    return (
-        f'solref="{-1e-3 / dt**2} {-(1 + e) / dt}" solreffriction="0 {-1 / dt}" solimp="{settings["solimp"]}"'
-    )
-
-
-def model_of(scenario: Any, settings: dict[str, str | float], dt: float) -> mujoco.MjModel:
-    """Return the model of a coin over a floor; raise NotImplementedError for what MuJoCo has not."""
-    coin, floor = scenario.coin, scenario.floor
-    laws = {"smooth": 0.0, "coulomb": floor.friction, "perfectly_rough": 1e3}
-    for name in ("air.exponent", "floor.restitution_threshold"):
-        if value := attrgetter(name)(scenario):
-            raise NotImplementedError(f"{name}: {value}, accepted: 0")
-    if floor.contact not in laws:
-        raise NotImplementedError(f"floor.contact: {floor.contact}, accepted: {', '.join(laws)}")
-    friction = [*[laws[floor.contact]] * 2, floor.pivoting_friction, *[floor.rolling_friction] * 2]
-    J = np.asarray(coin.moments)[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
-    rows = {"C": coin.center_of_mass, "J": J, "friction": friction}
-    words = settings | {name: " ".join(map(str, values)) for name, values in rows.items()}
-    words |= {
-        "coin": coin,
-        "half": max(coin.thickness, settings["thinnest shape"]) / 2,
-        "gravity": scenario.gravity,
-        "dt": dt,
-    }
-    words["condim"] = 6 if any(friction[2:]) else 3 if any(friction) else 1
-    words["contact"] = contact_of(settings, floor.restitution, dt)
-    return mujoco.MjModel.from_xml_string(MODEL.format(**words))
+from adapters.mjcf import ONE_STEP, SPRING, model_of
 
 
 def drag_of(scenario: Any) -> np.ndarray:
@@ -73,7 +29,11 @@ class Mujoco:
 
     def simulate(self, scenario: Any, times: np.ndarray) -> dict[str, np.ndarray]:
         """Return the states at the steps next to the times, (n, 3) and (n, 4); spin in the body frame."""
-        model, drag, release = model_of(scenario, self.settings, self.dt), drag_of(scenario), scenario.release
+        model, drag, release = (
+            model_of(scenario, self.settings, self.dt, "air.exponent"),
+            drag_of(scenario),
+            scenario.release,
+        )
         data, C, rows = mujoco.MjData(model), np.asarray(scenario.coin.center_of_mass), []
         R, q, v = data.xmat[1].reshape(3, 3), data.qpos, data.qvel
         q[3:], v[3:] = release.attitude, release.angular_velocity

@@ -4,7 +4,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from math import hypot, log, pi
-from operator import attrgetter
 from typing import Any
 
 import newton
@@ -12,29 +11,20 @@ import numpy as np
 import warp
 from newton import solvers
 
+from adapters.shared import AIR, THRESHOLD, friction_of, rotations
+
 SPRING = "spring ke = m/(2 dt)^2 with the textbook's damping kd"
 ACCELERATION = "spring ke = 1/(2 dt)^2 with the textbook's damping kd, friction at least 0.01"
-
-
-def rotations(q: np.ndarray) -> np.ndarray:
-    """Return the rotation matrices of quaternions, scalar first, (n, 3, 3)."""
-    cross = np.cross(np.eye(3), q[:, None, 1:])
-    return np.eye(3) + 2 * (q[:, :1, None] * cross + cross @ cross)
 
 
 def model_of(scenario: Any, settings: dict[str, str | float], dt: float) -> newton.Model:
     """Return the model of a coin over a floor; raise NotImplementedError for what is not here."""
     coin, floor, release = scenario.coin, scenario.floor, scenario.release
-    laws = {"smooth": 0.0, "coulomb": floor.friction, "perfectly_rough": 1e3}
-    for name in ("air.normal", "air.tangential", "floor.restitution_threshold"):
-        if value := attrgetter(name)(scenario):
-            raise NotImplementedError(f"{name}: {value}, accepted: 0")
-    if floor.contact not in laws:
-        raise NotImplementedError(f"floor.contact: {floor.contact}, accepted: {', '.join(laws)}")
+    friction = friction_of(scenario, *AIR, THRESHOLD)
     builder = newton.ModelBuilder(gravity=(0, 0, -scenario.gravity))
     shape, e = builder.default_shape_cfg, floor.restitution
     shape.density, shape.restitution = 0.0, e
-    shape.mu = max(laws[floor.contact], 0.01 if settings["bounce"] == ACCELERATION else 0.0)
+    shape.mu = max(friction, 0.01 if settings["bounce"] == ACCELERATION else 0.0)
     shape.mu_torsional, shape.mu_rolling = floor.pivoting_friction, floor.rolling_friction
     if settings["bounce"] in (SPRING, ACCELERATION):
         mass = coin.mass if settings["bounce"] == SPRING else 1.0
