@@ -136,10 +136,14 @@ def _breaks(body: Body, v: Vector, w: Vector, breaks: Array, away: Array) -> tup
 
 @compiled
 def _insert(breaks: Array, away: Array, number: int, theta: float, distance: float) -> int:
-    """Insert a break in its place unless it is infinitely far away, and return how many there are."""
+    """Insert a break, -2π < θ < 4π, in its place unless it is infinitely far; return how many there are."""
     if distance == np.inf:
         return number
-    theta, i = theta % (2 * math.pi), number
+    i = number
+    if theta < 0:
+        theta += 2 * math.pi
+    elif theta >= 2 * math.pi:
+        theta -= 2 * math.pi
     while i > 0 and breaks[i - 1] > theta:
         breaks[i], away[i] = breaks[i - 1], away[i - 1]
         i -= 1
