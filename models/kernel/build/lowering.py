@@ -58,6 +58,8 @@ class LlvmTarget(NamedTuple):
     triple: str
     features: str = ""
     """The features that the processor's plainest kind does not have."""
+    processor: str = ""
+    """The plainest kind, empty for the first of all."""
 
     @property
     def is_narrow(self) -> bool:
@@ -69,7 +71,7 @@ class LlvmTarget(NamedTuple):
         binding.initialize_all_targets()
         binding.initialize_all_asmprinters()
         return binding.Target.from_triple(self.triple).create_target_machine(
-            features=self.features, opt=3, reloc="default" if self.is_narrow else "pic"
+            cpu=self.processor, features=self.features, opt=3, reloc="default" if self.is_narrow else "pic"
         )
 
 
@@ -141,6 +143,14 @@ def object_code(code: bytes, target: LlvmTarget, symbols: Mapping[str, str]) -> 
     module, machine = binding.parse_bitcode(code), target.machine()
     for name, new in symbols.items():
         module.get_function(name).name = new
+    optimise(module, target, machine)
+    if foreign := foreign_to(module) - C_LIBRARY:
+        raise RuntimeError(f"the engine calls {', '.join(sorted(foreign))}, which a system may not have")
+    return machine.emit_object(module)
+
+
+def optimise(module: binding.ModuleRef, target: LlvmTarget, machine: binding.TargetMachine) -> None:
+    """Optimise a module as a whole for a target."""
     module.triple, module.data_layout = target.triple, str(machine.target_data)
     for level, vectors in ((0, False), (3, True)):  # the first brings references into one function
         options = binding.create_pipeline_tuning_options(speed_level=level)
@@ -150,11 +160,12 @@ def object_code(code: bytes, target: LlvmTarget, symbols: Mapping[str, str]) -> 
         passes.add_refprune_pass()
         passes.run(module, builder)
     module.verify()
+
+
+def foreign_to(module: binding.ModuleRef) -> set[str]:
+    """Return the names of what a module uses and does not have."""
     every = (*module.functions, *module.global_variables)
-    used = {each.name for each in every if each.is_declaration and not each.name.startswith("llvm.")}
-    if foreign := used - C_LIBRARY:
-        raise RuntimeError(f"the engine calls {', '.join(sorted(foreign))}, which a system may not have")
-    return machine.emit_object(module)
+    return {each.name for each in every if each.is_declaration and not each.name.startswith("llvm.")}
 
 
 class _Code(JITCodeLibrary):
