@@ -91,7 +91,8 @@ wheels: $(READY) $(ENGINE)
 	mkdir -p out/engines
 	@for module in models analytic coin_mj; do \
 	  ($(call told,building the libraries of $$module,$(BIN)/python -m cointoss.models.kernel.build \
-	  cointoss.$$module.entries --out out/engines --carried $(SYSTEMS:%=--system %))) || exit; done
+	  cointoss.$$module.entries --out out/engines --carried $(SYSTEMS:%=--system %) \
+	  $$([ $$module = analytic ] && echo --system cuda))) || exit; done
 	$(BIN)/python -m hatchling build -t sdist -d dist
 	@for system in $(SYSTEMS); do export COINTOSS_SYSTEM=$$system COINTOSS_ENGINES=$(CURDIR)/out/engines; \
 	  ($(call told,pip: making the wheel for $$system,$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation \

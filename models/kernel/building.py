@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from cointoss.models.kernel.digests import HOME
-from cointoss.models.kernel.library import MANIFEST, SYSTEM, EngineMissingError, current
+from cointoss.models.kernel.library import CUDA, MANIFEST, SYSTEM, EngineMissingError, current
 
 NEEDED = ("numba", "llvmlite", "ziglang")
 UNUSED = 3 * 24 * 3600.0
@@ -29,7 +29,7 @@ EVERY = 10.0
 """The line is written again so often, with the time so far [s]."""
 
 
-def build_once(module: str, folder: Path) -> None:
+def build_once(module: str, folder: Path, system: str = SYSTEM) -> None:
     """Build a library into a folder, or wait for another process that does.
 
     Raises:
@@ -42,25 +42,27 @@ def build_once(module: str, folder: Path) -> None:
         folder.mkdir(mode=0o700, exist_ok=True)
         remove_unused(folder)
         checkout = hashlib.sha256(str(HOME).encode()).hexdigest()[:8]
-        lock, begun = FileLock(folder / f"{name}-{checkout}.lock"), time.monotonic()
+        lock, begun = FileLock(folder / f"{name}-{system}-{checkout}.lock"), time.monotonic()
         try:
             lock.acquire(blocking=False)
         except Timeout:
-            with told(f"waiting for another process, which builds the {name} engine", begun):
+            with told(
+                f"waiting for another process, which builds the {name} engine{_FOR.get(system, '')}", begun
+            ):
                 lock.acquire()
         try:
-            if current(folder, name) is None:
-                _build(module, name, folder)
+            if current(folder, name, system) is None:
+                _build(module, name, folder, system)
         finally:
             lock.release()
     except OSError as error:
         raise EngineMissingError(f"the {name} engine could not be built: {error}") from None
 
 
-def _build(module: str, name: str, folder: Path) -> None:
+def _build(module: str, name: str, folder: Path, system: str) -> None:
     if missing := [each for each in NEEDED if find_spec(each) is None]:
         raise EngineMissingError(
-            f"there is no {name} engine for {SYSTEM}, and no {', '.join(missing)} to build it; "
+            f"there is no {name} engine for {system}, and no {', '.join(missing)} to build it; "
             "accepted: a wheel for this system, or pip install --group dev in a checkout"
         )
     command = [
@@ -71,12 +73,14 @@ def _build(module: str, name: str, folder: Path) -> None:
         module,
         "--out",
         str(folder),
+        "--system",
+        system,
         "--of-parent",
     ]
     paths = filter(None, (str(HOME.parent), os.environ.get("PYTHONPATH")))
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
     with (
-        told(f"building the {name} engine, once", time.monotonic()),
+        told(f"building the {name} engine{_FOR.get(system, '')}, once", time.monotonic()),
         # It ends with this process, however that ends: then nobody holds its standard input any more.
         subprocess.Popen(command, env=environment, text=True, **_PIPES) as process,
     ):
@@ -93,6 +97,7 @@ def _build(module: str, name: str, folder: Path) -> None:
         raise EngineMissingError(f"the {name} engine could not be built: exit status {process.returncode}")
 
 
+_FOR = {CUDA: " for NVIDIA's cards"}
 _PIPES: dict[str, Any] = {
     "stdin": subprocess.PIPE,
     "stdout": subprocess.DEVNULL,

@@ -14,6 +14,9 @@ from inspect import Signature, signature
 from pathlib import Path
 from typing import Any, Generic, NamedTuple, ParamSpec, TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
+
 from cointoss.models.kernel.base_folder import base_folder, is_private
 from cointoss.models.kernel.digests import HOME, digest_of
 from cointoss.models.kernel.kinds import ValueKind, kinds_of, may_lack, read, write
@@ -25,6 +28,8 @@ CARRIED = Path(__file__).with_name("engines")
 """The folder in which a wheel carries the libraries."""
 SYSTEM = f"{sys.platform}-{platform.machine()}".lower()
 """This system and processor."""
+CUDA = "cuda"
+"""In its place, NVIDIA's cards: their library is one file of code in PTX and for some of their kinds."""
 SUFFIX = ".so"
 """The suffix of a library, on every system."""
 MANIFEST = f"{SUFFIX}.json"
@@ -56,9 +61,15 @@ class Library:
         self.module, self.lacks_none = module, lacks_none
         self._lock = threading.Lock()
 
-    def entry(self, function: Callable[P, R]) -> "Entry[P, R]":
-        """Return an entry: the function as Python calls it."""
-        return Entry(self, function)
+    def entry(self, function: Callable[P, R], *, on_cards: bool = False) -> "Entry[P, R]":
+        """Return an entry: the function as Python calls it.
+
+        Args:
+            function: a compiled one.
+            on_cards: whether it is what a card's threads do, too; it takes a table of rows, and that of their
+                answers, first.
+        """
+        return Entry(self, function, on_cards=on_cards)
 
     @cached_property
     def loaded(self) -> ctypes.CDLL:
@@ -108,10 +119,10 @@ class Library:
 class Entry(Generic[P, R]):
     """A compiled function as Python calls it: its annotations are the kinds of its rows of numbers."""
 
-    def __init__(self, library: Library, function: Callable[P, R]) -> None:
-        """Load nothing yet."""
+    def __init__(self, library: Library, function: Callable[P, R], *, on_cards: bool = False) -> None:
+        """Load nothing yet; see `Library.entry`."""
         update_wrapper(self, function)
-        self.library, self.function = library, function
+        self.library, self.function, self.on_cards = library, function, on_cards
         self.symbol: str = function.__name__.lstrip("_")
         self._code: dict[bool, Any] = {}
 
@@ -141,6 +152,25 @@ class Entry(Generic[P, R]):
         """Return the symbol for arguments of which a number is None, or none is."""
         return self.symbol + LACKS * lacks
 
+    def numbers_of(self, *arguments: P.args, **named: P.kwargs) -> NDArray[np.int64]:
+        """Return the 8-byte numbers that the function is given.
+
+        Raises:
+            TypeError: for an array of another kind.
+        """
+        form, numbers, _ = self._written(arguments, named)
+        return np.frombuffer(struct.pack(form, *numbers), dtype=np.int64)
+
+    def _written(self, arguments: Any, named: Any) -> tuple[str, list[Any], bool]:
+        """Return the form of the arguments, their numbers, and whether one of these is None."""
+        values = self._signature.bind(*arguments, **named).args if named else arguments
+        form: list[str] = ["="]
+        numbers: list[Any] = []
+        lacks = False
+        for kind, value in zip(self.kinds[0], values, strict=True):
+            lacks = write(kind, value, form, numbers) or lacks
+        return "".join(form), numbers, lacks
+
     def __call__(self, *arguments: P.args, **named: P.kwargs) -> R:
         """Run the machine code, without Python's lock.
 
@@ -149,17 +179,12 @@ class Entry(Generic[P, R]):
             TypeError: for an array of another kind.
             FloatingPointError, ValueError, MemoryError: as the function raises them.
         """
-        given, returned = self.kinds
-        values = self._signature.bind(*arguments, **named).args if named else arguments
-        form: list[str] = ["="]
-        numbers: list[Any] = []
-        lacks = False
-        for kind, value in zip(given, values, strict=True):
-            lacks = write(kind, value, form, numbers) or lacks
+        _, returned = self.kinds
+        form, numbers, lacks = self._written(arguments, named)
         if lacks not in self._code:
             self._code[lacks] = self.library.symbol(self.symbol_of(lacks), self.form)
         answer, error = (ctypes.c_int64 * len(returned.form))(), ctypes.c_void_p()
-        if self._code[lacks](struct.pack("".join(form), *numbers), answer, ctypes.byref(error)) != 0:
+        if self._code[lacks](struct.pack(form, *numbers), answer, ctypes.byref(error)) != 0:
             raise _raised(error)
         found = struct.unpack(f"={returned.form}", answer)
         return read(returned, iter(found), self.library.release)
@@ -216,42 +241,46 @@ class Made(NamedTuple):
         return all(digest_of(home / name) == digest for name, digest in self.sources.items())
 
 
-def library_file(module: str) -> Path:
+def library_file(module: str, system: str = SYSTEM) -> Path:
     """Return the file of an engine's library: that which a wheel carries, or the one of the sources here.
 
     The library of sources that have none yet is built.
+
+    Args:
+        module: the full name of the engine's table of entries.
+        system: for which it is.
 
     Raises:
         EngineMissingError: in one line.
     """
     name = module.split(".")[-2]
     if CARRIED.is_dir():
-        manifest = CARRIED / f"{name}-{SYSTEM}{MANIFEST}"
+        manifest = CARRIED / f"{name}-{system}{MANIFEST}"
         made = Made.read(manifest, is_carried=True)
         if made is None and not manifest.exists():
             others = CARRIED.glob(f"{name}-*{MANIFEST}")
             there = sorted(each.name.removesuffix(MANIFEST).partition("-")[2] for each in others)
             raise EngineMissingError(
-                f"{CARRIED}: no {name} engine for {SYSTEM}; there is: {', '.join(there) or 'none'}"
+                f"{CARRIED}: no {name} engine for {system}; there is: {', '.join(there) or 'none'}"
             )
         file = manifest.with_suffix("")
         if made is None or digest_of(file) != made.digest:
             raise EngineMissingError(f"{file}: is damaged; install cointoss-dynamics again")
         return file
     folder = base_folder() / "engines"
-    if (found := current(folder, name)) is not None:
+    if (found := current(folder, name, system)) is not None:
         return found
     from cointoss.models.kernel.building import build_once
 
-    build_once(module, folder)
-    if (found := current(folder, name)) is not None:
+    build_once(module, folder, system)
+    if (found := current(folder, name, system)) is not None:
         return found
     raise EngineMissingError(f"{folder}: the {name} engine was built, but of other sources; start again")
 
 
-def current(folder: Path, name: str) -> Path | None:
+def current(folder: Path, name: str, system: str = SYSTEM) -> Path | None:
     """Return a library in a folder that is whole, this user's, and made of the sources that lie here."""
-    for manifest in folder.glob(f"{name}-{SYSTEM}-*{MANIFEST}"):
+    for manifest in folder.glob(f"{name}-{system}-*{MANIFEST}"):
         made, library = Made.read(manifest), manifest.with_suffix("")
         if made is None or not made.is_current() or digest_of(library) != made.digest:
             continue

@@ -13,11 +13,14 @@ from importlib import import_module
 from importlib.util import find_spec, module_from_spec
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from cointoss.models.kernel.base_folder import write_whole
 from cointoss.models.kernel.digests import ENGINES, HOME, digest_of
-from cointoss.models.kernel.library import AVX2, MANIFEST, RELEASE, SUFFIX, SYSTEM, Entry, Made
+from cointoss.models.kernel.library import AVX2, CUDA, MANIFEST, RELEASE, SUFFIX, SYSTEM, Entry, Made
+
+if TYPE_CHECKING:
+    from cointoss.models.kernel.build.linking import System
 
 
 def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> None:
@@ -32,35 +35,47 @@ def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> N
     Raises:
         RuntimeError: where it can't be done, in one line.
     """
-    from cointoss.models.kernel.build import linking, lowering
+    from cointoss.models.kernel.build import device, linking, lowering
 
     before = {path: digest_of(path) for part in ENGINES for path in (HOME / part).rglob("*.py")}
     table = alone(module)
     sources = {name: before.get(HOME / name) or digest_of(HOME / name) for name in read_sources()}
-    asked = asked_of(table)
+    on_cards = [each.symbol for each in entries_of(table) if each.on_cards]
+    known = (*linking.SYSTEMS, *[CUDA] * bool(on_cards))
+    if unknown := [name for name in systems if name not in known]:
+        raise RuntimeError(f"{', '.join(unknown)}: accepted: {', '.join(known)}")
+    asked = asked_of(table, on_cards if set(systems) == {CUDA} else ())
     symbols = [each.symbol for each in asked]
     forms = {each.symbol_of(lacks): each.form for each in entries_of(table) for lacks in each.variants}
-    if unknown := [name for name in systems if name not in linking.SYSTEMS]:
-        raise RuntimeError(f"{', '.join(unknown)}: accepted: {', '.join(linking.SYSTEMS)}")
-    code = lowering.lowered(asked, linking.SYSTEMS[systems[0]].targets[""])
+    first = next((name for name in systems if name != CUDA), "linux-x86_64")
+    code = lowering.lowered(asked, linking.SYSTEMS[first].targets[""])
     if any(digest_of(HOME / name) != digest for name, digest in sources.items()):
         raise RuntimeError("its sources have changed while they were compiled: build it again")
     with tempfile.TemporaryDirectory() as folder:
         for name in systems:
-            system = linking.SYSTEMS[name]
-            kinds = {end: target for end, target in system.targets.items() if carried or end == processor()}
-            codes, shown = [], []
-            for end, target in kinds.items():
-                new = {symbol: symbol + end for symbol in symbols}
-                released = {} if not codes else {RELEASE: RELEASE + end}
-                codes.append(lowering.object_code(code, target, new | released))
-                shown += new.values()
-            library = linking.link(codes, shown, system, Path(folder))
+            if name == CUDA:
+                library, _ = device.assembled(device.ptx_of(code, *on_cards), Path(folder))
+            else:
+                library = _linked(code, symbols, linking.SYSTEMS[name], Path(folder), carried=carried)
             digest = hashlib.sha256(library).hexdigest()
             stem = f"{module.split('.')[-2]}-{name}" + ("" if carried else f"-{digest[:16]}")
             write_whole(out / f"{stem}{SUFFIX}", library)
             manifest = Made(module, name, digest, {} if carried else sources, forms)
             write_whole(out / f"{stem}{MANIFEST}", json.dumps(manifest._asdict()).encode())
+
+
+def _linked(code: bytes, symbols: Sequence[str], system: "System", folder: Path, *, carried: bool) -> bytes:
+    """Return the library of a module of code for a system: for all its processors, or this one."""
+    from cointoss.models.kernel.build import linking, lowering
+
+    kinds = {end: target for end, target in system.targets.items() if carried or end == processor()}
+    codes, shown = [], []
+    for end, target in kinds.items():
+        new = {symbol: symbol + end for symbol in symbols}
+        released = {} if not codes else {RELEASE: RELEASE + end}
+        codes.append(lowering.object_code(code, target, new | released))
+        shown += new.values()
+    return linking.link(codes, shown, system, folder)
 
 
 def alone(module: str) -> ModuleType:

@@ -26,7 +26,7 @@ class Engines(BuildHookInterface[Any]):
     """Adds the libraries of one system, and names the wheel after it.
 
     `COINTOSS_SYSTEM` chooses the system, by default this one; `COINTOSS_ENGINES` is a folder that has its
-    libraries already, as `make wheels` builds them.
+    libraries already, as `make wheels` builds them, and the library for NVIDIA's cards.
     """
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
@@ -68,6 +68,9 @@ class Engines(BuildHookInterface[Any]):
             if not (folder / name).is_file():
                 raise SystemExit(f"cointoss-dynamics: {folder / name}: missing; make wheels builds it")
             build_data["force_include"][str(folder / name)] = f"cointoss/models/kernel/engines/{name}"
+        if not system.startswith("darwin"):
+            for file in folder.glob("*-cuda.so*"):
+                build_data["force_include"][str(file)] = f"cointoss/models/kernel/engines/{file.name}"
         build_data["tag"] = f"py3-none-{PLATFORMS[system]}"
         build_data["pure_python"] = False
 

@@ -61,3 +61,23 @@ def turned(angles: Row) -> tuple[Row, Flags]:
         sines[i] = math.sin(angles[i])
         signs[i] = sines[i] > 0
     return sines, signs
+
+
+@compiled
+def sums(rows: Table, answers: Table, scale: float) -> None:
+    """Write the sum of each row's squares, times a factor, made in so many arrays as it begins with."""
+    for i in range(len(rows)):
+        if rows[i, 0] < 0:
+            raise ValueError("fewer than none")
+        total, spaces = 0.0, int(rows[i, 0])
+        for k in range(spaces):
+            room = np.empty(32 + 8 * k)
+            for j in range(rows.shape[1]):
+                room[j] = rows[i, j]
+                total += room[j] * room[j]
+        held = np.zeros(spaces)
+        held[:] = total
+        answers[i, 0] = scale * held[0] if spaces > 0 else 0.0
+
+
+sums_on_cards = engine.entry(sums, on_cards=True)

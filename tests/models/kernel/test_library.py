@@ -125,7 +125,7 @@ def test_a_library_that_is_stale_damaged_or_anothers_is_not_loaded_but_built_aga
     monkeypatch.setattr(building, "build_once", lambda *given: asked.append(given))
     with pytest.raises(EngineMissingError, match="of other sources"):
         library_file(MODULE)
-    assert asked == [(MODULE, cached[0].parent)]
+    assert asked == [(MODULE, cached[0].parent, SYSTEM)]
 
 
 def test_a_library_that_is_damaged_is_built_again_as_it_was(cached):

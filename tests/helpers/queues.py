@@ -1,0 +1,98 @@
+"""The queue of an entry's rows, as cards run it, built for this processor."""
+
+import ctypes
+import subprocess
+import sys
+import tempfile
+import threading
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.cuda import Job
+from tests.helpers.command_line import HERE
+
+LARGEST = 1 << 62
+
+
+@dataclass(frozen=True)
+class BuiltQueue:
+    """What was built of a table's entry."""
+
+    library: Path
+    ptx: str
+    said: str
+    """By the assembler."""
+
+
+def queue_of(module: str, folder: Path) -> BuiltQueue:
+    """Build the queue of a table's entry, in a process of its own."""
+    subprocess.run([sys.executable, "-m", __name__, module, str(folder)], check=True, env=HERE)
+    return BuiltQueue(
+        folder / "queue.so", (folder / "queue.ptx").read_text(), (folder / "said.txt").read_text()
+    )
+
+
+def work(
+    queue: BuiltQueue,
+    numbers: NDArray[np.int64],
+    rows: Array,
+    answers: Array,
+    *,
+    space: int,
+    threads: int = 2,
+    closes_after: int = LARGEST,
+) -> int:
+    """Have threads work on rows as `cointoss.models.kernel.cuda.Card.work` does; return the number taken."""
+    answers.view(np.int8)[:] = -1
+    spaces = np.zeros((threads, space // 8), np.int64)
+    job = Job(
+        there=len(rows),
+        next=0,
+        rows=rows.ctypes.data,
+        row_size=rows[0].nbytes,
+        answers=answers.ctypes.data,
+        answer_size=answers[0].nbytes,
+        spaces=spaces.ctypes.data,
+        space_size=space,
+        takes_for=LARGEST,
+        closes_after=closes_after,
+        given=len(numbers),
+    ).with_numbers(numbers)
+    run = ctypes.CDLL(str(queue.library)).queue
+    run.argtypes = [ctypes.c_void_p, ctypes.c_int64]
+    working = [threading.Thread(target=run, args=(job.ctypes.data, number)) for number in range(threads)]
+    for thread in working:
+        thread.start()
+    for thread in working:
+        thread.join()
+    return int(job[1])
+
+
+def main(module: str, out: str) -> None:
+    """Build the queue of a module's entry into a folder."""
+    from cointoss.models.kernel.build import device
+    from cointoss.models.kernel.build.__main__ import alone, asked_of, entries_of
+    from cointoss.models.kernel.build.linking import SYSTEMS, linked
+    from cointoss.models.kernel.build.lowering import LlvmTarget, lowered
+    from cointoss.models.kernel.library import SYSTEM
+
+    table, system, folder = alone(module), SYSTEMS[SYSTEM], Path(out)
+    (entry,) = (each.symbol for each in entries_of(table) if each.on_cards)
+    target = LlvmTarget(system.triple)
+    code = lowered(asked_of(table, (entry,)), target)
+    machine = target.machine()
+    object_file = machine.emit_object(device.queue_module(code, entry, target, machine, on_card=False))
+    with tempfile.TemporaryDirectory() as aside:
+        (folder / "queue.so").write_bytes(linked([object_file], system.zig, ["-shared"], Path(aside)))
+        ptx = device.ptx_of(code, entry)
+        (folder / "queue.ptx").write_text(ptx)
+        _, said = device.assembled(ptx, Path(aside))
+    (folder / "said.txt").write_text(said)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
