@@ -50,7 +50,7 @@ def toss_rows(rows: Table, own: OwnCode, limits: ContactLimits, wanted: int, ans
         wanted: `NO_TRUST`, `TRUST` or `CERTAIN`.
         answers: where they go, (n, 7), see `cointoss.models.answers.ANSWER`.
     """
-    impacts, y = np.zeros(2 if wanted == NO_TRUST else FIRST_ROOM, IMPACT_ROW), np.empty(STATE_SIZE)
+    impacts, y = _work_space(wanted)
     first = 0
     while first < len(rows):
         end = first + 1
@@ -63,6 +63,12 @@ def toss_rows(rows: Table, own: OwnCode, limits: ContactLimits, wanted: int, ans
             body = body_of(rows[first], rows[first, AT.air_exponent])
             _toss_run(body, some, own, limits, wanted, impacts, y, answers[first:end])
         first = end
+
+
+@compiled
+def _work_space(wanted):
+    """Return room for the rows of impacts, and for a state."""
+    return np.zeros(2 if wanted == NO_TRUST else FIRST_ROOM, IMPACT_ROW), np.empty(STATE_SIZE)
 
 
 @compiled
@@ -99,6 +105,22 @@ def toss_each(rows: Table, wanted: int, answers: Table) -> None:
             for k in range(answers.shape[1]):
                 answers[i, k] = -1.0
             answers[i, 0] = REFUSED
+
+
+@compiled
+def toss_apart(rows: Table, answers: Table, limits: ContactLimits, wanted: int) -> None:
+    """Toss each of many scenarios by itself, as a thread of a card does: in vacuum or in air with b = 0.
+
+    Args:
+        rows: of their fields, each a scenario's, (n, m).
+        answers: where they go, (n, 7), see `cointoss.models.answers.ANSWER`.
+        limits: of sustained contact.
+        wanted: `NO_TRUST`, `TRUST` or `CERTAIN`.
+    """
+    for i in range(len(rows)):
+        impacts, y = _work_space(wanted)
+        some = rows[i : i + 1]
+        _toss_run(body_of(rows[i], None), some, NO_CODE, limits, wanted, impacts, y, answers[i : i + 1])
 
 
 @compiled

@@ -15,6 +15,7 @@ toss_one = engine.entry(by_rows.toss_one)
 sample_path = engine.entry(by_rows.sample_path)
 
 toss_rows = engine.entry(by_rows.toss_rows)
+toss_apart = engine.entry(by_rows.toss_apart, on_cards=True)
 toss_coin = engine.entry(events.toss_coin)
 find_horizon = engine.entry(horizon.find_horizon)
 certainty_of = engine.entry(certainty.certainty_of)

@@ -1,0 +1,97 @@
+"""A card's threads toss as a processor does, to the bit: shown by the same code, built for a processor."""
+
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+
+from cointoss import analytic
+from cointoss.analytic import on_device
+from cointoss.analytic.by_rows import CERTAIN, NO_TRUST
+from cointoss.analytic.entries import toss_apart
+from cointoss.analytic.settings import MANY, contact_limits
+from cointoss.models.answers import NOT_TOSSED, unanswered
+from cointoss.models.batch import rows_of
+from cointoss.models.kernel.cuda import STACK
+from cointoss.models.reading import load
+from cointoss.models.rows import has_linear_air
+from tests.helpers.bits import cases
+from tests.helpers.queues import queue_of, work
+
+
+@pytest.fixture(scope="module")
+def queue(tmp_path_factory):
+    return queue_of(toss_apart.library.module, tmp_path_factory.mktemp("queue"))
+
+
+class OnProcessor:
+    """A card whose threads are those of this processor."""
+
+    def __init__(self, queue, space=None):
+        self.queue, self.space = queue, space
+
+    def work(self, file, numbers, rows, answers, space):
+        assert file is None
+        work(self.queue, numbers, rows, answers, space=self.space or space)
+
+
+@pytest.fixture
+def tossed(queue, monkeypatch):
+    """Tosses rows so, and as ever."""
+    monkeypatch.setattr(on_device, "library_file", lambda *_: None)
+
+    def both(rows, wanted=NO_TRUST, space=None):
+        found = unanswered(len(rows), None)
+        card: Any = OnProcessor(queue, space)
+        on_device.toss_on_device(card, rows, contact_limits(MANY), wanted, found)
+        by_processor = unanswered(len(rows), None)
+        trust = None if wanted == NO_TRUST else "certain"
+        analytic.toss_rows(rows, trust=trust, answers=by_processor)
+        return found, by_processor
+
+    return both
+
+
+def same_bits(some, others):
+    return np.array_equal(some.view(np.int64), others.view(np.int64))
+
+
+def thrown(name, n, **changed):
+    """Return releases of a scenario that differ in height and spin."""
+    draw = np.random.default_rng(7)
+    varied = {
+        "release.position.z": draw.uniform(0.2, 0.6, n),
+        "release.angular_velocity.eta": draw.uniform(20, 60, n),
+    }
+    return rows_of(load(name), n, varied | {field.replace("__", "."): to for field, to in changed.items()})
+
+
+def test_tosses_of_every_kind_are_the_same_to_the_bit(tossed):
+    rows = np.concatenate([rows_of(case, 1) for case in cases().values()])
+    rows = np.concatenate([rows[list(map(has_linear_air, rows))], thrown("fig24a", 20), thrown("zloty", 5)])
+    found, wanted = tossed(rows)
+    is_left = found[:, 0] == NOT_TOSSED
+    assert is_left.mean() < 0.1
+    assert same_bits(found[~is_left], wanted[~is_left])
+
+
+def test_impacts_that_can_be_trusted_and_certainty_are_the_same(tossed):
+    found, wanted = tossed(np.concatenate([thrown("fig24a", 6), thrown("zloty", 6)]), CERTAIN)
+    assert (found[:, 5:] >= 0).all()
+    assert same_bits(found, wanted)
+
+
+def test_what_needs_more_than_the_work_space_is_handed_over(tossed):
+    rows = np.concatenate([thrown("fig24a", 20, ending__max_impacts=1), thrown("zloty", 20)])
+    found, wanted = tossed(rows, space=8192)
+    is_left = found[:, 0] == NOT_TOSSED
+    assert 0 < is_left.sum() < 40
+    assert same_bits(found[~is_left], wanted[~is_left])
+
+
+def test_a_card_has_the_engine_without_a_fused_product_and_on_a_stack_of_known_size(queue):
+    assert "fma.rn.f64" not in queue.ptx
+    frames = [int(size) for size in re.findall(r"(\d+) bytes stack frame", queue.said)]
+    assert 0 < sum(sorted(frames)[-6:]) <= STACK
+    assert re.search(r"Used 128 registers", queue.said)
