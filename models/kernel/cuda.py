@@ -3,6 +3,7 @@
 import ctypes
 import threading
 import time
+from contextlib import nullcontext
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -12,9 +13,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.building import told
 
 PER_BLOCK = 128
 """Threads of a block."""
+REGISTERS = 128
+"""Registers of a thread. With 168 or 255 of them ptxas 13 makes code that writes where it should not."""
+KINDS = {"sm_90": (9, 0)}
+"""The kinds of cards whose machine code a library has, Hopper's, and their capabilities.
+
+For any other the driver compiles the library's PTX when it is first loaded, and keeps what it made.
+"""
 STACK = 16 << 10
 """Bytes of a thread's stack."""
 MOST_ROWS = 1 << 22
@@ -56,7 +65,7 @@ class Job(NamedTuple):
 
 
 class CardError(RuntimeError):
-    """There is no card that can be used, or it has failed; one line says why."""
+    """There is no card that can be used, or it has failed; the message says why."""
 
 
 class Card:
@@ -66,11 +75,12 @@ class Card:
         """Open the card.
 
         Raises:
-            CardError: without NVIDIA's package, a driver or a card.
+            ModuleNotFoundError: without NVIDIA's package.
+            CardError: without its driver, or a card.
         """
         self._cuda = _driver()
         self._lock = threading.Lock()
-        self._queues: dict[Path, tuple[Any, Any]] = {}
+        self._queues: dict[Path, Any] = {}
         self._done("the driver", self._cuda.cuInit(0))
         count = self._done("the driver", self._cuda.cuDeviceGetCount())
         if count == 0:
@@ -84,8 +94,10 @@ class Card:
         is_watched = self._attribute(kinds.CU_DEVICE_ATTRIBUTE_KERNEL_EXEC_TIMEOUT)
         ticks = self._attribute(kinds.CU_DEVICE_ATTRIBUTE_CLOCK_RATE) * 1000
         self._takes_for, self._closes_after = (int(ticks * each) for each in (SHORT if is_watched else LONG))
-        self.load_time = 0.0
-        """How long the last loading of an engine took [s]."""
+        self._has_code = (
+            self._attribute(kinds.CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MAJOR),
+            self._attribute(kinds.CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MINOR),
+        ) in KINDS.values()
 
     def work(self, file: Path, numbers: NDArray[np.int64], rows: Array, answers: Array, space: int) -> None:
         """Have an engine's queue work on rows; NaN is left in the first answer of those that it can't do.
@@ -156,14 +168,16 @@ class Card:
         self._done("its memory", cuda.cuMemcpyDtoH(answers, job.answers, answers.nbytes))
 
     def _queue(self, file: Path) -> Any:
+        """Return the queue of a library, loaded at its first use."""
         if file not in self._queues:
-            begun, cuda = time.monotonic(), self._cuda
-            self._done("its stack", cuda.cuCtxSetLimit(cuda.CUlimit.CU_LIMIT_STACK_SIZE, STACK))
-            module = self._done(f"loading {file.name}", cuda.cuModuleLoadData(file.read_bytes()))
-            queue = self._done(f"loading {file.name}", cuda.cuModuleGetFunction(module, b"queue"))
-            self._queues[file] = queue, module
-            self.load_time = time.monotonic() - begun
-        return self._queues[file][0]
+            cuda, loading = self._cuda, f"loading {file.name}"
+            self._done(loading, cuda.cuCtxSetLimit(cuda.CUlimit.CU_LIMIT_STACK_SIZE, STACK))
+            options = [cuda.CUjit_option.CU_JIT_MAX_REGISTERS], [REGISTERS]
+            is_slow = told(f"NVIDIA's driver compiles the engine for {self.name}, once", time.monotonic())
+            with nullcontext() if self._has_code else is_slow:
+                module = self._done(loading, cuda.cuModuleLoadDataEx(file.read_bytes(), 1, *options))
+            self._queues[file] = self._done(loading, cuda.cuModuleGetFunction(module, b"queue"))
+        return self._queues[file]
 
     def _blocks(self, queue: Any, space: int) -> int:
         """Return how many blocks of threads work at a time; half of the free memory has room for them."""
@@ -219,6 +233,7 @@ def card() -> Card:
     """Return the first card that CUDA shows, opened once.
 
     Raises:
+        ModuleNotFoundError: without NVIDIA's package.
         CardError: where there is none that can be used.
     """
     return Card()
@@ -228,12 +243,10 @@ def _driver() -> Any:
     """Return the functions of NVIDIA's driver.
 
     Raises:
-        CardError: where they are missing.
+        ModuleNotFoundError: without NVIDIA's package.
+        CardError: without the driver.
     """
-    try:
-        driver: Any = import_module("cuda.bindings.driver")
-    except ImportError:
-        raise CardError("NVIDIA's package is missing: pip install 'cointoss-dynamics[gpu]'") from None
+    driver: Any = import_module("cuda.bindings.driver")
     try:
         driver.cuInit(0)
     except RuntimeError:

@@ -1,7 +1,6 @@
 """An entry as code for NVIDIA's cards: PTX by LLVM, machine code by NVIDIA's assembler."""
 
 import subprocess
-from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -10,13 +9,10 @@ from llvmlite import binding
 
 from cointoss.models.kernel.build.lowering import LlvmTarget, foreign_to, optimise
 from cointoss.models.kernel.build.queue_code import of_queue
+from cointoss.models.kernel.cuda import KINDS, REGISTERS
 
 CARD = LlvmTarget("nvptx64-nvidia-cuda", "+ptx63", "sm_75")
 """The oldest cards for which there is an assembler still: their code in PTX is good for all later ones."""
-KINDS = ("sm_90",)
-"""The kinds of cards whose machine code is carried: Hopper's. For others the driver makes it of the PTX."""
-REGISTERS = 128
-"""Registers of a thread. With 168 or 255 of them ptxas 13 makes code that writes where it should not."""
 
 
 def ptx_of(code: bytes, entry: str) -> str:
@@ -54,13 +50,12 @@ def queue_module(
     return module
 
 
-def assembled(ptx: str, folder: Path, kinds: Sequence[str] = KINDS) -> tuple[bytes, str]:
-    """Return one file with the PTX and the machine code of kinds of cards, and what the assembler says of it.
+def assembled(ptx: str, folder: Path) -> tuple[bytes, str]:
+    """Return one file with the PTX and the machine code of some kinds of cards, and what the assembler says.
 
     Args:
         ptx: the code.
         folder: for what is made meanwhile.
-        kinds: of cards, as NVIDIA's tools name them.
 
     Raises:
         RuntimeError: where it can't be assembled, in one line.
@@ -68,7 +63,7 @@ def assembled(ptx: str, folder: Path, kinds: Sequence[str] = KINDS) -> tuple[byt
     source = folder / "queue.ptx"
     source.write_text(ptx)
     images, said = [], ""
-    for kind in kinds:
+    for kind in KINDS:
         made = folder / f"{kind}.cubin"
         options = ["-v", "-O3", "-maxrregcount", str(REGISTERS), f"-arch={kind}"]
         said += _told("ptxas", *options, str(source), "-o", str(made))
