@@ -1,18 +1,24 @@
 """Many tosses by the analytic engine, on all cores."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cointoss.analytic.by_rows import CERTAIN, NO_TRUST, TRUST
 from cointoss.analytic.entries import toss_rows as toss_some
 from cointoss.analytic.impact.own_law import OwnLaw, require_floor
-from cointoss.analytic.settings import MANY, AnalyticSettings, contact_limits
-from cointoss.models.answers import Answers, Trust, unanswered
+from cointoss.analytic.on_device import toss_on_device
+from cointoss.analytic.settings import MANY, AnalyticSettings, ContactLimits, contact_limits
+from cointoss.models.answers import ANSWER, NOT_TOSSED, Answers, Trust, unanswered
 from cointoss.models.batch import PLACE, checked_table, scenario_of_row
 from cointoss.models.body import NO_CODE
+from cointoss.models.devices import Device
 from cointoss.models.errors import require_type
 from cointoss.models.fields import FIELDS
 from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.cuda import Card, CardError
 from cointoss.models.making import MOST_LOSSLESS
+from cointoss.models.processor import Processor
+from cointoss.models.records import UnsupportedError
 from cointoss.models.rows import has_linear_air
 from cointoss.models.scenario import MOST_KEPT, keeping_all
 from cointoss.models.tiles import in_tiles
@@ -23,13 +29,20 @@ _WANTED = {None: NO_TRUST, "impacts": TRUST, "certain": CERTAIN}
 
 
 def require_rows(
-    rows: Array, *, settings: AnalyticSettings = MANY, law: OwnLaw | None = None, trust: Trust | None = None
+    rows: Array,
+    *,
+    settings: AnalyticSettings = MANY,
+    law: OwnLaw | None = None,
+    trust: Trust | None = None,
+    device: Processor | Device | str | None = None,
 ) -> None:
     """Refuse rows that this engine can't toss so.
 
     Raises:
         ScenarioError: for more impacts than can be kept, where trust is asked for.
-        UnsupportedError: for a floor that a law of one's own can't be used with.
+        UnsupportedError: for a floor that a law of one's own can't be used with, and for a law of one's own
+            or air with b > 0 on a card.
+        DeviceError: for the device "cuda" without a card that can be used.
     """
     require_type("settings", settings, AnalyticSettings, "analytic.AnalyticSettings, such as analytic.MANY")
     if law is not None:
@@ -40,6 +53,25 @@ def require_rows(
     if trust is not None and np.nanmax(most, initial=0) > MOST_KEPT:
         described = scenario_of_row(rows[np.nanargmax(most)])
         keeping_all(described.rules, described)
+    if (processor := Processor.of(device)).device is Device.CUDA:
+        _require_for_card(rows, law)
+        processor.card_for(len(rows))
+
+
+def _require_for_card(rows: Array, law: OwnLaw | None) -> None:
+    if law is not None:
+        raise UnsupportedError("law: given, accepted: none with `device` cuda; cpu and auto take one")
+    if len(airs := _slow_airs(rows)):
+        b = airs[0][PLACE["air.exponent"]]
+        raise UnsupportedError(
+            f"air.exponent = {b:g}: accepted with `device` cuda: 0; cpu and auto take up to 1"
+        )
+
+
+def _slow_airs(rows: Array) -> list[Array]:
+    """Return a row of each air that is not linear in the velocity."""
+    firsts = rows[np.unique(rows[:, _AIR], axis=0, return_index=True)[1]]
+    return [row for row in firsts if not has_linear_air(row)]
 
 
 def toss_rows(
@@ -50,6 +82,7 @@ def toss_rows(
     law: OwnLaw | None = None,
     workers: int | None = None,
     answers: Array | None = None,
+    device: Processor | Device | str | None = None,
 ) -> Answers:
     """Toss many scenarios by the event loop of `toss`: each toss is the same to the bit.
 
@@ -63,28 +96,59 @@ def toss_rows(
         workers: number of threads, by default one for each core.
         answers: where the answers are written as they come, (n, 7), see `models.answers.ANSWER`; what an
             interruption leaves undone is `NOT_TOSSED`.
+        device: "cpu", "cuda" or "auto"; or a `Processor` of one, which counts what a card hands over to the
+            CPU. By default the CPU.
 
     Returns:
         How each toss ended. The paths are not kept.
 
     Raises:
-        ScenarioError, UnsupportedError: see `require_rows`.
+        ScenarioError, UnsupportedError, DeviceError: see `require_rows`; and `DeviceError` for a card that
+            fails meanwhile, with the device "cuda".
+
+    Warns:
+        DeviceWarning: for a card that fails meanwhile, with the device "auto".
     """
-    rows = checked_table("rows", rows, len(FIELDS))
-    require_rows(rows, settings=settings, law=law, trust=trust)
+    rows, processor = checked_table("rows", rows, len(FIELDS)), Processor.of(device)
+    require_rows(rows, settings=settings, law=law, trust=trust, device=processor)
     if law is not None:
         rows = rows.copy()
         most = rows[:, PLACE["ending.max_impacts"]]
         most[np.isnan(most)] = MOST_LOSSLESS
     found = unanswered(len(rows), answers)
     own, limits, wanted = NO_CODE if law is None else law.code, contact_limits(settings), _WANTED[trust]
-    is_fast = all(has_linear_air(row) for row in rows[np.unique(rows[:, _AIR], axis=0, return_index=True)[1]])
+    tile = SLOW_TILE if (is_slow := bool(_slow_airs(rows))) else TILE
+    is_for_card = law is None and not is_slow
 
-    def work(part: slice) -> None:
-        toss_some(rows[part], own, limits, wanted, found[part])
+    def toss_here(rows: Array, found: Array) -> None:
+        def work(part: slice) -> None:
+            toss_some(rows[part], own, limits, wanted, found[part])
 
-    in_tiles(len(rows), TILE if is_fast else SLOW_TILE, work, workers)
+        in_tiles(len(rows), tile, work, workers)
+
+    if is_for_card and (card := processor.card_for(len(rows))) is not None:
+        left = _tossed_on(card, processor, rows, limits, wanted, found)
+        made = unanswered(len(left))
+        try:
+            toss_here(rows[left], made)
+        finally:
+            found[left] = made
+    else:
+        toss_here(rows, found)
     return Answers.of_table(found, trust)
+
+
+def _tossed_on(
+    card: Card, processor: Processor, rows: Array, limits: ContactLimits, wanted: int, found: Array
+) -> NDArray[np.intp]:
+    """Toss rows on a card, and return the numbers of those that it hands over."""
+    try:
+        toss_on_device(card, rows, limits, wanted, found)
+    except CardError as error:
+        processor.lose(error)
+    left = np.flatnonzero(found[:, ANSWER.index("outcome")] == NOT_TOSSED)
+    processor.count(card, len(rows), len(left))
+    return left
 
 
 _FLOOR, _AIR = (

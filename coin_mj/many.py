@@ -10,9 +10,11 @@ from cointoss.coin_mj.model.settings import MANY, MujocoSettings
 from cointoss.coin_mj.toss import require_supported, warn_of_approximation
 from cointoss.models.answers import Answers, Trust, unanswered
 from cointoss.models.batch import PLACE, checked_table, scenario_of_row
+from cointoss.models.devices import Device
 from cointoss.models.errors import require_type
 from cointoss.models.fields import FIELDS
 from cointoss.models.kernel.arrays import Array
+from cointoss.models.processor import Processor
 from cointoss.models.records import UnsupportedError
 from cointoss.models.tiles import in_tiles
 
@@ -24,12 +26,17 @@ _OF_MACHINE = PLACE["release.position.x"]
 
 
 def require_rows(
-    rows: Array, *, settings: MujocoSettings = MANY, law: object = None, trust: Trust | None = None
+    rows: Array,
+    *,
+    settings: MujocoSettings = MANY,
+    law: object = None,
+    trust: Trust | None = None,
+    device: Processor | Device | str | None = None,
 ) -> None:
     """Refuse rows that this engine can't toss so.
 
     Raises:
-        UnsupportedError: for floors that `toss` refuses, for a law of one's own, and for trust.
+        UnsupportedError: for floors that `toss` refuses, for a law of one's own, for trust, and for a card.
 
     Warns:
         ApproximationWarning: as `toss`.
@@ -40,6 +47,7 @@ def require_rows(
         )
     if trust is not None:
         raise UnsupportedError(f'trust = "{trust}": accepted by the MuJoCo engine: None')
+    Processor.of(device).require_cpu("by the MuJoCo engine")
     for row in rows[np.unique(rows[:, _FLOOR], axis=0, return_index=True)[1]]:
         described = scenario_of_row(row)
         require_supported(described, settings=settings)
@@ -54,6 +62,7 @@ def toss_rows(
     law: object = None,
     workers: int | None = None,
     answers: Array | None = None,
+    device: Processor | Device | str | None = None,
 ) -> Answers:
     """Toss many scenarios by the event loop of `toss`.
 
@@ -69,6 +78,7 @@ def toss_rows(
         workers: number of threads, by default one for each core.
         answers: where the answers are written as they come, (n, 7), see `models.answers.ANSWER`; what an
             interruption leaves undone is `NOT_TOSSED`.
+        device: the CPU tosses: "cpu" or "auto".
 
     Returns:
         How each toss ended. The paths are not kept.
@@ -78,7 +88,7 @@ def toss_rows(
     """
     require_type("settings", settings, MujocoSettings, "coin_mj.MujocoSettings, such as coin_mj.MANY")
     rows = checked_table("rows", rows, len(FIELDS))
-    require_rows(rows, settings=settings, law=law, trust=trust)
+    require_rows(rows, settings=settings, law=law, trust=trust, device=device)
     found = unanswered(len(rows), answers)
     # NaN, which stands for what is left out, equals itself here.
     machines = np.nan_to_num(rows[:, :_OF_MACHINE], nan=np.inf)

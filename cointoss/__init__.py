@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from cointoss.compare.sweep.errors import SweepError as SweepError
     from cointoss.compare.sweep.reading import read_map as read_map
     from cointoss.compare.sweep.toss_many import toss_many as toss_many
+    from cointoss.models.devices import DeviceError as DeviceError
+    from cointoss.models.devices import DeviceWarning as DeviceWarning
     from cointoss.models.errors import ScenarioError as ScenarioError
     from cointoss.models.hand import Hand as Hand
     from cointoss.models.hand import load_hand as load_hand

@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from cointoss.compare.basins.picture import draw_panel as draw_panel
     from cointoss.compare.basins.stripes import crossings as crossings
     from cointoss.compare.commands.common import Place as Place
+    from cointoss.compare.commands.common import device_option as device_option
     from cointoss.compare.commands.common import plain_errors as plain_errors
     from cointoss.compare.commands.common import refuse as refuse
     from cointoss.compare.commands.names import completing as completing
@@ -141,6 +142,8 @@ if TYPE_CHECKING:
     from cointoss.models.kernel.compiled import by_numba as by_numba
     from cointoss.models.kernel.digests import code_digest as code_digest
     from cointoss.models.parts import RESISTANCES as RESISTANCES
+    from cointoss.models.processor import Processor as Processor
+    from cointoss.models.processor import usual as usual
     from cointoss.models.records import Array as Array
     from cointoss.models.records import raised_flags as raised_flags
     from cointoss.models.rows import row_of as row_of

@@ -1,0 +1,123 @@
+"""What tosses the rows of a job: the CPU, or a card that hands some of them over to it."""
+
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from cointoss.models.devices import Device, DeviceError, DeviceWarning
+from cointoss.models.distribution import DISTRIBUTION
+from cointoss.models.kernel import cuda
+from cointoss.models.records import UnsupportedError
+
+LEAST_TOSSES = 1 << 12
+"""Tosses of a job from which on "auto" takes a card."""
+
+
+@contextmanager
+def usual(processor: "Processor") -> Iterator[None]:
+    """Let this process toss rows so where no device is named, as while a study is made."""
+    _usual.append(processor)
+    try:
+        yield
+    finally:
+        _usual.remove(processor)
+
+
+_usual = list["Processor"]()
+
+
+class Processor:
+    """The device of one job, which counts what a card tossed of it."""
+
+    def __init__(self, device: Device | str = Device.CPU) -> None:
+        """Begin with no toss.
+
+        Raises:
+            ValueError: for another name of a device.
+        """
+        self.device = Device(device)
+        self.card = ""
+        """The name of the card that tossed; empty where none did."""
+        self.tossed, self.handed_over = 0, 0
+        """Tosses that the card was given, and those of them that it handed over to the CPU."""
+        self.failure = ""
+        """Why the CPU tosses in place of a card."""
+        self._expected = 0
+
+    @classmethod
+    def of(cls, device: "Processor | Device | str | None") -> "Processor":
+        """Return the processor of a job, or a new one on this device; for None the `usual` one."""
+        if device is None:
+            return _usual[-1] if _usual else cls()
+        return device if isinstance(device, Processor) else cls(device)
+
+    @property
+    def attributes(self) -> dict[str, str | int]:
+        """What a dataset says of it."""
+        return {"device": self.card or str(Device.CPU), "handed_over": self.handed_over}
+
+    @property
+    def in_words(self) -> str:
+        """What tossed, for a person."""
+        if self.card:
+            handed = f"{self.handed_over:,d} of {self.tossed:,d} tosses handed over to the CPU"
+            return f"{self.card}, {handed}"
+        return f"{Device.CPU} ({self.failure})" if self.failure else str(Device.CPU)
+
+    @property
+    def is_card(self) -> bool:
+        """Whether a card tosses."""
+        return bool(self.card) and not self.failure
+
+    def require_cpu(self, where: str) -> None:
+        """Refuse the device "cuda" where no card tosses.
+
+        Raises:
+            UnsupportedError: saying where.
+        """
+        if self.device is Device.CUDA:
+            raise UnsupportedError(f"`device` cuda: accepted {where}: cpu, auto")
+
+    def expect(self, count: int) -> None:
+        """Take the number of tosses of the whole job, which decides whether a card pays."""
+        self._expected = count
+
+    def card_for(self, count: int) -> cuda.Card | None:
+        """Return the card that tosses n rows of the job, None where the CPU does.
+
+        Raises:
+            DeviceError: for the device "cuda" without a card that can be used.
+        """
+        pays = self.device is Device.CUDA or max(count, self._expected) >= LEAST_TOSSES
+        if self.device is Device.CPU or not pays or self.failure:
+            return None
+        try:
+            return cuda.card()
+        except ModuleNotFoundError:
+            why, way = "needs cuda-bindings", f'pip install "{DISTRIBUTION}[gpu]", '
+        except cuda.CardError as error:
+            why, way = str(error), ""
+        self._give_up(why, way)
+        return None
+
+    def count(self, card: cuda.Card, tossed: int, handed_over: int) -> None:
+        """Count what a card was given and what it handed over."""
+        self.card = card.name
+        self.tossed, self.handed_over = self.tossed + tossed, self.handed_over + handed_over
+
+    def lose(self, error: cuda.CardError) -> None:
+        """Give a card up that failed while it tossed; for the device "auto" the CPU goes on.
+
+        Raises:
+            DeviceError: for the device "cuda".
+
+        Warns:
+            DeviceWarning: for the device "auto".
+        """
+        self._give_up(str(error))
+        warnings.warn(DeviceWarning(f"device: {self.failure}; the CPU tosses what is left"), stacklevel=4)
+
+    def _give_up(self, why: str, way: str = "") -> None:
+        if self.device is Device.CUDA:
+            raise DeviceError(f"`device` cuda: {why}; accepted: {way}cpu, auto") from None
+        self.failure = why
