@@ -10,6 +10,7 @@ from cointoss.compare.commands.names import axes, scenario_argument
 from cointoss.compare.commands.options import one_of, only_with, options_of, without, words_of
 from cointoss.compare.commands.settings import set_option, settings_words, with_scenario
 from cointoss.compare.sweep.asked import Job, Source
+from cointoss.models.devices import Device
 
 
 @click.command(epilog=SCENARIO_HELP)
@@ -22,6 +23,7 @@ from cointoss.compare.sweep.asked import Job, Source
     only_with("contact", "engine=mujoco", "compare"),
     without("margin", "engine=mujoco", "compare"),
     without("trust", "engine=mujoco"),
+    without("device", "scheduler"),
     only_with("report", "compare"),
     only_with("no_video", "report"),
     *(only_with(name, "png", "report") for name in ("palette", "boundaries", "size", "dpi")),
@@ -40,7 +42,7 @@ def basin(source: Source, asked: Job) -> None:
     with stage("getting ready"):  # what is imported takes long on a busy machine
         from cointoss.compare.sweep.job import make
 
-    again = replace(asked, resume=True, overwrite=False, png=None, scheduler=None)
+    again = replace(asked, resume=True, overwrite=False, png=None, device=Device.CPU, scheduler=None)
     words = ["cointoss", "basin", source.name, *settings_words(source.settings), *words_of(again)]
     for result in make(asked, source, shlex.join(words), say):
         click.echo(result)

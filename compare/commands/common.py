@@ -12,6 +12,7 @@ import click
 
 from cointoss.compare.output.language import in_options
 from cointoss.compare.output.plain import json_text
+from cointoss.models.devices import Device, DeviceError, DeviceWarning
 
 SCENARIO_HELP = (
     "SCENARIO is a TOML file, or the name of a scenario that comes with the package, such as fig24a. "
@@ -129,7 +130,7 @@ def plain_errors(source: str) -> Iterator[None]:
     from cointoss.models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
     from cointoss.models.unused import UnusedFieldWarning
 
-    told, reported = (ApproximationWarning, UnusedFieldWarning), set()
+    told, reported = (ApproximationWarning, DeviceWarning, UnusedFieldWarning), set()
 
     def report(message: Warning | str, category: type[Warning], *where: Any, **extra: Any) -> None:
         if issubclass(category, told):
@@ -155,6 +156,7 @@ def plain_errors(source: str) -> Iterator[None]:
             BackEndError,
             UnusableEngineError,
             EngineMissingError,
+            DeviceError,
         ) as error:
             refuse(str(error))
         except (SweepError, UnsupportedError, FloatingPointError) as error:
@@ -186,6 +188,15 @@ def say(message: str) -> None:
     """Print a line to standard error: keywords as options, and what would split it escaped."""
     shown = "".join(char if char.isprintable() else repr(char)[1:-1] for char in in_options(message))
     click.echo(f"cointoss: {shown}", err=True)
+
+
+device_option = click.option(
+    "--device",
+    type=click.Choice([str(one) for one in Device]),
+    default=str(Device.CPU),
+    show_default=True,
+    help="What tosses: the CPU, a card of NVIDIA's, or the card where there is one and it pays.",
+)
 
 
 engine_option = click.option(

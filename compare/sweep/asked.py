@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 from cointoss.compare.basins.picture_style import PictureStyle
 from cointoss.compare.output.accepted import Form, Within
+from cointoss.models.devices import Device
 
 if TYPE_CHECKING:
     from cointoss.models.scenario import Scenario
@@ -55,6 +56,8 @@ class Job(PictureStyle):
     """Continue a map; begin it where there is none."""
     overwrite: bool = False
     """Replace an existing map."""
+    device: Device = Device.CPU
+    """What tosses: the CPU, a card of NVIDIA's, or the card where there is one and it pays."""
     scheduler: Annotated[str | None, Form("ADDRESS")] = None
     """Address of a Dask scheduler on whose workers to toss."""
     png: Path | None = None

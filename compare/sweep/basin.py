@@ -16,6 +16,7 @@ from cointoss.compare.sweep.pixels import check
 from cointoss.compare.sweep.reading import MOST_READ
 from cointoss.compare.sweep.run import toss_here
 from cointoss.compare.sweep.tossed_map import TossedMap
+from cointoss.models.devices import Device
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.scenario import Scenario
 
@@ -35,6 +36,7 @@ def basin(
     after: int | None = None,
     margin: str | None = None,
     trust: bool = False,
+    device: Device | str = Device.CPU,
 ) -> "xr.Dataset":
     """Toss a coin once for each pair of values of two fields, on all cores, and return the map.
 
@@ -52,6 +54,7 @@ def basin(
             a pixel's outcome; by the analytic engine only.
         trust: also find which pixels the engine's own errors may have decided, in two to three times the
             time with `after`, else in two to seven; by the analytic engine only.
+        device: "cpu", "cuda" or "auto", as of `toss_many`.
 
     Returns:
         `outcome` in words and `impacts`, and where asked for `margin`, and `trusted_impacts` or
@@ -63,7 +66,8 @@ def basin(
     Raises:
         ScenarioError: naming file, field, value and what is accepted.
         ValueError: naming the argument, its value and what is accepted.
-        UnsupportedError: for a scenario that the engine can't toss.
+        UnsupportedError: for a scenario that the engine can't toss, or not on that device.
+        DeviceError: for the device "cuda" where no card can be used, and where one fails.
     """
     if not isinstance(margin, str | None):
         raise SweepError(f"margin: {margin!r}, accepted: text")
@@ -81,6 +85,7 @@ def basin(
         after=None if after is None else int(after),
         margin=margin,
         trust=trust,
+        device=Device(device),
         name="" if isinstance(scenario, Scenario) else Path(scenario).stem,
     )
     ny, nx = sweep.shape
@@ -94,7 +99,8 @@ def basin(
     name = "map" if isinstance(scenario, Scenario) else f"map of {scenario}"
     gather(layers, toss_here(sweep)(whole(ny * nx)), name)
     arrays = {layer: array.reshape(sweep.shape) for layer, array in layers.items()}
-    return TossedMap(name=name, sweep=sweep, layers=arrays).dataset()
+    made = TossedMap(name=name, sweep=sweep, layers=arrays).dataset()
+    return made.assign_attrs(sweep.how.processor.attributes)
 
 
 def _axis(name: str, given: str | Mapping[str, Any], described: Scenario) -> Axis:

@@ -44,5 +44,6 @@ def about(batch: Batch, how: How) -> dict[str, Any]:
         "engine_settings": json.dumps(how.settings.as_dict()),
         "trust": how.trust or "",
         "law": "" if how.law is None else how.law.name,
+        **how.processor.attributes,
         "versions": json.dumps({**how.engine.versions, "xarray": version("xarray")}),
     }

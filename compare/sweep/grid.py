@@ -16,6 +16,8 @@ from cointoss.compare.sweep.batch import Batch, Varied
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.pieces import How
 from cointoss.models.answers import Trust
+from cointoss.models.devices import Device
+from cointoss.models.processor import Processor
 from cointoss.models.scenario import Scenario
 from cointoss.models.title import title_of_toss
 
@@ -48,6 +50,8 @@ class Sweep:
     """Name of the quantity of the release along which each pixel has its margin; with its axis in Greek."""
     trust: bool = False
     """Whether it is found which pixels can be trusted."""
+    device: Device = Device.CPU
+    """What tosses."""
     name: str = ""
     """What its scenario is called; empty for one without a name."""
 
@@ -103,11 +107,11 @@ class Sweep:
         )
         return Batch(scenario=scenario, varied=tuple(varied), sizes={"y": self.y.count, "x": self.x.count})
 
-    @property
+    @cached_property
     def how(self) -> How:
         """How its pixels are tossed."""
         trust: Trust | None = ("certain" if self.after is None else "impacts") if self.trust else None
-        return How(engine=self.engine, settings=self.settings, trust=trust)
+        return How(engine=self.engine, settings=self.settings, trust=trust, processor=Processor(self.device))
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -19,6 +19,7 @@ from cointoss.compare.sweep.layers import trust_layer
 from cointoss.compare.sweep.layout import layout_of_map
 from cointoss.compare.sweep.pixels import check
 from cointoss.compare.sweep.untrusted import untrusted_pixels
+from cointoss.models.devices import Device
 from cointoss.models.stages import stage
 
 Say = Callable[[str], None]
@@ -42,6 +43,7 @@ def sweeps_of(job: Job, source: Source, x: Axis, y: Axis) -> dict[Path, Sweep]:
             after=job.after,
             margin=job.margin,
             trust=job.trust and engine == Engine.ANALYTIC,
+            device=job.device,
             name=source.stem,
         )
         for path, engine in _engines_of(job).items()
@@ -66,7 +68,7 @@ def make(job: Job, source: Source, command: str, say: Say) -> Iterator[str]:
         say: called with what is waited for.
 
     Raises:
-        ScenarioError, SweepError, UnsupportedError: for what can't be tossed.
+        ScenarioError, SweepError, UnsupportedError, DeviceError: for what can't be tossed.
         UnwritableError: for what can't be written.
         BackEndError: where MuJoCo can't be used.
     """
@@ -98,6 +100,8 @@ def make(job: Job, source: Source, command: str, say: Say) -> Iterator[str]:
         for path, sweep in sweeps.items():
             with store.opened(path, layout_of_map(sweep, source.text), overwrite=job.overwrite) as map_:
                 run.fill(map_, _tosser(sweep, workers))
+                if job.device != Device.CPU:
+                    say(f"{path}: tossed by {sweep.how.processor.in_words}")
                 yield describe.describe_map(path, sweep, run.fractions_of(map_))
                 if sweep.margin is not None:
                     margins = map_.whole("margin")

@@ -3,7 +3,7 @@
 import time
 import warnings
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.batch import Batch
 from cointoss.models.answers import ANSWER, NOT_TOSSED, REFUSED, Answers, Trust, names_of
 from cointoss.models.batch import refused
+from cointoss.models.processor import Processor
 from cointoss.models.stages import stage
 from cointoss.models.unused import warn_of_unused_fields
 
@@ -20,6 +21,8 @@ FIRST, GROWTH, SECOND = 64, 8, 1.0
 """Tosses of the first piece; how many times as many the next may have; and the time of one [s]."""
 MOST = 1 << 17
 """Tosses of a piece, whose rows take 50 MB."""
+LEAST_ON_CARD = 1 << 14
+"""Tosses of a piece that a card makes: fewer leave a part of it idle, and take it hardly less time."""
 Columns = dict[str, NDArray[Any]]
 """Arrays by the names of answers, or of a map's layers."""
 
@@ -38,6 +41,8 @@ class How:
     """Number of threads; by default one for each core."""
     keeps: bool = False
     """Whether a row that is no scenario is answered as such; else no row is looked at again."""
+    processor: Processor = field(default_factory=Processor, compare=False)
+    """What tosses, and counts what a card tossed."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -74,13 +79,15 @@ def require_supported(batch: Batch, how: How) -> None:
     """Refuse a batch that can't be tossed so, before its first toss.
 
     Raises:
-        ScenarioError, UnsupportedError: naming field, value and what is accepted.
+        ScenarioError, UnsupportedError, DeviceError: naming field, value and what is accepted.
     """
     for tosses in batch.tried():
         rows = batch.rows(tosses)
         if how.keeps:
             rows = rows[~refused(rows, batch.fields)]
-        how.engine.package.require_rows(rows, settings=how.settings, law=how.law, trust=how.trust)
+        how.engine.package.require_rows(
+            rows, settings=how.settings, law=how.law, trust=how.trust, device=how.processor
+        )
 
 
 def columns(
@@ -132,6 +139,7 @@ def pieces(
         parts: numbers of tosses, each of which is cut into pieces; by default those of all.
     """
     size = FIRST
+    how.processor.expect(len(batch))
     for part in whole(len(batch)) if parts is None else parts:
         done = 0
         while done < len(part):
@@ -141,7 +149,8 @@ def pieces(
             done += len(piece)
             seconds = max(time.perf_counter() - start, 1e-9)
             if len(piece) == size or seconds > SECOND:
-                size = min(max(1, int(len(piece) * min(GROWTH, SECOND / seconds))), MOST)
+                least = LEAST_ON_CARD if how.processor.is_card else 1
+                size = min(max(least, int(len(piece) * min(GROWTH, SECOND / seconds))), MOST)
 
 
 def whole(count: int) -> Iterator[NDArray[np.intp]]:
@@ -166,6 +175,7 @@ def _tossed(batch: Batch, how: How, piece: NDArray[np.intp]) -> Iterator[Answers
             law=how.law,
             workers=how.workers,
             answers=made,
+            device=how.processor,
         )
     except KeyboardInterrupt as error:
         interruption = error

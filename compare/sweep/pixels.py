@@ -37,7 +37,8 @@ def _margins(sweep: Sweep, numbers: NDArray[np.intp]) -> Array:
     from cointoss.compare.metrics.margin import MANY, smallest_changes
 
     def outcomes(rows: Array) -> NDArray[np.int8]:
-        return shown(sweep, sweep.engine.package.toss_rows(rows, settings=sweep.settings))
+        how = sweep.how
+        return shown(sweep, how.engine.package.toss_rows(rows, settings=how.settings, device=how.processor))
 
     quantity = sweep.quantity
     return quantity.factor * smallest_changes(

@@ -14,7 +14,9 @@ from cointoss.compare.sweep.dataset import dataset_of
 from cointoss.compare.sweep.errors import SweepError, require_whole
 from cointoss.compare.sweep.pieces import How, check, columns, gather, warn_of_interruption
 from cointoss.models.answers import COLUMNS, Trust
+from cointoss.models.devices import Device
 from cointoss.models.errors import require_type
+from cointoss.models.processor import Processor
 from cointoss.models.reading import ScenarioSource
 from cointoss.models.records import UnsupportedError
 
@@ -38,6 +40,7 @@ def toss_many(
     settings: Any = None,
     law: "OwnLaw | None" = None,
     workers: int | None = None,
+    device: Device | str = Device.CPU,
     errors: Literal["raise", "keep"] = "raise",
     progress: bool | None = None,
     out: str | PathLike[str] | None = None,
@@ -67,6 +70,8 @@ def toss_many(
         settings: of the engine, by default its own for many tosses.
         law: a contact law of one's own, in place of the scenario's, for the analytic engine.
         workers: number of threads, by default one for each core.
+        device: "cpu"; "cuda", a card of NVIDIA's, which hands some tosses over to the CPU; or "auto", the
+            card where there is one and it pays, else the CPU. Each toss is the same on all, to the bit.
         errors: what becomes of values that make no scenario: "raise" refuses the first such toss before any
             is made; "keep" makes all others, and gives these the outcome "refused".
         progress: whether how far it is is shown; None shows it in a terminal or a notebook.
@@ -78,22 +83,27 @@ def toss_many(
     Returns:
         `outcome`, `ending` and `last_face` in words, `impacts`, `end_time` [s], and where asked for
         `trusted_impacts` and `outcome_certain`, over the dimensions of what varies, whose values are the
-        coordinates. `ds.cointoss` counts, draws and saves. With `out` the dataset is the store's, which is
+        coordinates. The attributes name the device, and say how many tosses a card handed over to the CPU.
+        `ds.cointoss` counts, draws and saves. With `out` the dataset is the store's, which is
         read as it is asked for, and has codes in place of words: `ds.cointoss` knows both.
 
     Raises:
         ScenarioError: for a scenario that can't be used, naming file or toss, field, value and what is
             accepted.
         ValueError: naming the argument, its value and what is accepted.
-        UnsupportedError: for a scenario that the engine can't toss.
+        UnsupportedError: for a scenario that the engine can't toss, or not on that device.
+        DeviceError: for the device "cuda" where no card can be used, and where one fails.
         OSError: for a store that can't be written, or one that is there, naming it and why.
 
     Warns:
         UnusedFieldWarning: for a field that nothing uses.
         ApproximationWarning: for what MuJoCo tosses by something near to it.
+        DeviceWarning: for a card that fails, with the device "auto": the CPU tosses what is left.
     """
     batch = batch_of(scenario, vary)
-    how = how_of(engine, trust=trust, settings=settings, law=law, workers=workers, errors=errors)
+    how = how_of(
+        engine, trust=trust, settings=settings, law=law, workers=workers, device=device, errors=errors
+    )
     if out is None and (resume or overwrite):
         raise SweepError(f"{'resume' if resume else 'overwrite'}: given, accepted: only with out")
     if out is not None:
@@ -131,7 +141,7 @@ def _into_store(
         except KeyboardInterrupt:
             left = sum(kept.missing(tile).size for tile in kept.tiles)
             warn_of_interruption(len(batch) - left, len(batch))
-    return accessor.opened(path)
+    return accessor.opened(path).assign_attrs(how.processor.attributes)
 
 
 def how_of(
@@ -141,6 +151,7 @@ def how_of(
     settings: Any = None,
     law: Any = None,
     workers: Any = None,
+    device: Device | str = Device.CPU,
     errors: Any = "raise",
 ) -> How:
     """Return how a batch is tossed; the arguments are those of `toss_many`.
@@ -166,4 +177,5 @@ def how_of(
         law=law,
         workers=workers,
         keeps=errors == "keep",
+        processor=Processor(device),
     )
