@@ -7,12 +7,13 @@ from typing import Annotated, Literal
 
 import click
 
-from cointoss.compare.commands.common import SCENARIO_HELP, print_json
+from cointoss.compare.commands.common import SCENARIO_HELP, print_json, say
 from cointoss.compare.commands.names import scenario_argument, varied, varying
 from cointoss.compare.commands.options import options_of
 from cointoss.compare.commands.settings import set_option, with_scenario
 from cointoss.compare.output.accepted import Form, Within
 from cointoss.compare.sweep.asked import Source
+from cointoss.models.devices import Device
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,6 +30,8 @@ class SoughtToss:
     """Over the window, at most; fewer where many show it."""
     seed: Annotated[int, Within(0, 2**32)] = 0
     """Seed of the points tossed."""
+    device: Device = Device.CPU
+    """What tosses until the outcome; the faces are found by the CPU."""
     out: Annotated[Path | None, Form("FILE.toml")] = None
     """Write the scenario of the toss; without it, it is printed."""
     json: bool = False
@@ -68,7 +71,10 @@ def find(source: Source, asked: SoughtToss) -> None:
         outcome=asked.outcome,
         tosses=asked.tosses,
         seed=asked.seed,
+        device=asked.device,
     )
+    if asked.device != Device.CPU:
+        say(f"tossed by {found.target.processor.in_words}")
     if asked.out is not None and found:
         write_text(asked.out, found.to_toml())
     if asked.json:

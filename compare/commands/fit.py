@@ -19,6 +19,7 @@ from cointoss.compare.commands.options import options_of
 from cointoss.compare.commands.settings import set_option, with_scenario
 from cointoss.compare.output.accepted import Form, Within
 from cointoss.compare.sweep.asked import Source
+from cointoss.models.devices import Device
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,6 +38,8 @@ class SoughtValues:
     """Values that are tried first, spread evenly over the spans; more for more or wider ones."""
     seed: Annotated[int, Within(0, 2**32)] = 0
     """Seed of the starts."""
+    device: Device = Device.CPU
+    """What tosses; a fit is made by the CPU, so that auto is the CPU."""
     out: Path | None = None
     """Also write the scenario with the values found to this .toml file."""
     png: Path | None = None
@@ -83,7 +86,14 @@ def fit(observed: Path, source: Source, asked: SoughtValues) -> None:
         from cointoss.compare.fitting import fit as fitting
         from cointoss.compare.fitting.answer import as_lines
 
-    found = fitting.fit(seen, source.scenario, varied(asked.vary), starts=asked.starts, seed=asked.seed)
+    found = fitting.fit(
+        seen,
+        source.scenario,
+        varied(asked.vary),
+        starts=asked.starts,
+        seed=asked.seed,
+        device=asked.device,
+    )
     if asked.out is not None:
         write_text(asked.out, found.scenario.to_toml())
     if asked.png is not None:

@@ -16,6 +16,7 @@ from cointoss.compare.commands.common import (
     CountType,
     Given,
     Place,
+    device_option,
     engine_option,
     naming_options,
     print_json,
@@ -26,6 +27,7 @@ from cointoss.compare.commands.hand_options import chosen_hand, hand_options
 from cointoss.compare.commands.names import ranges_option, scenario_argument, varied
 from cointoss.compare.commands.settings import set_option, with_scenario
 from cointoss.compare.sweep.asked import Source
+from cointoss.models.devices import Device
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -60,6 +62,7 @@ WHOLE = 1000
 )
 @engine_option
 @click.option("--compare", "both", is_flag=True, help="Count by both engines, and test how far they agree.")
+@device_option
 @click.option("--scheduler", metavar="ADDRESS", help="Address of a Dask scheduler on whose workers to toss.")
 @click.option(
     "--out",
@@ -80,6 +83,7 @@ def shares(
     to: Given | None,
     engine: str,
     both: bool,
+    device: str,
     scheduler: str | None,
     out: tuple[Path, ...],
     as_json: bool,
@@ -104,6 +108,8 @@ def shares(
     explicit = ctx.get_parameter_source("engine") == click.core.ParameterSource.COMMANDLINE
     if both and explicit:
         raise click.UsageError("--engine and --compare: accepted: one of them")
+    if scheduler and device != Device.CPU:
+        raise click.UsageError(f"--device {device}: accepted: only without --scheduler")
     from cointoss.models.stages import stage
 
     with stage("getting ready"):
@@ -111,6 +117,7 @@ def shares(
         from cointoss.compare.film.back_end import require_mujoco
         from cointoss.compare.output.files import require_file
         from cointoss.compare.shares import plan as plans
+        from cointoss.models.processor import Processor
 
     read = [given["hand_file"]] if given["hand_file"] is not None else []
     hand, _ = chosen_hand(given, source.scenario)
@@ -125,6 +132,7 @@ def shares(
             seed=seed,
             tosses=tosses,
             to=to and to.value,
+            processor=Processor(device),
         )
     for path in out:
         require_file(path, (".csv", *PICTURES), source.name, *read)
@@ -169,6 +177,8 @@ def _count(plan: "Plan", scenario: str, scheduler: str | None, out: Sequence[Pat
         for so_far in counting.counting(plan, _tosser(workers)):
             counts = so_far
         is_complete = True
+    if plan.processor.device is not Device.CPU:
+        say(f"tossed by {plan.processor.in_words}")
     for path in out:
         if (suffix := path.suffix.lower()) in PICTURES:
             from cointoss.compare.shares.picture import picture_of

@@ -14,7 +14,9 @@ from cointoss.compare.find.window import Target, Window, window_of
 from cointoss.compare.metrics.estimates import share_of
 from cointoss.compare.sweep.axes import Span
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
+from cointoss.models.devices import Device
 from cointoss.models.errors import ScenarioError
+from cointoss.models.processor import Processor
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Outcome, Toss
 from cointoss.models.scenario import Scenario
@@ -131,6 +133,7 @@ def find(
     outcome: Outcome | str | None = None,
     tosses: int = USUAL_TOSSES,
     seed: int = 0,
+    device: Device | str = Device.CPU,
 ) -> Found:
     """Search a window of a scenario for a toss that shows a sequence of faces, an outcome, or both.
 
@@ -149,17 +152,25 @@ def find(
         outcome: such as `Outcome.EDGE` or "edge".
         tosses: over the window, at most; where many show it, fewer are made.
         seed: of the points of the window.
+        device: what tosses until the outcome: "cpu", "cuda" or "auto", as of `toss_many`; faces are always
+            found by the CPU.
 
     Raises:
         ScenarioError: naming file, field, value and what is accepted.
         ValueError: naming the argument, its value and what is accepted.
+        UnsupportedError: for the device "cuda" and no outcome, or a scenario that no card tosses.
+        DeviceError: for the device "cuda" where no card can be used, and where one fails.
     """
     described = scenario_of(scenario)
     require_whole("tosses", tosses, 1, MOST_TOSSES)
     require_whole("seed", seed, 0, MOST_SEED)
     if outcome is not None and outcome not in list(Outcome):
         raise SweepError(f"outcome: {outcome!r}, accepted: {', '.join(map(str, Outcome))}")
-    target = Target(sequence=sequence, outcome=None if outcome is None else Outcome(outcome))
+    target = Target(
+        sequence=sequence,
+        outcome=None if outcome is None else Outcome(outcome),
+        processor=Processor(device),
+    )
     if len(sequence) > (most := min(LONGEST, described.rules.max_impacts)):
         raise SweepError(f"sequence: {len(sequence)} faces, accepted: at most {most}, as ending.max_impacts")
     window = window_of(vary, described)

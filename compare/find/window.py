@@ -1,7 +1,7 @@
 """What a search looks for, and where: the window of fields that vary, and what the tosses in it show."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from cointoss.compare.find.faces import faces_shown
 from cointoss.compare.sweep.axes import NUMBERS, spans_of
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.window import Window
+from cointoss.models.processor import Processor
 from cointoss.models.records import Array, Face, Outcome
 from cointoss.models.scenario import Scenario
 
@@ -32,17 +33,22 @@ class Target:
     sequence: str = ""
     """Faces up at the first touches, as in "HTTH"."""
     outcome: Outcome | None = None
+    processor: Processor = field(default_factory=Processor, compare=False)
+    """What tosses until the outcome; the faces are always found by the CPU."""
 
     def __post_init__(self) -> None:
         """Check that it is something.
 
         Raises:
             SweepError: naming what is wrong and what is accepted.
+            UnsupportedError: for the device "cuda" and no outcome.
         """
         if not isinstance(self.sequence, str) or set(self.sequence) - {"H", "T"}:
             raise SweepError(f"sequence: {self.sequence!r}, accepted: letters H and T, such as HTTH")
         if not self.sequence and self.outcome is None:
             raise SweepError("sequence, outcome: none; accepted: one of them, or both")
+        if self.outcome is None:
+            self.processor.require_cpu("for a sequence without an outcome")
 
     @property
     def steps(self) -> int:
@@ -73,7 +79,8 @@ class Target:
             shown[left] = np.logical_and.accumulate(agree, axis=1).sum(axis=1)
             left = left[shown[left] == touches]
         if steps > len(self.sequence) and len(left):
-            shown[left] += analytic.toss_rows(rows[left]).outcome == self.outcome
+            tossed = analytic.toss_rows(rows[left], device=self.processor)
+            shown[left] += tossed.outcome == self.outcome
         return shown
 
     @property

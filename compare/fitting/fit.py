@@ -18,8 +18,10 @@ from cointoss.compare.fitting.search import LEVEL, LeastSquaresSearch, Minimum
 from cointoss.compare.fitting.table import read_observed
 from cointoss.compare.sweep.axes import NUMBERS, Span, spans_of
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
+from cointoss.models.devices import Device
 from cointoss.models.errors import ScenarioError
 from cointoss.models.names import SPIN
+from cointoss.models.processor import Processor
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Array, Toss
 from cointoss.models.scenario import Scenario
@@ -200,6 +202,7 @@ def fit(
     sd: Mapping[str, float | str] | None = None,
     starts: int = STARTS,
     seed: int = 0,
+    device: Device | str = Device.CPU,
 ) -> Fit:
     """Find the values of some fields of a scenario that explain what was seen of a coin.
 
@@ -219,13 +222,16 @@ def fit(
             where it has none itself.
         starts: how many, spread evenly.
         seed: of their order.
+        device: "cpu" or "auto": the CPU tosses, for a card finds how a toss ends, not what it shows before.
 
     Raises:
         ObservationError: for a file or numbers that can't be used.
         ValueError: for a standard deviation that nothing has.
         SweepError: for a field or a span that can't be used.
         ScenarioError: for a scenario that can't be used, or where no value of the spans makes one.
+        UnsupportedError: for the device "cuda".
     """
+    Processor(device).require_cpu("by a fit")
     require_whole("starts", starts, 1, MOST_STARTS)
     require_whole("seed", seed, 0, MOST_SEED)
     described = scenario_of(scenario)

@@ -52,7 +52,7 @@ def toss_blocks(plan: Plan, engine: Engine, blocks: Part) -> Counts:
     for one in blocks:
         setting, count = plan.setting(one.setting), min(size, plan.tosses - one.number * size)
         rows.append(rows_of_releases(setting, setting.states(draws(plan, engine, one), count)))
-    outcome = engine.package.toss_rows(np.concatenate(rows)).outcome
+    outcome = engine.package.toss_rows(np.concatenate(rows), device=plan.processor).outcome
     return np.array([tally(part) for part in np.split(outcome, np.cumsum([*map(len, rows)])[:-1])])
 
 
@@ -160,6 +160,7 @@ def counting(plan: Plan, tosser: Tosser = toss_here) -> Iterator[Counts]:
                 table[row, block.setting], needed[row, block.setting] = one.counts, one.needed
             yield
 
+    plan.processor.expect(int(needed.sum()))
     with stage("shares", "tosses", detail=found) as progress:
         while not all(one.is_enough for several in counts.values() for one in several):
             for _ in chain.from_iterable(zip_longest(*(tossed(*one) for one in enumerate(plan.engines)))):

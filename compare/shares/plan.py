@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import product
 from typing import Any, NamedTuple
 
@@ -13,10 +13,12 @@ from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.axes import HAND, Axis, axis_given
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
 from cointoss.models.batch import STATE, refused, rows_from_states, scenario_of_row
+from cointoss.models.devices import Device
 from cointoss.models.errors import FieldError, ScenarioError
 from cointoss.models.fields import UNITS
 from cointoss.models.hand import OF_A_TOSS, Hand
 from cointoss.models.parts import LARGEST, Release
+from cointoss.models.processor import Processor
 from cointoss.models.records import Array, Outcome
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import counted
@@ -68,6 +70,8 @@ class Plan:
     """Of each setting, at most."""
     to: float | None = None
     """Half the width of a setting's widest interval at which its counting stops; None: it does not."""
+    processor: Processor = field(default_factory=Processor, compare=False)
+    """What tosses, and counts what a card tossed."""
 
     def __post_init__(self) -> None:
         """Check the numbers, and that the axes go together.
@@ -195,7 +199,8 @@ def check(plan: Plan) -> None:
 
     Raises:
         SweepError: naming field, value and what is accepted.
-        UnsupportedError: for a scenario that an engine can't toss.
+        UnsupportedError: for a scenario that an engine can't toss, or not on that device.
+        DeviceError: for the device "cuda" without a card that can be used.
 
     Warns:
         UnusedFieldWarning: for a field that nothing uses.
@@ -204,5 +209,7 @@ def check(plan: Plan) -> None:
     for setting in counted("checking the grid", "settings", list(plan.settings())):
         for engine in plan.engines:
             engine.package.require_supported(setting.scenario, settings=engine.package.MANY)
-        rows_of_releases(setting, setting.states(np.random.default_rng(plan.seed), 1))
+            rows = rows_of_releases(setting, setting.states(np.random.default_rng(plan.seed), 1))
+            if plan.processor.device is Device.CUDA:
+                engine.package.require_rows(rows, device=plan.processor)
     warn_of_unused_fields(setting.scenario.floor, setting.scenario.air)

@@ -13,7 +13,9 @@ from cointoss.compare.engines import Engine
 from cointoss.compare.shares.counting import Counts, counting
 from cointoss.compare.shares.plan import Plan, check, plan_of
 from cointoss.compare.sweep.errors import SweepError
+from cointoss.models.devices import Device
 from cointoss.models.hand import Hand, load_hand
+from cointoss.models.processor import Processor
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Outcome
 from cointoss.models.scenario import Scenario
@@ -33,6 +35,7 @@ def shares(
     tosses: int | None = None,
     to: float | None = None,
     seed: int = 0,
+    device: Device | str = Device.CPU,
 ) -> "xr.Dataset":
     """Toss a coin by hand many times for each value of a field, and return how often it ends how.
 
@@ -52,6 +55,7 @@ def shares(
         tosses: of each setting; with `to` at most, by default ten million, without it 1000.
         to: half the width of a setting's widest 99 % interval at which its counting stops, such as 0.005.
         seed: of the releases.
+        device: "cpu", "cuda" or "auto", as of `toss_many`.
 
     Returns:
         `count` and `share`, with the ends `low` and `high` of its 99 % interval (Wilson), over the fields
@@ -61,7 +65,8 @@ def shares(
     Raises:
         ScenarioError: naming file, field, value and what is accepted.
         ValueError: naming the argument, its value and what is accepted.
-        UnsupportedError: for a scenario that the engine can't toss.
+        UnsupportedError: for a scenario that the engine can't toss, or not on that device.
+        DeviceError: for the device "cuda" where no card can be used, and where one fails.
     """
     if not (hand is None or isinstance(hand, Hand | str | PathLike)):
         raise SweepError(f"hand: {hand!r}, accepted: a Hand, or the path of its file")
@@ -76,6 +81,7 @@ def shares(
         seed=seed,
         tosses=tosses,
         to=to,
+        processor=Processor(device),
     )
     check(plan)
     counts, is_complete = no_counts(plan), False
@@ -116,6 +122,7 @@ def dataset_of(plan: Plan, counts: Counts, *, is_complete: bool) -> "xr.Dataset"
         "hand": json.dumps(asdict(plan.hand)),
         "seed": plan.seed,
         "complete": int(is_complete),
+        **plan.processor.attributes,
     }
     dims = ("engine", *(axis.field for axis in plan.vary), "outcome")
     told = plan.counted(counts)
