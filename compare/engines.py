@@ -10,6 +10,7 @@ from warnings import catch_warnings, simplefilter
 
 from cointoss.models.answers import Answers
 from cointoss.models.batch import rows_of
+from cointoss.models.devices import Device
 from cointoss.models.distribution import versions_of
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.reading import ScenarioSource, load, named_scenarios
@@ -141,6 +142,6 @@ def _fingerprint(engine: Engine) -> str:
         scenario = load(name).replace("ending.max_impacts", FIRST_IMPACTS)
         with suppress(UnsupportedError), catch_warnings():
             simplefilter("ignore")
-            found = engine.package.toss_rows(rows_of(scenario, 1), workers=1)
+            found = engine.package.toss_rows(rows_of(scenario, 1), workers=1, device=Device.CPU)
             digest.update(found.outcome.tobytes() + found.impacts.tobytes() + found.end_time.tobytes())
     return digest.hexdigest()[:16]

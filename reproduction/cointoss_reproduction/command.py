@@ -8,7 +8,16 @@ from tempfile import TemporaryDirectory
 
 import click
 
-from cointoss.study import Place, completing, drawing_problem, plain_errors, refuse, require_mujoco, stage
+from cointoss.study import (
+    Place,
+    completing,
+    device_option,
+    drawing_problem,
+    plain_errors,
+    refuse,
+    require_mujoco,
+    stage,
+)
 from cointoss_reproduction.frame import runner
 
 
@@ -40,6 +49,7 @@ def _names() -> list[str]:
     metavar="[DIR]",
     help="List what DIR, else docs, holds that was made by other engines than those here; after the names.",
 )
+@device_option
 @click.pass_context
 def reproduce(
     ctx: click.Context,
@@ -48,6 +58,7 @@ def reproduce(
     quick: bool,
     kept: str | None,
     kept_here: str | None,
+    device: str,
 ) -> None:
     """Compute the paper's figures and the studies anew.
 
@@ -74,7 +85,7 @@ def reproduce(
             ctx.fail("--check: comes after the names; accepted: NAME ... --check [DIR]")
         if out is not None:
             ctx.fail("--out: not with --check, which writes nothing; accepted: one of them")
-        sys.exit(0 if _agree(names, Path(kept), quick=quick) else 1)
+        sys.exit(0 if _agree(names, Path(kept), device, quick=quick) else 1)
     if not names and out is None:
         _list(known)
         return
@@ -82,7 +93,7 @@ def reproduce(
         ctx.fail(f"--out: missing; accepted: {ctx.command_path} {' '.join(asked)} --out DIR")
     if not names:
         ctx.fail(f"NAME: missing; accepted: all, or one of: {', '.join(known)}")
-    sys.exit(1 if _write(names, out, quick=quick, pages=asked == ("all",)) else 0)
+    sys.exit(1 if _write(names, out, device, quick=quick, pages=asked == ("all",)) else 0)
 
 
 def _list(known: list[str]) -> None:
@@ -94,21 +105,28 @@ def _list(known: list[str]) -> None:
         click.echo(f"{name:{width}}{place}{said['title']} ({said['seconds']:g} s)")
 
 
-def _ready() -> None:
-    """Choose MuJoCo's back end, before MuJoCo is imported: figures may hold stills."""
+def _ready(device: str) -> None:
+    """Choose MuJoCo's back end, before MuJoCo is imported, for figures may hold stills; and the device."""
     with plain_errors("reproduce"):
         if not os.environ.get("MUJOCO_GL"):
             drawing_problem()
         require_mujoco()
+    from cointoss.study import Processor, usual
+
+    processor, ctx = Processor(device), click.get_current_context()
+    ctx.with_resource(usual(processor))
+    ctx.call_on_close(
+        lambda: processor.card and click.echo(f"cointoss: tossed by {processor.in_words}", err=True)
+    )
 
 
-def _write(names: tuple[str, ...], out: Path, *, quick: bool, pages: bool) -> list[str]:
+def _write(names: tuple[str, ...], out: Path, device: str, *, quick: bool, pages: bool) -> list[str]:
     """Write what is computed and print it; return the claims that come out otherwise than known."""
     from cointoss.study import require_folder
     from cointoss_reproduction.frame import gallery, printing
     from cointoss_reproduction.frame.claim import unexpected
 
-    _ready()
+    _ready(device)
     width = min(shutil.get_terminal_size((100, 24)).columns, 120)
     failed: list[str] = []
     with plain_errors(str(out)):
@@ -147,11 +165,11 @@ def _list_older(names: tuple[str, ...], kept: Path) -> bool:
     return found
 
 
-def _agree(names: tuple[str, ...], kept: Path, *, quick: bool) -> bool:
+def _agree(names: tuple[str, ...], kept: Path, device: str, *, quick: bool) -> bool:
     """Compute results anew, print how they compare with those in a folder, and return whether all agree."""
     from cointoss_reproduction.frame import checking
 
-    _ready()
+    _ready(device)
     try:
         runs = {name: checking.read_run(runner.folder_of(name, kept), quick=quick) for name in names}
     except checking.RunError as error:

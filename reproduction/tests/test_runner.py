@@ -6,8 +6,10 @@ import sys
 
 import pytest
 
+from cointoss.study import fingerprints
 from cointoss_reproduction.frame import provenance, runner
 from saved import fake
+from tests.helpers.cards import with_card, without_card
 from tests.helpers.command_line import cointoss, refused
 
 CODE = """
@@ -180,3 +182,31 @@ def test_a_result_that_does_not_say_what_made_it_is_listed_as_older(tmp_path):
     path.write_text("[]")
     assert "provenance.json: needs sources" in older("fake-good", "--older", tmp_path)[1][0]
     assert cointoss("reproduce", "fake-good", "--older", tmp_path, "--out", tmp_path).exit_code == 2
+
+
+TOSSED = """
+import numpy as np
+from cointoss import analytic, load
+from cointoss.study import rows_of
+
+def outcomes():
+    spins = {{"release.angular_velocity.eta": np.linspace(20, 40, 9)}}
+    return analytic.toss_rows(rows_of(load("fig24a"), 9, spins)).outcome
+"""
+
+
+def test_a_study_is_tossed_on_the_device_that_is_asked_for(tmp_path, monkeypatch):
+    """By a stand-in for a card, which hands a third of the tosses over to the CPU."""
+    card, code = with_card(monkeypatch), (TOSSED + CODE).format(sum="int(outcomes().sum())")
+    fake(monkeypatch, tmp_path / "studies", "fake_tossed", code, SAID)
+    asked = ("reproduce", "fake-tossed", "--out", tmp_path / "out")
+    due = cointoss(*asked)
+    fingerprints.cache_clear()  # the tosses by which a run knows its engines are the CPU's
+    found = cointoss(*asked, "--device", "cuda")
+    assert (found.exit_code, found.stdout) == (due.exit_code, due.stdout)
+    assert card.given == [9]
+    assert found.stderr.endswith("cointoss: tossed by Stand-in, 3 of 9 tosses handed over to the CPU\n")
+    without_card(monkeypatch)
+    assert refused(*asked, "--device", "cuda").startswith(
+        "cointoss: --device cuda: no NVIDIA driver was found"
+    )
