@@ -87,7 +87,7 @@ def runs_here(words: list[str]) -> bool:
     tosses = [int(count) for count in re.findall(r"=[^ ]*:(\d+)\b", " ".join(words))]
     most = MOST_TOSSES_BY_BOTH if "--compare" in words else MOST_TOSSES
     few = len(tosses) == 2 and tosses[0] * tosses[1] <= most
-    slow = {"--engine", "--scheduler", "--resume", "--margin"}
+    slow = {"--engine", "--device", "--scheduler", "--resume", "--margin"}
     if words[0] == "find":
         return "--tosses" in words
     if words[0] == "shares":
