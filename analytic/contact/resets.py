@@ -21,7 +21,7 @@ from cointoss.analytic.flight.state_vector import (
     set_velocity,
     state_of,
 )
-from cointoss.analytic.impact.laws import ImpactPoint, impulse, spin_gained
+from cointoss.analytic.impact.laws import ImpactPoint, impulse, spin_after
 from cointoss.analytic.numerics.tolerances import SLOW
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import Body, Rules
@@ -61,9 +61,10 @@ def impact_of(body: Body, rules: Rules, chi: float, before: State) -> ResolvedIm
     out = (point[0] ** 2 + point[1] ** 2) ** 0.5
     tau = (0.0, 0.0, 0.0) if flat else apply(R, (-point[1] / out, point[0] / out, 0.0))
     v_A = contact_velocity(body, R, v, w, point)
-    S, ending = impulse(body, rules, chi, ImpactPoint(R, arm, tau, v_A, flat))
+    A = ImpactPoint(R, arm, tau, v_A, flat)
+    S, ending = impulse(body, rules, chi, A)
     v_after = add(v, scale(1 / body.mass, S))
-    w_after = w if flat else add(w, spin_gained(body, R, arm, S))
+    w_after = spin_after(body, rules, w, A, S)
     return ResolvedImpact(point, v_A, S, State(x, v_after, e, w_after, R), ending)
 
 

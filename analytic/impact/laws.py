@@ -3,9 +3,9 @@
 from typing import NamedTuple
 
 from cointoss.analytic.impact.breach import Breach, breach_of
-from cointoss.models.body import Body, Rules
+from cointoss.models.body import Body, Rules, is_ideal
 from cointoss.models.contact_laws.law import NO_IMPULSE, Impact
-from cointoss.models.contact_laws.table import impulse_by
+from cointoss.models.contact_laws.table import impulse_by, spares_spin
 from cointoss.models.kernel.address import call_at
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector, add, apply, apply_transposed, cross, scale
@@ -53,6 +53,30 @@ def delassus(body: Body, R: Matrix, arm: Vector) -> Matrix:
 def spin_gained(body: Body, R: Matrix, arm: Vector, S: Vector) -> Vector:
     """Return the change of ω by an impulse S at A: J_C⁻¹ Rᵀ (a × S), body frame, eqs (88)-(90)."""
     return apply(body.inertia_inverse, apply_transposed(R, cross(arm, S)))
+
+
+@compiled
+def spin_after(body: Body, rules: Rules, w: Vector, A: ImpactPoint, S: Vector) -> Vector:
+    """Return ω after an impulse S at A, body frame, (3,) [rad/s].
+
+    The moment about the axis ζ of an ideal coin is r S_τ. Where there is none, a coin without spin about ζ
+    gets none by rounding either, and its next flight too is in closed form.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        w: ω before, body frame, (3,) [rad/s].
+        A: that touches.
+        S: space frame, (3,) [N s].
+    """
+    if A.is_flat:
+        return w
+    w_xi, w_eta, w_zeta = add(w, spin_gained(body, A.R, A.arm, S))
+    if w[2] == 0 and is_ideal(body):
+        is_spared = rules.own.address == 0 and spares_spin(rules.law)
+        along = 0.0 if is_spared else S[0] * A.tau[0] + S[1] * A.tau[1]
+        w_zeta = body.inertia_inverse[2][2] * body.radius * along
+    return w_xi, w_eta, w_zeta
 
 
 @compiled

@@ -94,6 +94,9 @@ class Law(NamedTuple):
     """Whether with μ > 0 the impulse has no limit as the slip before the impact goes to zero."""
     is_smooth: bool = False
     """Whether every impulse is vertical, so that C keeps its horizontal velocity in vacuum."""
+    spares_spin: bool = False
+    """Whether an ideal coin gets no impulse along its edge, so that it keeps its spin about ζ: its K couples
+    τ to neither ν nor z."""
     is_rough: bool = False
     """Whether it is the limit of Coulomb friction as μ grows."""
     is_followed: bool = False

@@ -22,4 +22,4 @@ def missed(impacts: Recorded) -> Array:
     return np.maximum(impacts.left(impacts.nu), impacts.changed(impacts.tau))
 
 
-LAW = Law(impulse, missed)
+LAW = Law(impulse, missed, spares_spin=True)

@@ -20,4 +20,4 @@ def missed(impacts: Recorded) -> Array:
     return np.hypot(impacts.changed(x_axis), impacts.changed(y_axis))
 
 
-LAW = Law(impulse, missed)
+LAW = Law(impulse, missed, spares_spin=True)

@@ -17,4 +17,12 @@ def missed(impacts: Recorded) -> Array:
     return impacts.horizontal / impacts.size
 
 
-LAW = Law(impulse, missed, is_smooth=True, is_followed=True, never_adds_energy=True, is_in_mujoco=True)
+LAW = Law(
+    impulse,
+    missed,
+    is_smooth=True,
+    spares_spin=True,
+    is_followed=True,
+    never_adds_energy=True,
+    is_in_mujoco=True,
+)

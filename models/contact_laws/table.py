@@ -36,6 +36,7 @@ def _asked(has: Callable[[Law], bool]) -> Callable[[int], bool]:
 uses_friction = _asked(lambda law: law.uses_friction)
 jumps_without_slip = _asked(lambda law: law.jumps_without_slip)
 is_smooth = _asked(lambda law: law.is_smooth)
+spares_spin = _asked(lambda law: law.spares_spin)
 is_rough = _asked(lambda law: law.is_rough)
 is_followed = _asked(lambda law: law.is_followed)
 never_adds = _asked(lambda law: law.never_adds_energy)

@@ -3,13 +3,15 @@
 import numpy as np
 import pytest
 
-from cointoss.analytic.impact.laws import delassus
+from cointoss import analytic
+from cointoss.analytic.impact.laws import delassus, spin_gained
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.barriers import energy
 from cointoss.models.contact_laws import sliding_friction
+from cointoss.models.contact_laws.table import LAWS, laws_that
 from cointoss.models.laws import ContactLaw
 from cointoss.models.records import Ending
-from tests.helpers.draws import PAPER_LAWS, scenario
+from tests.helpers.draws import AIR, PAPER_LAWS, draw_release, scenario
 from tests.helpers.impacts import asked, draw_impact, struck
 
 COUNT = 200
@@ -73,6 +75,61 @@ def test_laws_that_keep_slip_can_add_energy(law):
     rng = np.random.default_rng(12)
     gains = [struck(*draw_impact(rng, law, restitution=0.5))[0]["energy_change"] for _ in range(COUNT)]
     assert max(gains) > 0 > min(gains)
+
+
+def spins_of(law, coin, release):
+    """ω_ζ after the impacts before the first sustained contact, of an ideal coin that is tossed in air."""
+    floor = {"contact": str(law), "restitution": 0.8, "friction": 0.3}
+    case = scenario(coin=coin, air=AIR, floor=floor, release=release, ending={"max_impacts": 40})
+    toss = analytic.toss(case)
+    free = toss.impacts.time < toss.contacts[:, 0].min(initial=np.inf)
+    return toss.impacts.angular_velocity_after[free, 2].tolist()
+
+
+@pytest.mark.parametrize("law", laws_that(lambda law: law.spares_spin))
+@pytest.mark.parametrize("thickness", [0.0, 2e-3, 2e-2])
+def test_an_ideal_coin_without_spin_about_its_axis_gets_none_by_a_law_that_spares_it(law, thickness):
+    rng, spins = np.random.default_rng([16, int(1e3 * thickness)]), []
+    for _ in range(20):
+        release = draw_release(rng, spin=80.0)
+        release["angular_velocity"][2] = 0.0
+        spins += spins_of(law, {"thickness": thickness}, release)
+    assert len(spins) > 100
+    assert not any(spins)
+
+
+@pytest.mark.parametrize("law", list(ContactLaw))
+@pytest.mark.parametrize("axis", [0, 1])
+def test_nor_does_one_that_moves_in_a_plane_by_any_law(law, axis):
+    rng, spins = np.random.default_rng([17, int(law)]), []
+    for _ in range(20):
+        release = draw_release(rng, spin=80.0)
+        e, half = np.zeros(4), rng.uniform(0, np.pi)
+        e[0], e[1 + axis] = np.cos(half), np.sin(half)
+        release["quaternion"] = e
+        release["velocity"][axis] = 0.0
+        release["angular_velocity"] = release["angular_velocity"][axis] * np.eye(3)[axis]
+        spins += spins_of(law, {}, release)
+    assert len(spins) > 100
+    assert not any(spins)
+
+
+@pytest.mark.parametrize("law", list(ContactLaw))
+@pytest.mark.parametrize("spin", [0.0, 1e-15, -30.0])
+def test_the_spin_of_an_ideal_coin_changes_by_the_moment_of_the_impulse(law, spin):
+    """One that spins about ζ, however slowly, has the sum of its spin and that moment, to the bit."""
+    rng, turned = np.random.default_rng([18, int(law)]), 0
+    for _ in range(COUNT):
+        case, y = draw_impact(rng, law)
+        case, y[12] = case.replace("coin.center_of_mass", (0.0, 0.0, 0.0)), spin
+        row, after, _ = struck(case, y)
+        R = rotation_matrix(tuple(y[6:10]))
+        arm = np.array(R) @ row["point"]
+        gained = spin_gained(case.body, R, tuple(arm), tuple(row["impulse"]))
+        size = case.coin.radius * np.abs(row["impulse"]).max() * case.body.inertia_inverse[2][2]
+        assert after[12] == pytest.approx(spin + gained[2], abs=1e-15 * max(size, abs(spin)))
+        turned += abs(gained[2]) > 1e-3 * size
+    assert (turned > COUNT / 2) == (not LAWS[law].spares_spin)
 
 
 def test_the_energy_recorded_is_that_of_the_state_after():

@@ -16,6 +16,7 @@ ASKED = {
     table.uses_friction: lambda law: law.uses_friction,
     table.jumps_without_slip: lambda law: law.jumps_without_slip,
     table.is_smooth: lambda law: law.is_smooth,
+    table.spares_spin: lambda law: law.spares_spin,
     table.is_rough: lambda law: law.is_rough,
     table.is_followed: lambda law: law.is_followed,
     table.never_adds: lambda law: law.never_adds_energy,
