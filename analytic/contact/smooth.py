@@ -15,7 +15,7 @@ from cointoss.analytic.flight.state_vector import (
     state_of,
     velocity_of,
 )
-from cointoss.models.body import Body
+from cointoss.models.body import Body, is_ideal
 from cointoss.models.kernel.compiled import compiled, inlined
 from cointoss.models.kernel.vectors import Vector, add, apply, apply_transposed, cross, dot, scale
 from cointoss.models.records import Array
@@ -30,6 +30,7 @@ def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
     A = rim_motion(body, FRICTIONLESS, flight, contact.rim)
     b_z = dot(A.up, A.free_acceleration)
     N = stopping(body, A.up, A.arm, b_z, dy)
+    _spare_spin(body, flight.state.spin, dy)
     return min(contact_margin(body, A.up, N, contact.rim), -b_z / body.gravity)
 
 
@@ -42,6 +43,21 @@ def project(contact: SustainedContact, y: Array) -> None:
     a, turn, _ = rim_point(body, up, state.spin, contact.rim)
     set_height(y, -dot(up, a))
     stopping(body, up, a, dot(up, add(apply_transposed(state.R, state.velocity), turn)), y)
+    _spare_spin(body, state.spin, y)
+
+
+@inlined
+def _spare_spin(body: Body, w: Vector, change: Array) -> None:
+    """Let an ideal coin without spin about ζ get none by rounding; see `laws.spin_after`.
+
+    Args:
+        body: the coin; linear air gives it none either.
+        w: ω, body frame, (3,) [rad/s].
+        change: see `stopping`.
+    """
+    if body.air.exponent is None and w[2] == 0 and is_ideal(body):
+        w_xi, w_eta, _ = spin_of(change)
+        set_spin(change, (w_xi, w_eta, 0.0))
 
 
 @inlined

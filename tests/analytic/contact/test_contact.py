@@ -128,6 +128,19 @@ def test_a_coin_on_a_smooth_floor_keeps_energy_and_momentum_and_does_not_leave_i
     assert L_z == pytest.approx(L_z_start, rel=1e-11)
 
 
+@pytest.mark.parametrize("air", [{}, AIR])
+def test_an_ideal_coin_on_a_smooth_floor_gets_no_spin_about_its_axis(air):
+    rng, body = np.random.default_rng(13), scenario(coin=ZLOTY, air=air).body
+    for _ in range(20):
+        y = draw_wobble(rng, body, Mode.SLIDING)
+        y[12] = 0.0
+        smooth.project(held(body, SMOOTH, Mode.SLIDING, y), y)
+        for _ in range(10):
+            follow_step(body, SMOOTH, Mode.SLIDING, y, 1e-3)
+            assert y[12] == 0
+            assert y[10:12].any()
+
+
 @pytest.mark.parametrize("mode", [Mode.SLIDING, Mode.STICKING])
 @pytest.mark.parametrize("tilt", [0.3, 1.0, 1.3])
 def test_eulers_disk_precesses_at_its_rate(mode, tilt):
