@@ -16,7 +16,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from cointoss.study import Estimate, Progress, read_bounded, write_text
-from cointoss_reproduction.frame.files import MOST_BYTES
+from cointoss_reproduction.frame.files import MOST_BYTES, TABLE, folder_of
 from cointoss_reproduction.frame.provenance import sources
 
 Rows = Mapping[str, Any] | Iterable[Mapping[str, Any]] | pd.DataFrame | None
@@ -89,6 +89,19 @@ def read_table(path: Path) -> pd.DataFrame:
     """
     head, *rows = csv.reader(read_bounded(path, MOST_BYTES).decode().splitlines())
     return _frame([dict(zip(head, map(_value, row), strict=True)) for row in rows])
+
+
+def kept_rows(study: str, out: Path | None, where: str) -> list[dict[Any, Any]]:
+    """Return what another study has kept in the folder of all results; none if it has not run.
+
+    Args:
+        study: its name.
+        out: the folder, where there is one.
+        where: which rows, as pandas' query has it.
+    """
+    if out is None or not (path := folder_of(study, out) / TABLE).exists():
+        return []
+    return read_table(path).query(where, engine="python").to_dict("records")
 
 
 def text_of(table: pd.DataFrame) -> str:

@@ -10,8 +10,7 @@ import pandas as pd
 
 from cointoss import Scenario, analytic
 from cointoss.study import Array, Estimate, quotient, rows_from_states, share
-from cointoss_reproduction.frame.cells import Cells, estimate, read_table
-from cointoss_reproduction.frame.files import TABLE, folder_of
+from cointoss_reproduction.frame.cells import Cells, estimate, kept_rows
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case, planar_rows
@@ -60,7 +59,8 @@ def compare(
     scenario = case(air=floor == AIR, restitution=chi)
     if floor == ROUGH:
         scenario = scenario.replace("floor.contact", "perfectly_rough")
-    known = kept_rows(out, floor, chi)
+    where = f"quantity == 'height' and floor == '{floor}' and chi == {chi}"
+    known = {row["accuracy"]: row for row in kept_rows("predictability", out, where)}
     for row in rows_of(by_chain(scenario, levels, tosses)):
         other = known.get(row["accuracy"])
         f, alpha = (other and estimate(other, name) for name in ("share", "alpha"))
@@ -86,14 +86,6 @@ def rows_of(shares: Array) -> Iterator[dict[str, Any]]:
             "window": slope and f"{accuracy:.0e} to {end:.0e}",
             "predicted_alpha": slope,
         }
-
-
-def kept_rows(out: Path | None, floor: str, chi: float) -> dict[float, dict[str, Any]]:
-    """Return what `predictability` has of a case whose height varies, by accuracy; none if it has not run."""
-    if out is None or not (table := folder_of("predictability", out) / TABLE).exists():
-        return {}
-    rows = read_table(table).query(f"quantity == 'height' and floor == '{floor}' and chi == {chi}")
-    return {row["accuracy"]: row for row in rows.to_dict("records")}
 
 
 def with_ratio(row: Mapping[str, Any], counted: Any) -> dict[str, Any]:
