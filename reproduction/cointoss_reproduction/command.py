@@ -3,8 +3,10 @@
 import os
 import shutil
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import click
 
@@ -19,6 +21,10 @@ from cointoss.study import (
     stage,
 )
 from cointoss_reproduction.frame import runner
+from cointoss_reproduction.frame.sizes import SizeError
+
+_Sizes = Mapping[str, Mapping[str, Any]]
+"""By the name of what is reproduced, sizes by their names."""
 
 
 def _names() -> list[str]:
@@ -33,6 +39,13 @@ def _names() -> list[str]:
     help="Folder of the results, each in its reproduction/NAME/; made if missing.",
 )
 @click.option("--quick", is_flag=True, help="Compute the smaller version of each that has one.")
+@click.option(
+    "--set",
+    "settings",
+    multiple=True,
+    metavar="SIZE=VALUE",
+    help="Another size of the run, where its page names one: tosses=1e6; may be given again.",
+)
 @click.option(
     "--check",
     "kept",
@@ -56,6 +69,7 @@ def reproduce(
     names: tuple[str, ...],
     out: Path | None,
     quick: bool,
+    settings: tuple[str, ...],
     kept: str | None,
     kept_here: str | None,
     device: str,
@@ -76,6 +90,10 @@ def reproduce(
     for name in names:
         if name not in known:
             ctx.fail(f"{name}: no such name; accepted: {', '.join(known)}")
+    try:
+        sizes = {name: runner.find(name).sizes(settings) for name in names} if settings else {}
+    except SizeError as error:
+        ctx.fail(f"--set: {error}")
     if kept_here is not None:
         if out is not None or kept is not None:
             ctx.fail("--older: not with --out or --check; accepted: one of them")
@@ -85,7 +103,8 @@ def reproduce(
             ctx.fail("--check: comes after the names; accepted: NAME ... --check [DIR]")
         if out is not None:
             ctx.fail("--out: not with --check, which writes nothing; accepted: one of them")
-        sys.exit(0 if _agree(names, Path(kept), device, quick=quick) else 1)
+        _ready(device)
+        sys.exit(0 if _agree(names, Path(kept), quick=quick, sizes=sizes) else 1)
     if not names and out is None:
         _list(known)
         return
@@ -93,7 +112,8 @@ def reproduce(
         ctx.fail(f"--out: missing; accepted: {ctx.command_path} {' '.join(asked)} --out DIR")
     if not names:
         ctx.fail(f"NAME: missing; accepted: all, or one of: {', '.join(known)}")
-    sys.exit(1 if _write(names, out, device, quick=quick, pages=asked == ("all",)) else 0)
+    _ready(device)
+    sys.exit(1 if _write(names, out, quick=quick, sizes=sizes, pages=asked == ("all",)) else 0)
 
 
 def _list(known: list[str]) -> None:
@@ -120,13 +140,12 @@ def _ready(device: str) -> None:
     )
 
 
-def _write(names: tuple[str, ...], out: Path, device: str, *, quick: bool, pages: bool) -> list[str]:
+def _write(names: tuple[str, ...], out: Path, *, quick: bool, sizes: _Sizes, pages: bool) -> list[str]:
     """Write what is computed and print it; return the claims that come out otherwise than known."""
     from cointoss.study import require_folder
     from cointoss_reproduction.frame import gallery, printing
     from cointoss_reproduction.frame.claim import unexpected
 
-    _ready(device)
     width = min(shutil.get_terminal_size((100, 24)).columns, 120)
     failed: list[str] = []
     with plain_errors(str(out)):
@@ -135,11 +154,13 @@ def _write(names: tuple[str, ...], out: Path, device: str, *, quick: bool, pages
             runner.require_writable(name, out)
         for name in names:
             with stage(name, "parts") as progress:
-                result = runner.reproduce(name, out, progress, quick=quick)
+                result = runner.reproduce(name, out, progress, quick=quick, sizes=sizes.get(name, {}))
             if name != names[0]:
                 click.echo()
             click.echo(printing.page(name, result, runner.folder_of(name, out), width))
-            failed += [f"{name}: {claim}" for claim in unexpected(result.claims, quick=quick)]
+            failed += [
+                f"{name}: {claim}" for claim in unexpected(result.claims, quick=quick or name in sizes)
+            ]
         if pages:
             gallery.write(out, names, quick=quick)
     for claim in failed:
@@ -165,11 +186,10 @@ def _list_older(names: tuple[str, ...], kept: Path) -> bool:
     return found
 
 
-def _agree(names: tuple[str, ...], kept: Path, device: str, *, quick: bool) -> bool:
+def _agree(names: tuple[str, ...], kept: Path, *, quick: bool, sizes: _Sizes) -> bool:
     """Compute results anew, print how they compare with those in a folder, and return whether all agree."""
     from cointoss_reproduction.frame import checking
 
-    _ready(device)
     try:
         runs = {name: checking.read_run(runner.folder_of(name, kept), quick=quick) for name in names}
     except checking.RunError as error:
@@ -177,9 +197,10 @@ def _agree(names: tuple[str, ...], kept: Path, device: str, *, quick: bool) -> b
     agree = True
     for name, there in runs.items():
         timed = runner.find(name).timed
+        own = {**(there.made_of or {}).get("sizes", {}), **sizes.get(name, {})}
         with plain_errors(name), TemporaryDirectory() as aside:
             with stage(name, "parts") as progress:
-                runner.reproduce(name, Path(aside), progress, quick=quick)
+                runner.reproduce(name, Path(aside), progress, quick=quick, sizes=own)
             here = checking.read_run(runner.folder_of(name, Path(aside)), quick=quick)
             found = checking.check(there, here, timed=timed)
         click.echo(checking.in_words(name, str(runner.folder_of(name, kept)), found, timed=timed))

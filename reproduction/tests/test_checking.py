@@ -149,6 +149,24 @@ def test_of_times_the_verdicts_alone_are_compared(kept):
     assert check(folder)[0] == 1
 
 
+def test_a_run_of_another_size_is_compared_with_one_of_the_same_size(kept):
+    folder, write = kept
+    sized = 'settable = ["tosses", "device"]\n' + SAID
+    write(
+        "def cell(coin):", "def cell(coin, tosses=100, device='cpu'):\n    LENGTH = tosses / 1000", said=sized
+    )
+    assert (
+        cointoss("reproduce", "fake", "--out", folder, "--set", "tosses=2e2", "--set", "device=b").exit_code
+        == 0
+    )
+    assert json.loads(of(folder, "provenance.json").read_text())["sizes"] == {"tosses": 200, "device": "b"}
+    assert "0.2" in of(folder, "cells.csv").read_text()
+    assert check(folder)[0] == 0
+    answered = cointoss("reproduce", "fake", "--set", "tosses=300", "--check", folder)
+    assert answered.exit_code == 1
+    assert "length[0]: 0.2 there, 0.3 here" in answered.stdout
+
+
 def test_what_cannot_be_compared_is_refused_before_any_work(kept, tmp_path):
     folder, write = kept
     write("def cell(coin):", "def cell(coin):\n    raise KeyboardInterrupt")

@@ -1,12 +1,13 @@
 """What can be reproduced, and what a run of it found."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cointoss_reproduction.frame.claim import Claim
 from cointoss_reproduction.frame.files import CLAIMS, PAGE, PROVENANCE, SHEETS, TABLE
+from cointoss_reproduction.frame.sizes import read_sizes
 
 if TYPE_CHECKING:  # names are listed without it
     from matplotlib.figure import Figure
@@ -47,8 +48,20 @@ class Reproduction:
     """Whether it keeps what it has done in its folder, so that an interrupted run goes on."""
     timed: bool = False
     """Whether its numbers are times, which no two runs share."""
+    settable: Sequence[str] = ()
+    """The sizes of a run that a command line may give."""
+    usual: Mapping[str, Any] = field(default_factory=dict)
+    """The sizes of a run by name, as they are where nothing else is said."""
     assumed: str = ""
     """What the paper leaves unsaid, and what is assumed instead."""
+
+    def sizes(self, settings: Sequence[str]) -> dict[str, Any]:
+        """Return the sizes that `settings` give, NAME=VALUE each.
+
+        Raises:
+            SizeError: for one that it does not take.
+        """
+        return read_sizes({name: self.usual[name] for name in self.settable}, settings)
 
     @property
     def files(self) -> tuple[str, ...]:

@@ -2,8 +2,10 @@
 
 import importlib
 import pkgutil
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from cointoss_reproduction import studies
@@ -49,7 +51,14 @@ def require_writable(name: str, out: Path) -> None:
     require_folder(folder_of(name, out), find(name).files)
 
 
-def reproduce(name: str, out: Path, progress: "Progress", *, quick: bool = False) -> "Result":
+def reproduce(
+    name: str,
+    out: Path,
+    progress: "Progress",
+    *,
+    quick: bool = False,
+    sizes: Mapping[str, Any] = MappingProxyType({}),
+) -> "Result":
     """Compute one of the `names` and write its files into its folder, all of them or none.
 
     Args:
@@ -57,6 +66,7 @@ def reproduce(name: str, out: Path, progress: "Progress", *, quick: bool = False
         out: folder of all that is reproduced, made if missing.
         progress: called as the work goes on.
         quick: whether to make its quick size, if it has one.
+        sizes: of the run, by name, which are other than usual.
 
     Raises:
         UnwritableError: naming the folder and why.
@@ -67,14 +77,14 @@ def reproduce(name: str, out: Path, progress: "Progress", *, quick: bool = False
     found = find(name)
     require_writable(name, out)
     folder = folder_of(name, out)
-    make = (found.quick if quick else None) or found.make
+    make = partial((found.quick if quick else None) or found.make, **sizes)
     if found.resumes:
         make = partial(make, kept=folder / PARTS)
     with written_together(folder, found.files) as aside:
         result = make(progress)
         saving.save(aside, result, found.draw)
         pages.write(aside, name, found, result, quick=quick)
-        provenance.keep(aside, quick=quick)
+        provenance.keep(aside, quick=quick, sizes=sizes)
     remove(folder / PARTS)
     return result
 

@@ -62,4 +62,4 @@ def study(
     pictures = {
         name: (lambda cells, one=one: picture_of(cells, one)) for name, one in said.get("picture", {}).items()
     }
-    return declared(module, make, read=read, draw={**draw, **pictures}, resumes=True)
+    return declared(module, make, read=read, draw={**draw, **pictures}, usual=usual, resumes=True)
