@@ -11,6 +11,11 @@ REFUSED = {
     "--out out": "NAME: missing; accepted: all, or one of: accuracy-and-stripes, ",
     "nothing": "nothing: no such name; accepted: accuracy-and-stripes, ",
     "contact-laws no-such --out out": "no-such: no such name; accepted: ",
+    "plain-counting --out out --set tosses=few": "--set: tosses: 'few', accepted: a whole number",
+    "plain-counting --out out --set tosses=0.5": "--set: tosses: '0.5', accepted: a whole number",
+    "plain-counting --out out --set tosses=inf": "--set: tosses: 'inf', accepted: a whole number",
+    "plain-counting --out out --set coins=3": "--set: coins: no such size, accepted: tosses",
+    "fig4 plain-counting --out out --set tosses=3": "--set: tosses: no such size, accepted: none",
     "contact_laws --out out": "contact_laws: no such name; accepted: ",
 }
 

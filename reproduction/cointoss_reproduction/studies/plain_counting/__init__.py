@@ -1,0 +1,1 @@
+"""Shares of uncertain tosses and of coins on edge by plain counting."""
