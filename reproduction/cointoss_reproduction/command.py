@@ -200,7 +200,7 @@ def _agree(names: tuple[str, ...], kept: Path, *, quick: bool, sizes: _Sizes) ->
         own = {**(there.made_of or {}).get("sizes", {}), **sizes.get(name, {})}
         with plain_errors(name), TemporaryDirectory() as aside:
             with stage(name, "parts") as progress:
-                runner.reproduce(name, Path(aside), progress, quick=quick, sizes=own)
+                runner.reproduce(name, Path(aside), progress, quick=quick, sizes=own, beside=Path(kept))
             here = checking.read_run(runner.folder_of(name, Path(aside)), quick=quick)
             found = checking.check(there, here, timed=timed)
         click.echo(checking.in_words(name, str(runner.folder_of(name, kept)), found, timed=timed))

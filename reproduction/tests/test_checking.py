@@ -167,6 +167,15 @@ def test_a_run_of_another_size_is_compared_with_one_of_the_same_size(kept):
     assert "length[0]: 0.2 there, 0.3 here" in answered.stdout
 
 
+def test_a_study_that_is_checked_compares_itself_with_what_was_kept_beside_it(kept):
+    folder, write = kept
+    (folder / "length").write_text("0.7")
+    write("def cell(coin):", "def cell(coin, out=None):\n    LENGTH = float((out / 'length').read_text())")
+    assert cointoss("reproduce", "fake", "--out", folder).exit_code == 0
+    assert "0.7" in of(folder, "cells.csv").read_text()
+    assert check(folder)[0] == 0
+
+
 def test_what_cannot_be_compared_is_refused_before_any_work(kept, tmp_path):
     folder, write = kept
     write("def cell(coin):", "def cell(coin):\n    raise KeyboardInterrupt")

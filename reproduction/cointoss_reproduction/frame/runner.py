@@ -58,6 +58,7 @@ def reproduce(
     *,
     quick: bool = False,
     sizes: Mapping[str, Any] = MappingProxyType({}),
+    beside: Path | None = None,
 ) -> "Result":
     """Compute one of the `names` and write its files into its folder, all of them or none.
 
@@ -67,6 +68,7 @@ def reproduce(
         progress: called as the work goes on.
         quick: whether to make its quick size, if it has one.
         sizes: of the run, by name, which are other than usual.
+        beside: folder of the results with which a study compares itself, by default `out`.
 
     Raises:
         UnwritableError: naming the folder and why.
@@ -78,6 +80,8 @@ def reproduce(
     require_writable(name, out)
     folder = folder_of(name, out)
     make = partial((found.quick if quick else None) or found.make, **sizes)
+    if beside is not None and "out" in found.usual:
+        make = partial(make, out=beside)
     if found.resumes:
         make = partial(make, kept=folder / PARTS)
     with written_together(folder, found.files) as aside:
