@@ -15,7 +15,7 @@ from cointoss.models.devices import Device
 from cointoss.models.errors import require_type
 from cointoss.models.fields import FIELDS
 from cointoss.models.kernel.arrays import Array
-from cointoss.models.kernel.cuda import Card, CardError
+from cointoss.models.kernel.cuda import CardError, GraphicsCard
 from cointoss.models.making import MOST_LOSSLESS
 from cointoss.models.processor import Processor
 from cointoss.models.records import UnsupportedError
@@ -70,7 +70,10 @@ def _require_for_card(rows: Array, law: OwnLaw | None) -> None:
 
 def _slow_airs(rows: Array) -> list[Array]:
     """Return a row of each air that is not linear in the velocity."""
-    firsts = rows[np.unique(rows[:, _AIR], axis=0, return_index=True)[1]]
+    airs = rows[:, _AIR]
+    if len(rows) > 1 and (airs == airs[0]).all():
+        rows, airs = rows[:1], airs[:1]
+    firsts = rows[np.unique(airs, axis=0, return_index=True)[1]]
     return [row for row in firsts if not has_linear_air(row)]
 
 
@@ -139,7 +142,7 @@ def toss_rows(
 
 
 def _tossed_on(
-    card: Card, processor: Processor, rows: Array, limits: ContactLimits, wanted: int, found: Array
+    card: GraphicsCard, processor: Processor, rows: Array, limits: ContactLimits, wanted: int, found: Array
 ) -> NDArray[np.intp]:
     """Toss rows on a card, and return the numbers of those that it hands over."""
     try:

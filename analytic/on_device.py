@@ -7,14 +7,14 @@ from cointoss.analytic.entries import toss_apart
 from cointoss.analytic.settings import ContactLimits
 from cointoss.models.answers import NOT_TOSSED
 from cointoss.models.kernel.arrays import Array
-from cointoss.models.kernel.cuda import Card
+from cointoss.models.kernel.cuda import GraphicsCard
 from cointoss.models.kernel.library import CUDA, library_file
 
 SPACE, SPACE_OF_TRUST = 64 << 10, 1 << 20
 """Bytes of a thread's work space, without trust and with it; a toss that needs more is handed over."""
 
 
-def toss_on_device(card: Card, rows: Array, limits: ContactLimits, wanted: int, found: Array) -> None:
+def toss_on_device(card: GraphicsCard, rows: Array, limits: ContactLimits, wanted: int, found: Array) -> None:
     """Toss rows on a card, each the same to the bit as by a processor.
 
     Args:

@@ -82,7 +82,7 @@ class Processor:
         """Take the number of tosses of the whole job, which decides whether a card pays."""
         self._expected = count
 
-    def card_for(self, count: int) -> cuda.Card | None:
+    def card_for(self, count: int) -> cuda.GraphicsCard | None:
         """Return the card that tosses n rows of the job, None where the CPU does.
 
         Raises:
@@ -100,7 +100,7 @@ class Processor:
         self._give_up(why, way)
         return None
 
-    def count(self, card: cuda.Card, tossed: int, handed_over: int) -> None:
+    def count(self, card: cuda.GraphicsCard, tossed: int, handed_over: int) -> None:
         """Count what a card was given and what it handed over."""
         self.card = card.name
         self.tossed, self.handed_over = self.tossed + tossed, self.handed_over + handed_over

@@ -68,7 +68,7 @@ class CardError(RuntimeError):
     """There is no card that can be used, or it has failed; the message says why."""
 
 
-class Card:
+class GraphicsCard:
     """The first card that CUDA shows, with one queue at a time."""
 
     def __init__(self) -> None:
@@ -214,7 +214,7 @@ class Card:
 class _Memory:
     """Memory of a card, given back together."""
 
-    def __init__(self, card: Card) -> None:
+    def __init__(self, card: GraphicsCard) -> None:
         self._card, self._taken = card, []
 
     def taken(self, size: int) -> int:
@@ -229,14 +229,14 @@ class _Memory:
 
 
 @cache
-def card() -> Card:
+def card() -> GraphicsCard:
     """Return the first card that CUDA shows, opened once.
 
     Raises:
         ModuleNotFoundError: without NVIDIA's package.
         CardError: where there is none that can be used.
     """
-    return Card()
+    return GraphicsCard()
 
 
 def _driver() -> Any:

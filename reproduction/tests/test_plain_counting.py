@@ -1,4 +1,4 @@
-"""Plain counting: the exact share, tosses counted apart, pieces, devices, and claims that can fail."""
+"""Plain counting: the exact share, tosses counted apart, pieces, and claims that can fail."""
 
 from types import SimpleNamespace
 
@@ -50,7 +50,7 @@ def test_a_toss_is_counted_where_it_ends_otherwise_lower_or_higher():
     scenario, tosses = case(air=False), 500
     rng = np.random.default_rng(SEED)
     z, spin = rng.uniform(*HEIGHTS, tosses), rng.uniform(*SPINS, tosses)
-    found = {row["accuracy"]: row["changed"] for row in turned_over(scenario, tosses, "cpu")}
+    found = {row["accuracy"]: row["changed"] for row in turned_over(scenario, tosses)}
     for accuracy in (1e-3, 1e-6):
         lower, middle, upper = (
             analytic.toss_rows(planar_rows(scenario, z + step, spin)).outcome
@@ -79,32 +79,28 @@ def test_coins_on_edge_are_counted_in_pieces_beside_those_before(monkeypatch):
     assert on_edge(THICK, tosses=10)["chance"] is None
 
 
-def test_all_tosses_are_made_whatever_the_pieces_and_the_device_is_passed_on(monkeypatch):
+def test_all_tosses_are_made_whatever_the_pieces(monkeypatch):
     asked = []
 
-    def toss_many(_scenario, vary, **how):
+    def toss_many(_scenario, vary, **_):
         count = len(vary["release.position.z"])
-        asked.append((count, how))
+        asked.append(count)
         return SimpleNamespace(outcome=SimpleNamespace(to_numpy=lambda: np.full(count, "heads")))
 
     monkeypatch.setattr(plain_counting, "toss_many", toss_many)
     monkeypatch.setattr(plain_counting, "PIECE", 40)
-    (row,) = turned_over(case(air=False), 100, "cuda")
+    (row,) = turned_over(case(air=False), 100)
     assert (row["changed"], row["tosses"]) == (0, 100)
     levels = round(np.log10(1e-3 / FINEST)) + 1
-    assert sum(count for count, _ in asked) == 100 * (1 + 2 * levels)
-    assert max(count for count, _ in asked) == 40
-    assert all(how == {"progress": False, "device": "cuda"} for _, how in asked)
-    asked.clear()
-    list(turned_over(case(air=False), 1, "cpu"))
-    assert all(how == {"progress": False} for _, how in asked)
+    assert sum(asked) == 100 * (1 + 2 * levels)
+    assert max(asked) == 40
 
 
 def test_an_interrupted_batch_is_not_counted(monkeypatch):
     ended = SimpleNamespace(outcome=SimpleNamespace(to_numpy=lambda: np.array(["heads", "not_tossed"])))
     monkeypatch.setattr(plain_counting, "toss_many", lambda *_, **__: ended)
     with pytest.raises(KeyboardInterrupt):
-        list(turned_over(case(air=False), 2, "cpu"))
+        list(turned_over(case(air=False), 2))
 
 
 @pytest.mark.parametrize(

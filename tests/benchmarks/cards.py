@@ -16,7 +16,7 @@ from cointoss.models.answers import NOT_TOSSED, Trust, unanswered
 from cointoss.models.batch import rows_of
 from cointoss.models.cores import cores_used
 from cointoss.models.kernel.arrays import Array
-from cointoss.models.kernel.cuda import Card, card
+from cointoss.models.kernel.cuda import GraphicsCard, card
 from cointoss.models.reading import load
 
 SECONDS = 4.0
@@ -77,7 +77,7 @@ class Measured:
     equal: int
 
 
-def measured(case: Case, on: Card) -> Measured:
+def measured(case: Case, on: GraphicsCard) -> Measured:
     """Toss a case on a card and on all cores."""
     timed(case, on, case.rows(min(case.most, 40_000)))  # the engine is loaded
     rows = case.rows(min(case.most, 40_000))
@@ -106,7 +106,7 @@ def measured(case: Case, on: Card) -> Measured:
     )
 
 
-def timed(case: Case, on: Card, rows: Array) -> tuple[Array, float]:
+def timed(case: Case, on: GraphicsCard, rows: Array) -> tuple[Array, float]:
     """Return the answers of a card, and its time [s]."""
     found = unanswered(len(rows))
     wanted = {None: NO_TRUST}.get(case.trust, 2)

@@ -7,7 +7,7 @@ from cointoss.models.body import NO_CODE
 from cointoss.models.kernel import cuda
 
 
-class StandInCard(cuda.Card):
+class StandInCard(cuda.GraphicsCard):
     """A card that tosses every row but each third one, and fails after some calls."""
 
     def __init__(self, calls: int) -> None:

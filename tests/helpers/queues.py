@@ -46,7 +46,7 @@ def work(
     threads: int = 2,
     closes_after: int = LARGEST,
 ) -> int:
-    """Have threads work on rows as `cointoss.models.kernel.cuda.Card.work` does; return the number taken."""
+    """Have threads work on rows, as those of a `GraphicsCard` do; return the number that they have taken."""
     answers.view(np.int8)[:] = -1
     spaces = np.zeros((threads, space // 8), np.int64)
     job = Job(

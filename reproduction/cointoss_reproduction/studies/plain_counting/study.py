@@ -49,7 +49,7 @@ UNCOUNTED = "`cointoss reproduce predictability rotor edge` has not been run int
 
 
 def uncertain(
-    floor: str, chi: float, tosses: int = 40_000, device: str = "cpu", out: Path | None = None
+    floor: str, chi: float, tosses: int = 40_000, out: Path | None = None
 ) -> Iterator[dict[str, Any]]:
     """Yield the counted share at each accuracy, beside those of `predictability` and `rotor`."""
     where = f"floor == '{floor}' and chi == {chi}"
@@ -61,15 +61,15 @@ def uncertain(
         name: {row["accuracy"]: estimate(row, column) for row in rows}
         for name, (column, rows) in others.items()
     }
-    for row in turned_over(case(air=floor == AIR, restitution=chi), tosses, device):
+    for row in turned_over(case(air=floor == AIR, restitution=chi), tosses):
         found = {name: of.get(row["accuracy"]) for name, of in known.items()}
         yield row | found | {f"over_{name}": _over(row["share"], other) for name, other in found.items()}
 
 
-def caught(caught_at: float, tosses: int = 40_000, device: str = "cpu") -> Iterator[dict[str, Any]]:
+def caught(caught_at: float, tosses: int = 40_000) -> Iterator[dict[str, Any]]:
     """Yield the counted share of coins caught in vacuum at each accuracy, beside the exact one."""
     scenario = case(air=False).replace("ending.caught", caught_at)
-    for row in turned_over(scenario, tosses, device):
+    for row in turned_over(scenario, tosses):
         exact = exact_share(caught_at, row["accuracy"], scenario.gravity)
         held = row["share"].low <= exact <= row["share"].high
         yield row | {"exact": exact, "left_out": int(not held), "over_exact": row["share"] / exact}
@@ -95,7 +95,7 @@ def exact_share(caught_at: float, accuracy: float, gravity: float, points: int =
     return float(uncertain_spins.sum() / (points * np.ptp(SPINS)))
 
 
-def turned_over(scenario: Scenario, tosses: int, device: str) -> Iterator[dict[str, Any]]:
+def turned_over(scenario: Scenario, tosses: int) -> Iterator[dict[str, Any]]:
     """Yield at each accuracy how many tosses end otherwise ε higher or ε lower, until none of them does.
 
     Releases are uniform in height and spin, flat, at rest but for the spin.
@@ -107,7 +107,7 @@ def turned_over(scenario: Scenario, tosses: int, device: str) -> Iterator[dict[s
 
         def ended(step: float, z: Array = z, spin: Array = spin) -> Any:
             higher = {"release.position.z": z + step, "release.angular_velocity.xi": spin}
-            return ends(scenario, higher, device)
+            return ends(scenario, higher)
 
         between = ended(0.0)
         for level, accuracy in enumerate(accuracies):
@@ -120,14 +120,12 @@ def turned_over(scenario: Scenario, tosses: int, device: str) -> Iterator[dict[s
             return
 
 
-def on_edge(
-    coin: tuple[EdgeClass, str], tosses: int = 40_000, device: str = "cpu", out: Path | None = None
-) -> dict[str, Any]:
+def on_edge(coin: tuple[EdgeClass, str], tosses: int = 40_000, out: Path | None = None) -> dict[str, Any]:
     """Return the share of coins that end on their edge, beside the one that `edge` has counted."""
     (kind, where), count, edges = coin, max(tosses // FEWER, 1), 0
     for number, piece in enumerate(_pieces(count)):
         releases = kind.hand.releases(kind.scenario, piece, seed=SEED + number)
-        edges += int(np.sum(ends(kind.scenario, releases, device) == str(Outcome.EDGE)))
+        edges += int(np.sum(ends(kind.scenario, releases) == str(Outcome.EDGE)))
     before = [(row["edges"], row["tosses"]) for row in kept_rows("edge", out, where)]
     numbers = [(met, of - met) for met, of in [(edges, count), *before]]
     return {
@@ -139,14 +137,13 @@ def on_edge(
     }
 
 
-def ends(scenario: Scenario, vary: Mapping[str, Any], device: str) -> Any:
-    """Return how each of a batch of tosses ends, in words; the CPU is asked for by saying nothing.
+def ends(scenario: Scenario, vary: Mapping[str, Any]) -> Any:
+    """Return how each of a batch of tosses ends, in words.
 
     Raises:
         KeyboardInterrupt: where one has left the batch short.
     """
-    where: dict[str, Any] = {} if device == "cpu" else {"device": device}
-    outcomes = toss_many(scenario, vary, progress=False, **where).outcome.to_numpy()
+    outcomes = toss_many(scenario, vary, progress=False).outcome.to_numpy()
     if np.any(outcomes == "not_tossed"):
         raise KeyboardInterrupt
     return outcomes
