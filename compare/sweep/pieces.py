@@ -13,6 +13,7 @@ from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.batch import Batch
 from cointoss.models.answers import ANSWER, NOT_TOSSED, REFUSED, Answers, Trust, names_of
 from cointoss.models.batch import refused
+from cointoss.models.devices import Device
 from cointoss.models.processor import Processor
 from cointoss.models.stages import stage
 from cointoss.models.unused import warn_of_unused_fields
@@ -21,8 +22,8 @@ FIRST, GROWTH, SECOND = 64, 8, 1.0
 """Tosses of the first piece; how many times as many the next may have; and the time of one [s]."""
 MOST = 1 << 17
 """Tosses of a piece, whose rows take 50 MB."""
-LEAST_ON_CARD = 1 << 14
-"""Tosses of a piece that a card makes: fewer leave a part of it idle, and take it hardly less time."""
+LEAST_ON_CARD, MOST_ON_CARD = 1 << 14, 1 << 20
+"""Tosses of a piece that a card makes: fewer leave a part of it idle; the rows of more take over 400 MB."""
 Columns = dict[str, NDArray[Any]]
 """Arrays by the names of answers, or of a map's layers."""
 
@@ -138,9 +139,9 @@ def pieces(
         how: it is tossed.
         parts: numbers of tosses, each of which is cut into pieces; by default those of all.
     """
-    size = FIRST
+    size, most = FIRST, MOST if how.processor.device is Device.CPU else MOST_ON_CARD
     how.processor.expect(len(batch))
-    for part in whole(len(batch)) if parts is None else parts:
+    for part in whole(len(batch), most) if parts is None else parts:
         done = 0
         while done < len(part):
             piece, start = part[done : done + size], time.perf_counter()
@@ -150,13 +151,13 @@ def pieces(
             seconds = max(time.perf_counter() - start, 1e-9)
             if len(piece) == size or seconds > SECOND:
                 least = LEAST_ON_CARD if how.processor.is_card else 1
-                size = min(max(least, int(len(piece) * min(GROWTH, SECOND / seconds))), MOST)
+                size = min(max(least, int(len(piece) * min(GROWTH, SECOND / seconds))), most)
 
 
-def whole(count: int) -> Iterator[NDArray[np.intp]]:
-    """Yield the numbers from 0 up to a count, in parts of at most `MOST`."""
-    for first in range(0, count, MOST):
-        yield np.arange(first, min(first + MOST, count))
+def whole(count: int, most: int = MOST) -> Iterator[NDArray[np.intp]]:
+    """Yield the numbers from 0 up to a count, in parts of at most so many."""
+    for first in range(0, count, most):
+        yield np.arange(first, min(first + most, count))
 
 
 def _tossed(batch: Batch, how: How, piece: NDArray[np.intp]) -> Iterator[Answers]:

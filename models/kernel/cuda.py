@@ -37,7 +37,7 @@ The first where a display's watchdog ends what runs for longer.
 """
 
 
-class Job(NamedTuple):
+class QueueJob(NamedTuple):
     """What the threads of a queue share; the numbers that the entry is given for a row follow it."""
 
     there: int
@@ -123,10 +123,10 @@ class GraphicsCard:
                 there = min(most, len(rows))
                 at_rows = memory.taken(there * rows[0].nbytes)
                 at_answers = memory.taken(there * answers[0].nbytes)
-                at_job = memory.taken(8 * (len(Job._fields) + len(numbers)))
+                at_job = memory.taken(8 * (len(QueueJob._fields) + len(numbers)))
                 for first in range(0, len(rows), there):
                     some = slice(first, min(first + there, len(rows)))
-                    job = Job(
+                    job = QueueJob(
                         there=some.stop - first,
                         next=0,
                         rows=at_rows,
@@ -148,7 +148,7 @@ class GraphicsCard:
         queue: Any,
         blocks: int,
         at: int,
-        job: Job,
+        job: QueueJob,
         numbers: NDArray[np.int64],
         rows: Array,
         answers: Array,

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.models.kernel.arrays import Array
-from cointoss.models.kernel.cuda import Job
+from cointoss.models.kernel.cuda import QueueJob
 from tests.helpers.command_line import HERE
 
 LARGEST = 1 << 62
@@ -49,7 +49,7 @@ def work(
     """Have threads work on rows, as those of a `GraphicsCard` do; return the number that they have taken."""
     answers.view(np.int8)[:] = -1
     spaces = np.zeros((threads, space // 8), np.int64)
-    job = Job(
+    job = QueueJob(
         there=len(rows),
         next=0,
         rows=rows.ctypes.data,

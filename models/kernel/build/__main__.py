@@ -35,10 +35,12 @@ def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> N
     Raises:
         RuntimeError: where it can't be done, in one line.
     """
-    from cointoss.models.kernel.build import device, linking, lowering
+    from cointoss.models.kernel.build import linking, lowering
 
     before = {path: digest_of(path) for part in ENGINES for path in (HOME / part).rglob("*.py")}
     table = alone(module)
+    if CUDA in systems:
+        import_module("cointoss.models.kernel.build.device")
     sources = {name: before.get(HOME / name) or digest_of(HOME / name) for name in read_sources()}
     on_cards = [each.symbol for each in entries_of(table) if each.on_cards]
     known = (*linking.SYSTEMS, *[CUDA] * bool(on_cards))
@@ -54,7 +56,7 @@ def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> N
     with tempfile.TemporaryDirectory() as folder:
         for name in systems:
             if name == CUDA:
-                library, _ = device.assembled(device.ptx_of(code, *on_cards), Path(folder))
+                library = _assembled(code, *on_cards, Path(folder))
             else:
                 library = _linked(code, symbols, linking.SYSTEMS[name], Path(folder), carried=carried)
             digest = hashlib.sha256(library).hexdigest()
@@ -62,6 +64,13 @@ def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> N
             write_whole(out / f"{stem}{SUFFIX}", library)
             manifest = Made(module, name, digest, {} if carried else sources, forms)
             write_whole(out / f"{stem}{MANIFEST}", json.dumps(manifest._asdict()).encode())
+
+
+def _assembled(code: bytes, entry: str, folder: Path) -> bytes:
+    """Return the library of a module of code for cards."""
+    from cointoss.models.kernel.build import device
+
+    return device.assembled(device.ptx_of(code, entry), folder)[0]
 
 
 def _linked(code: bytes, symbols: Sequence[str], system: "System", folder: Path, *, carried: bool) -> bytes:

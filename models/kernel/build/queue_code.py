@@ -1,6 +1,6 @@
 """Threads that take rows from a queue and have an entry work on each, as LLVM's code, and their memory.
 
-All threads share a row of 8-byte numbers: `cointoss.models.kernel.cuda.Job`, then what the entry is given.
+All threads share a row of 8-byte numbers: `models.kernel.cuda.QueueJob`, then what the entry is given.
 Each thread has a work space, which begins with 64 numbers: the bytes used, the bytes there are, the time at
 which it is closed, and in number k the last block of 2^k bytes that was given back. Where a block is asked
 for and the space is full or closed, the entry ends as where memory is missing.
