@@ -6,19 +6,16 @@ from typing import Annotated
 
 import click
 
-from cointoss.compare.commands.common import Place, plain_errors, say
+from cointoss.compare.commands.common import Place, plain_errors
 from cointoss.compare.commands.options import options_of, without
-from cointoss.compare.output.accepted import Form, Within
+from cointoss.compare.commands.served import Served, serve
+from cointoss.compare.output.accepted import Form
 
 
 @dataclass(frozen=True, kw_only=True)
-class Page:
+class Page(Served):
     """How the map is shown."""
 
-    port: Annotated[int | None, Within(1, 65535)] = None
-    """The port to listen at; by default one that is free."""
-    no_browser: bool = False
-    """Only print the address."""
     static: Annotated[Path | None, Form("FILE.html")] = None
     """Write one page with some pixels tossed, at most 10 MB, that needs no server; and end."""
 
@@ -41,12 +38,6 @@ def explore(map_path: Path, asked: Page) -> None:
             write_static(map_path, asked.static)
             click.echo(asked.static)
             return
-        import webbrowser
-
         from cointoss.compare.explorer.server import Explorer
 
-        with Explorer(map_path, asked.port or 0) as explorer:
-            click.echo(explorer.url)
-            if not asked.no_browser and not webbrowser.open(explorer.url):
-                say("no browser was found; open the address above in one")
-            explorer.serve_forever()
+        serve(Explorer(map_path, asked.port or 0), asked)

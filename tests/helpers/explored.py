@@ -1,4 +1,4 @@
-"""A small map to explore, and its server."""
+"""A small map to explore, and servers of pages."""
 
 import socket
 import threading
@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from cointoss.compare.explorer.server import Explorer
+from cointoss.compare.web.server import PageServer
 from tests.helpers import basin_runs
 from tests.helpers.command_line import cointoss
 from tests.helpers.processes import HANGS
@@ -26,16 +27,23 @@ def small_map(folder: Path, *more: str, size: tuple[int, int] = (24, 18), text: 
 
 
 @contextmanager
-def serving(path: Path) -> Iterator[Explorer]:
-    """Serve a map until the `with` statement ends."""
-    with Explorer(path, 0) as explorer:
-        thread = threading.Thread(target=explorer.serve_forever, args=(0.05,))
+def serving(shown: Path | PageServer) -> Iterator[PageServer]:
+    """Serve a map, or another page, until the `with` statement ends."""
+    with shown if isinstance(shown, PageServer) else Explorer(shown, 0) as server:
+        thread = threading.Thread(target=server.serve_forever, args=(0.05,))
         thread.start()
         try:
-            yield explorer
+            yield server
         finally:
-            explorer.shutdown()
+            server.shutdown()
             thread.join()
+
+
+def asked(port: int, target: str) -> socket.socket:
+    """Return a connection on which a target was asked for."""
+    connection = socket.create_connection(("127.0.0.1", port))
+    connection.sendall(f"GET {target} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n".encode())
+    return connection
 
 
 def sent(port: int, request: bytes) -> tuple[int, dict[str, str], bytes]:

@@ -2,7 +2,6 @@
 
 import json
 import queue
-import socket
 import threading
 from base64 import b64decode
 from concurrent.futures import ThreadPoolExecutor
@@ -18,7 +17,7 @@ from cointoss.compare.explorer.finer import toss_tile
 from cointoss.compare.explorer.page_files import page_files
 from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.models.reading import parse
-from tests.helpers.explored import FIELDS, SCENARIO, got, sent
+from tests.helpers.explored import FIELDS, SCENARIO, asked, got, sent
 
 
 def is_refused(answer, status):
@@ -64,13 +63,6 @@ def busy(monkeypatch):
     monkeypatch.setattr(serving, "toss_pixel", toss_pixel)
     yield tossed, may_end
     may_end.set()
-
-
-def asked(port, target):
-    """Return a connection on which a target was asked for."""
-    connection = socket.create_connection(("127.0.0.1", port))
-    connection.sendall(f"GET {target} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n".encode())
-    return connection
 
 
 def test_the_map_and_a_tile_do_not_wait_for_tosses(server, busy):

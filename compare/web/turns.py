@@ -42,6 +42,15 @@ class Client:
         except OSError:
             return True
 
+    def require_there(self) -> None:
+        """Give up what is made for a client that has gone.
+
+        Raises:
+            ConnectionAbortedError: where it has.
+        """
+        if self.has_gone:
+            raise ConnectionAbortedError("the client has hung up")
+
     def left_of(self, answer: bytes) -> bytes:
         """Return what of an answer was not sent yet."""
         return answer.removeprefix(self._sent)
@@ -55,14 +64,9 @@ def in_turn(turn: threading.Lock, client: Client) -> Iterator[None]:
         ConnectionAbortedError: where the client has gone before.
     """
     while not turn.acquire(timeout=PAUSE):
-        _require_there(client)
+        client.require_there()
     try:
-        _require_there(client)
+        client.require_there()
         yield
     finally:
         turn.release()
-
-
-def _require_there(client: Client) -> None:
-    if client.has_gone:
-        raise ConnectionAbortedError("the client has hung up")
