@@ -10,19 +10,22 @@ from cointoss.compare.commands.common import Place, plain_errors
 from cointoss.compare.commands.options import options_of, without
 from cointoss.compare.commands.served import Served, serve
 from cointoss.compare.output.accepted import Form
+from cointoss.models.devices import Device
 
 
 @dataclass(frozen=True, kw_only=True)
 class Page(Served):
     """How the map is shown."""
 
+    device: Device = Device.CPU
+    """What tosses a finer map: the CPU, a card of NVIDIA's, or the card where there is one and it pays."""
     static: Annotated[Path | None, Form("FILE.html")] = None
     """Write one page with some pixels tossed, at most 10 MB, that needs no server; and end."""
 
 
 @click.command()
 @click.argument("map_path", metavar="MAP.zarr", type=Place())
-@options_of(Page, without("static", "port", "no_browser"))
+@options_of(Page, without("static", "device", "port", "no_browser"))
 def explore(map_path: Path, asked: Page) -> None:
     """Show a map in the browser: click a pixel, see both engines toss it.
 
@@ -40,4 +43,4 @@ def explore(map_path: Path, asked: Page) -> None:
             return
         from cointoss.compare.explorer.server import Explorer
 
-        serve(Explorer(map_path, asked.port or 0), asked)
+        serve(Explorer(map_path, asked.port or 0, asked.device), asked)

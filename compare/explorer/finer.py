@@ -24,13 +24,14 @@ def toss_tile(sweep: Sweep, level: int, column: int, row: int) -> NDArray[np.int
     lower left corner of the map's first pixel.
 
     Args:
-        sweep: of the map.
+        sweep: of the map, with the device that tosses.
         level: from 0, the map's own, to `FINEST`.
         column: of the tile, from 0.
         row: of the tile, from 0.
 
     Raises:
         SweepError: for a tile outside of the map, or of no such level.
+        DeviceError: for the device "cuda" where it fails.
     """
     tiles = [-(-(count << level) // SIDE) if 0 <= level <= FINEST else 0 for count in sweep.shape]
     if not (0 <= row < tiles[0] and 0 <= column < tiles[1]):
@@ -42,6 +43,7 @@ def toss_tile(sweep: Sweep, level: int, column: int, row: int) -> NDArray[np.int
     outcome = np.full((SIDE, SIDE), NOT_TOSSED, dtype=np.int8)
     if x is not None and y is not None:
         finer = replace(sweep, x=x, y=y, margin=None, trust=False)
+        finer.how.processor.expect(len(sweep.batch) << 2 * level)  # of the whole finer map
         tossed = toss_part(finer, np.arange(y.count * x.count))["outcome"]
         outcome[rows, columns] = tossed.reshape(finer.shape)
     return outcome

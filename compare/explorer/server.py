@@ -1,5 +1,6 @@
 """The explorer's server: its page, a map, and its tosses."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -9,10 +10,12 @@ from cointoss.compare.explorer.page_files import page_files
 from cointoss.compare.explorer.page_map import MOST_SHOWN, page_map
 from cointoss.compare.explorer.tosses import require_inside, toss_pixel
 from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.pieces import require_supported
 from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.compare.web.query import COUNT, NUMBER, query_of, texts_in
 from cointoss.compare.web.server import PageServer
 from cointoss.compare.web.turns import Client
+from cointoss.models.devices import Device
 
 POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' data: blob:"
@@ -25,19 +28,23 @@ class Explorer(PageServer):
 
     refusals = (*PageServer.refusals, SweepError)
 
-    def __init__(self, path: Path, port: int) -> None:
+    def __init__(self, path: Path, port: int, device: Device = Device.CPU) -> None:
         """Listen.
 
         Args:
             path: of the map.
             port: 0 for a free one.
+            device: that tosses the finer maps.
 
         Raises:
             MapError, ScenarioError: for what is no map.
+            UnsupportedError, DeviceError: for a device that can't be used, or not for such a map.
             UnwritableError: for a port that can't be had.
         """
         self.path = path
-        self.sweep = tossed_map_at(path, most=MOST_SHOWN).sweep
+        self.sweep = replace(tossed_map_at(path, most=MOST_SHOWN).sweep, device=device)
+        if device is not Device.CPU:
+            require_supported(self.sweep.batch, self.sweep.how)
         answers = {"/map": self._map, "/toss": self._toss, "/tile": self._tile}
         super().__init__(port, page_files(), answers, POLICY)
 

@@ -42,7 +42,7 @@ def toss_part(sweep: Sweep, numbers: Numbers) -> Columns:
     """Return what is known of some pixels, tossed at once."""
     rows = sweep.batch.rows(numbers)
     how = sweep.how
-    answers = how.engine.package.toss_rows(rows, settings=how.settings, trust=how.trust)
+    answers = how.engine.package.toss_rows(rows, settings=how.settings, trust=how.trust, device=how.processor)
     return pixels_of(sweep, numbers, answers)
 
 

@@ -16,8 +16,10 @@ from cointoss.compare.film.back_end import BackEndError
 from cointoss.compare.sweep import reading
 from cointoss.compare.sweep.grid import tile_shape, tiles
 from cointoss.compare.sweep.reading import tossed_map_at
+from cointoss.models.devices import Device
+from tests.helpers.cards import with_card, without_card
 from tests.helpers.command_line import cointoss, refused
-from tests.helpers.explored import got, small_map
+from tests.helpers.explored import got, serving, small_map
 from tests.helpers.processes import answered, ask, started
 
 
@@ -103,6 +105,23 @@ def test_the_address_is_printed_and_opened(map_path, monkeypatch, opens, options
     assert answered.stdout.startswith("http://127.0.0.1:")
     assert len(opened) == asked
     assert ("no browser was found" in answered.stderr) == (not opens)
+
+
+def test_a_device_that_cannot_be_used_is_refused(map_path, copy, monkeypatch):
+    without_card(monkeypatch)
+    told = refused("explore", map_path, "--device", "cuda")
+    assert told == "cointoss: --device cuda: no NVIDIA driver was found; accepted: cpu, auto\n"
+    changed(copy, engine=Engine.MUJOCO, engine_settings=Engine.MUJOCO.package.MANY.as_dict())
+    told = refused("explore", copy, "--device", "cuda")
+    assert told == f"cointoss: {copy}: --device cuda: accepted by the MuJoCo engine: cpu, auto\n"
+
+
+def test_a_card_that_is_lost_is_told_to_the_page(map_path, monkeypatch):
+    with_card(monkeypatch, calls=0)
+    with serving(Explorer(map_path, 0, Device.CUDA)) as explorer:
+        status, _, body = got(explorer.port, "/tile?level=3&column=2&row=1")
+        assert (status, body) == (503, b"`device` cuda: the card was lost; accepted: cpu, auto\n")
+        assert got(explorer.port, "/map")[0] == 200
 
 
 def test_ctrl_c_ends_it(map_path):

@@ -1,5 +1,7 @@
 """Finer tiles of a map, where the explorer is zoomed in."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,7 +11,9 @@ from cointoss.compare.explorer.finer import SIDE, toss_tile
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.compare.sweep.tossed_map import map_of
+from cointoss.models.devices import Device
 from cointoss.models.reading import parse
+from tests.helpers.cards import with_card
 from tests.helpers.explored import FIELDS, SCENARIO
 
 
@@ -30,6 +34,16 @@ def test_a_finer_tile_has_the_outcomes_of_its_points(map_path):
     assert (first[1:, 1:] > 0).all()
     with pytest.raises(SweepError):
         toss_tile(sweep, 1, 2, 0)
+
+
+@pytest.mark.parametrize(("device", "levels"), [(Device.CUDA, (0, 2)), (Device.AUTO, (2,))])
+def test_a_tile_is_tossed_on_a_card_where_the_whole_finer_map_pays(map_path, monkeypatch, device, levels):
+    sweep = tossed_map_at(map_path).sweep
+    due, card = {level: toss_tile(sweep, level, 0, 0) for level in (0, 2)}, with_card(monkeypatch)
+    for level, tile in due.items():
+        card.given.clear()
+        assert np.array_equal(toss_tile(replace(sweep, device=device), level, 0, 0), tile)
+        assert card.given == ([np.sum(tile != -1)] if level in levels else [])
 
 
 def test_a_page_tosses_no_map_over_a_field_that_it_does_not_know(monkeypatch):
