@@ -204,6 +204,21 @@ def test_a_map_has_each_pixel_once_coarse_ones_first_and_is_that_of_the_package(
     assert np.array_equal(trusted != 1, native.untrusted)
 
 
+def test_a_pixel_beyond_the_bounds_of_its_field_is_no_scenario(loaded):
+    codes = loaded.value(
+        f"""(async () => {{
+          const codes = [];
+          const x = {{ field: "floor.restitution", start: 0.5, stop: 1.5, count: 5 }};
+          const y = {{ field: "release.position.z", start: 0.3, stop: 0.4, count: 2 }};
+          await workers.map({written(cointoss.load("fig24a"))}, x, y, {{ after: 0 }},
+            (part) => codes.push([...part.codes]));
+          return codes;
+        }})()"""
+    )
+    (first,) = codes
+    assert [code == -2 for code in first] == [False, False, False, True, True] * 2
+
+
 def test_a_map_that_is_given_up_ends_at_once(loaded):
     told = loaded.value(
         f"""(async () => {{

@@ -103,9 +103,10 @@ export class Engine {
     const wide = x.values.length, max = this.#place("ending.max_impacts"), base = Float64Array.from(row);
     if (after !== null) base[max] = Math.min(after + 1, base[max] || Infinity);
     const wanted = trust ? (after === null ? "certain" : "trust") : "outcome", [across, up] = [x, y].map(({ field }) => this.#place(field));
+    const within = (place, value) => (value < (this.about.fields[place].least ?? -Infinity) || value > (this.about.fields[place].most ?? Infinity) ? Infinity : value);
     const found = this.#each(wide * y.values.length, base, (made, i) => {
-      made[across] = x.values[i % wide];
-      made[up] = y.values[Math.floor(i / wide)];
+      made[across] = within(across, x.values[i % wide]);
+      made[up] = within(up, y.values[Math.floor(i / wide)]);
     }, wanted);
     const { outcome, impacts, lastFace, trustedImpacts, outcomeCertain } = found;
     const isTouch = (i) => after !== null && impacts[i] > after;
