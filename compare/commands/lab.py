@@ -1,38 +1,58 @@
 """`cointoss lab`: a page in which one tosses coins."""
 
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
 import click
 
-from cointoss.compare.commands.common import SCENARIO_HELP, Place, say
+from cointoss.compare.commands.common import SCENARIO_HELP, say
 from cointoss.compare.commands.names import spared_scenario_argument
+from cointoss.compare.commands.options import only_with, options_of, without
+from cointoss.compare.commands.served import Served, serve
 from cointoss.compare.commands.settings import set_option, with_scenario
+from cointoss.compare.output.accepted import Form
 from cointoss.compare.sweep.asked import Source
+from cointoss.models.devices import Device
+
+
+@dataclass(frozen=True, kw_only=True)
+class LabPage(Served):
+    """Where the page goes, and what tosses its map."""
+
+    out: Annotated[Path | None, Form("FILE.html")] = None
+    """Write the page, at most 2 MB, instead of opening it."""
+    device: Device | None = None
+    """Serve the page to this machine until Ctrl-C, and toss its map there: by the CPU, a card of NVIDIA's, or
+    the card where there is one and it pays."""
 
 
 @click.command(epilog=SCENARIO_HELP)
 @spared_scenario_argument
 @set_option
-@click.option(
-    "--out", type=Place(), metavar="FILE.html", help="Write the page, at most 2 MB, instead of opening it."
-)
+@options_of(LabPage, without("device", "out"), only_with("port", "device"), only_with("no_browser", "device"))
 @with_scenario
-def lab(source: Source, out: Path | None) -> None:
+def lab(source: Source, asked: LabPage) -> None:
     """Toss coins in the browser: a map that follows sliders, and each of its tosses.
 
     The page is one file with the analytic engine in it; it needs no server and no network. It begins with
-    SCENARIO, by default fig24a.
+    SCENARIO, by default fig24a. With --device the page is served, and its map is tossed here.
     """
+    if asked.device is not None:
+        from cointoss.compare.lab.served import ServedLab
+
+        serve(ServedLab(source.scenario, asked.port or 0, asked.device), asked)
+        return
     import tempfile
     import webbrowser
 
     from cointoss.compare.lab.lab import lab_page
     from cointoss.compare.output.files import require_file, write_text
 
-    require_file(out, ".html", source.name)
+    require_file(asked.out, ".html", source.name)
     page = lab_page(source.scenario)
-    target = out or Path(tempfile.mkdtemp(prefix="cointoss-")) / "lab.html"
+    target = asked.out or Path(tempfile.mkdtemp(prefix="cointoss-")) / "lab.html"
     write_text(target, page)
     click.echo(target)
-    if out is None and not webbrowser.open(target.as_uri()):
+    if asked.out is None and not webbrowser.open(target.as_uri()):
         say("no browser was found; open the file above in one")

@@ -161,7 +161,7 @@ def _option(one: _Field, names: Callable[[], Iterable[str]] | None) -> Callable[
     if one.default is MISSING:
         more |= {"required": True}
     elif not one.is_many:
-        default = str(one.default) if _is_worded(one.kind) else one.default
+        default = str(one.default) if isinstance(one.default, StrEnum) else one.default
         more |= {"default": default, "show_default": one.default not in (None, False, "")}
     return click.option(option_of(one.name), one.name, cls=_Option, record=one.record, **more)
 

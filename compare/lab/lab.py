@@ -1,4 +1,4 @@
-"""The lab as one file: a page with the engine in it, which needs no server and no network."""
+"""The lab as one file: a page with the engine in it, which needs no network."""
 
 from cointoss.compare.web.playable import shown_outcomes
 from cointoss.compare.web.scripts import ENGINE_POLICY, files_of, one_file
@@ -8,10 +8,16 @@ from cointoss.models.scenario import Scenario
 
 MOST_BYTES = 2_000_000
 """The largest size of the file."""
+SERVED_POLICY = f"{ENGINE_POLICY}; connect-src 'self'"
+"""The Content-Security-Policy of the page where it is served."""
 
 
-def lab_page(scenario: Scenario) -> str:
+def lab_page(scenario: Scenario, *, is_served: bool = False) -> str:
     """Return the page, which begins with a scenario.
+
+    Args:
+        scenario: the first one.
+        is_served: whether it asks the server that it comes from for its map; else it needs none.
 
     Raises:
         UnusableEngineError: where the engine for a browser was not built.
@@ -20,4 +26,5 @@ def lab_page(scenario: Scenario) -> str:
     if data is None:
         raise UnusableEngineError("engine.wasm: not built, or of other sources; make docs builds it")
     files = {**files_of("cointoss.compare.lab"), **engine_scripts()}
-    return one_file(files, {**data, "outcomes": shown_outcomes()}, ENGINE_POLICY)
+    policy = SERVED_POLICY if is_served else ENGINE_POLICY
+    return one_file(files, {**data, "outcomes": shown_outcomes(), "served": is_served}, policy)

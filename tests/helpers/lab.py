@@ -1,4 +1,4 @@
-"""The lab's page: what is true of it when it is ready, and how to go to a state."""
+"""The lab's page: what is true of it when it is ready, what it saves, and how to go to a state."""
 
 import json
 
@@ -6,6 +6,19 @@ SPIN, HEIGHT = "release.angular_velocity.eta", "release.position.z"
 WHOLE = "document.getElementById('map').ariaBusy === 'false'"
 TOSSED = "document.getElementById('outcome').textContent.includes(' impacts in ')"
 COUNTED = "document.getElementById('share').dataset.whole === 'true'"
+ADDRESSED = "location.hash.length > 1"
+SAVED = """
+window.saved = [];
+URL.createObjectURL = (blob) => { window.saved.push(blob); return "#saved"; };
+"""
+"""A script that keeps what a page saves."""
+
+
+def saved(page, button):
+    """Return the text of the file that a button saves."""
+    page.value(f"document.getElementById('{button}').click()")
+    page.wait_for("window.saved.length === 1")
+    return page.value("window.saved.pop().text()")
 
 
 def go(page, address):

@@ -15,19 +15,14 @@ from cointoss.models.reading import parse
 from tests.helpers.browser import Page
 from tests.helpers.coins_shown import BLUE, GOLD, NO_WEBGL, UNNAMED, box, faces, picture, set_time
 from tests.helpers.command_line import cointoss as command
-from tests.helpers.lab import COUNTED, HEIGHT, SPIN, TOSSED, WHOLE
+from tests.helpers.lab import ADDRESSED, COUNTED, HEIGHT, SAVED, SPIN, TOSSED, WHOLE, saved
 
 RELEASES = sorted(folder for folder in (Path(__file__).parents[1] / "releases").iterdir() if folder.is_dir())
-ADDRESSED = "location.hash.length > 1"
 PAPER = "getComputedStyle(document.body).backgroundColor"
 WHOLE_COIN = (
     "#coin.mass=0.002&coin.radius=0.0125&coin.thickness=0.002&floor.contact=smooth"
     "&release.position.x=0&release.position.y=0&release.position.z=0.4"
 )
-SAVED = """
-window.saved = [];
-URL.createObjectURL = (blob) => { window.saved.push(blob); return "#saved"; };
-"""
 
 
 def offline(page):
@@ -57,13 +52,6 @@ def sequences(page):
     return dict(
         page.value(f"[...document.querySelectorAll('#sequences .row[role=img]')].map((row) => {row})")
     )
-
-
-def saved(page, button):
-    """Return the text of the file that a button saves."""
-    page.value(f"document.getElementById('{button}').click()")
-    page.wait_for("window.saved.length === 1")
-    return page.value("window.saved.pop().text()")
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

@@ -9,6 +9,7 @@ import { makeStage } from "./stage.js";
 import { horizonText, markTouch, showSequences } from "./sequences.js";
 import { showEnergy } from "./energy.js";
 import { address, fromAddress, START } from "./state.js";
+import { tossedThere } from "./served.js";
 import { makeTour } from "./tour.js";
 import { countHeads } from "./hand.js";
 import { measure } from "./measure.js";
@@ -27,6 +28,10 @@ let tosses = [null, null], tossed = null, wanted = null, isTossing = false, coun
 async function begin() {
   workers = await startWorkers(bytes);
   engine = workers.engine;
+  if (data.served) {
+    workers.tossMap = tossedThere;
+    byId("where").textContent = "on this machine";
+  }
   fields = Object.fromEntries(engine.about.fields.map((field) => [field.name, field]));
   stage = makeStage(byId("played"), {
     without: "The map, the sequences and the energies work without it.", labels: LABELS, shown: "The coin that is tossed",

@@ -7,6 +7,7 @@ import { ellipse } from "./hand.js";
 
 const PIXEL = 2; // of the map, in those of the screen
 const ULP = 2 ** -52;
+const PATIENCE = 500; // milliseconds for which a server, which gives all pixels at once, is waited for
 const FAR = 2 ** 20; // the stride of a pixel that nothing stands for yet
 
 // `fields` has the word and the unit of each field, `outcomes` { color } by code. `told` has what is called: place
@@ -81,7 +82,10 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
     const isOther = !state || ["x", "y"].some((name) => ["field", "from", "to"].some((key) => state[name][key] !== now[name][key]));
     const isNewMap = !state || state.x.field !== now.x.field || state.y.field !== now.y.field;
     state = { ...now, home: isNewMap ? { x: now.x, y: now.y } : (now.home ?? state.home) };
-    if (isNewMap) behind = job = null;
+    if (isNewMap) {
+      job?.controller.abort();
+      behind = job = null;
+    }
     if (isOther) {
       const { left, right, bottom, top } = view.window(), to = windowOf(now);
       if (left !== to.left || right !== to.right || bottom !== to.bottom || top !== to.top) view.show(to);
@@ -95,7 +99,10 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
     if (!state) return;
     const at = grid(), key = keyOf(at);
     if (job?.key === key) return void (next = null);
-    if (job && !job.isCoarse && !job.isEnded) return void (next = key);
+    if (job && !job.isCoarse && !job.isEnded && !(workers.tossMap && performance.now() - job.begun >= PATIENCE)) {
+      if (workers.tossMap) setTimeout(ask, PATIENCE);
+      return void (next = key);
+    }
     begin(at, key);
   }
 
@@ -104,7 +111,7 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
     if (job?.isCoarse) behind = job;
     next = null;
     const size = x.count * y.count;
-    const mine = { key, x, y, window: view.window(), codes: new Int8Array(size).fill(-1), trusted: new Int8Array(size).fill(1),
+    const mine = { key, begun: performance.now(), x, y, window: view.window(), codes: new Int8Array(size).fill(-1), trusted: new Int8Array(size).fill(1),
       strides: new Int32Array(size).fill(FAR), isTossed: new Uint8Array(size), covered: 0, tossed: 0, isCoarse: false, isEnded: false, controller: new AbortController(), ...layers(x, y) };
     job = mine;
     told.progress(0, false);

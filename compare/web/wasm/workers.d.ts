@@ -20,11 +20,24 @@ export interface MapOptions {
   trust?: boolean;
 }
 
+/** A map that is asked for. */
+export interface MapAsked {
+  /** The scenario as the engine takes it, in the order of `Engine.about.fields`; NaN for what is left out. */
+  row: Float64Array;
+  x: Axis;
+  y: Axis;
+  after: number | null;
+  trust: boolean;
+}
+
 export class Workers {
   /** The engine in the page itself. */
   readonly engine: Engine;
   /** Workers that run; 0 where the page itself tosses, part by part. */
   readonly count: number;
+
+  /** Tosses the whole map in place of the workers, as a server may; null for none. */
+  tossMap: ((asked: MapAsked, signal?: AbortSignal) => Promise<Pick<MapPart, "codes" | "trusted">>) | null;
 
   /** Toss a coin, with about so many samples of its path. */
   toss(scenario: Scenario, samples: number): Promise<PlayedToss>;

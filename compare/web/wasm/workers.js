@@ -18,6 +18,7 @@ export async function startWorkers(bytes, version) {
 }
 
 export class Workers {
+  tossMap = null;
   #idle = [];
   #waiting = [];
   #all = new Set();
@@ -64,6 +65,10 @@ export class Workers {
   /** A map, coarse pixels first; see engine.d.ts. */
   async map(scenario, x, y, { after = null, trust = false } = {}, onPart, signal) {
     const row = this.engine.row(changed(scenario, { [x.field]: x.start, [y.field]: y.start }));
+    if (this.tossMap) {
+      const found = await this.tossMap({ row, x, y, after, trust }, signal), all = ({ count }) => Int32Array.from({ length: count }, (_, i) => i);
+      return onPart({ stride: 1, columns: all(x), rows: all(y), ...found });
+    }
     const parts = passes(x.count, y.count), running = new Set(), ends = Math.max(this.count, 1);
     let failed = null;
     const next = async () => {
