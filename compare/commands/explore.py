@@ -8,13 +8,13 @@ import click
 
 from cointoss.compare.commands.common import Place, plain_errors
 from cointoss.compare.commands.options import options_of, without
-from cointoss.compare.commands.served import Served, serve
+from cointoss.compare.commands.served import ServedPage, serve
 from cointoss.compare.output.accepted import Form
 from cointoss.models.devices import Device
 
 
 @dataclass(frozen=True, kw_only=True)
-class Page(Served):
+class Page(ServedPage):
     """How the map is shown."""
 
     device: Device = Device.CPU

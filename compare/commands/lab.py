@@ -9,7 +9,7 @@ import click
 from cointoss.compare.commands.common import SCENARIO_HELP, say
 from cointoss.compare.commands.names import spared_scenario_argument
 from cointoss.compare.commands.options import only_with, options_of, without
-from cointoss.compare.commands.served import Served, serve
+from cointoss.compare.commands.served import ServedPage, serve
 from cointoss.compare.commands.settings import set_option, with_scenario
 from cointoss.compare.output.accepted import Form
 from cointoss.compare.sweep.asked import Source
@@ -17,7 +17,7 @@ from cointoss.models.devices import Device
 
 
 @dataclass(frozen=True, kw_only=True)
-class LabPage(Served):
+class LabPage(ServedPage):
     """Where the page goes, and what tosses its map."""
 
     out: Annotated[Path | None, Form("FILE.html")] = None

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Served:
+class ServedPage:
     """How a page is served to this machine."""
 
     port: Annotated[int | None, Within(1, 65535)] = None
@@ -22,7 +22,7 @@ class Served:
     """Only print the address."""
 
 
-def serve(server: "PageServer", asked: Served) -> None:
+def serve(server: "PageServer", asked: ServedPage) -> None:
     """Print where a page is, open it, and serve it until Ctrl-C."""
     import webbrowser
 
