@@ -56,7 +56,7 @@ def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> N
     with tempfile.TemporaryDirectory() as folder:
         for name in systems:
             if name == CUDA:
-                library = _assembled(code, *on_cards, Path(folder))
+                library = _assembled(code, on_cards[0], Path(folder))
             else:
                 library = _linked(code, symbols, linking.SYSTEMS[name], Path(folder), carried=carried)
             digest = hashlib.sha256(library).hexdigest()
