@@ -77,6 +77,11 @@ def _slow_airs(rows: Array) -> list[Array]:
     return [row for row in firsts if not has_linear_air(row)]
 
 
+def _all_homogeneous(rows: Array) -> bool:
+    """Return whether all coins are homogeneous: a card takes longer than some cores for others' flights."""
+    return not rows[:, _CENTER].any() and bool(np.isnan(rows[:, _INERTIA]).all())
+
+
 def toss_rows(
     rows: Array,
     *,
@@ -122,6 +127,8 @@ def toss_rows(
     own, limits, wanted = NO_CODE if law is None else law.code, contact_limits(settings), _WANTED[trust]
     tile = SLOW_TILE if (is_slow := bool(_slow_airs(rows))) else TILE
     is_for_card = law is None and not is_slow
+    if processor.device is Device.AUTO:
+        is_for_card = is_for_card and _all_homogeneous(rows)
 
     def toss_here(rows: Array, found: Array) -> None:
         def work(part: slice) -> None:
@@ -154,6 +161,7 @@ def _tossed_on(
     return left
 
 
-_FLOOR, _AIR = (
-    [i for field, i in PLACE.items() if field.startswith(f"{table}.")] for table in ("floor", "air")
+_FLOOR, _AIR, _CENTER, _INERTIA = (
+    [i for field, i in PLACE.items() if field.startswith(f"{table}.")]
+    for table in ("floor", "air", "coin.center_of_mass", "coin.inertia")
 )

@@ -9,7 +9,7 @@ from cointoss.models.devices import DeviceError, DeviceWarning
 from cointoss.models.processor import LEAST_TOSSES, Processor, usual
 from cointoss.models.records import UnsupportedError
 from tests.helpers.cards import with_card, without_card
-from tests.helpers.draws import AIR, scenario
+from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, scenario
 from tests.helpers.many import draw_states
 from tests.helpers.own_laws import smooth
 
@@ -47,6 +47,16 @@ def test_auto_tosses_few_rows_and_what_no_card_can_on_the_cpu(monkeypatch):
         processor.expect(LEAST_TOSSES)
         few = rows_in(air, 3)
         assert same(analytic.toss_rows(few, device=processor), analytic.toss_rows(few))
+        assert bool(card.given) == is_tossed
+
+
+def test_auto_tosses_coins_that_are_not_homogeneous_on_the_cpu(monkeypatch):
+    card = with_card(monkeypatch)
+    for shape, is_tossed in ((IMPERFECT, False), (ZLOTY, True)):
+        case = scenario(coin=shape, air=AIR, ending={"max_impacts": 1})
+        processor = Processor("auto")
+        processor.expect(LEAST_TOSSES)
+        analytic.toss_rows(rows_of(case, 2), device=processor)
         assert bool(card.given) == is_tossed
 
 
