@@ -7,8 +7,8 @@ from cointoss.analytic.entries import toss_apart
 from cointoss.analytic.settings import ContactLimits
 from cointoss.models.answers import NOT_TOSSED
 from cointoss.models.kernel.arrays import Array
-from cointoss.models.kernel.cuda import GraphicsCard
-from cointoss.models.kernel.library import CUDA, library_file
+from cointoss.models.kernel.cuda import CardError, GraphicsCard
+from cointoss.models.kernel.library import CUDA, EngineMissingError, library_file
 
 SPACE, SPACE_OF_TRUST = 64 << 10, 1 << 20
 """Bytes of a thread's work space, without trust and with it; a toss that needs more is handed over."""
@@ -26,10 +26,13 @@ def toss_on_device(card: GraphicsCard, rows: Array, limits: ContactLimits, wante
             or needs more work space than a thread has is handed over to the caller: it is `NOT_TOSSED`.
 
     Raises:
-        CardError: where the card fails.
+        CardError: where the card fails, or there is no code for it.
     """
     space = SPACE if wanted == NO_TRUST else SPACE_OF_TRUST
-    file = library_file(toss_apart.library.module, CUDA)
+    try:
+        file = library_file(toss_apart.library.module, CUDA)
+    except EngineMissingError as error:
+        raise CardError(str(error)) from None
     numbers = toss_apart.numbers_of(rows[:1], found[:1], limits, wanted)
     card.work(file, numbers, rows, found, space)
     found[np.isnan(found[:, 0]), 0] = NOT_TOSSED

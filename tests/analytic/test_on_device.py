@@ -13,7 +13,8 @@ from cointoss.analytic.entries import toss_apart
 from cointoss.analytic.settings import MANY, contact_limits
 from cointoss.models.answers import NOT_TOSSED, unanswered
 from cointoss.models.batch import rows_of
-from cointoss.models.kernel.cuda import STACK
+from cointoss.models.kernel.cuda import STACK, CardError
+from cointoss.models.kernel.library import EngineMissingError
 from cointoss.models.reading import load
 from cointoss.models.rows import has_linear_air
 from tests.helpers.bits import cases
@@ -88,6 +89,17 @@ def test_what_needs_more_than_the_work_space_is_handed_over(tossed):
     is_left = found[:, 0] == NOT_TOSSED
     assert 0 < is_left.sum() < 40
     assert same_bits(found[~is_left], wanted[~is_left])
+
+
+def test_without_code_for_cards_the_card_can_not_be_used(monkeypatch):
+    def missing(*_):
+        raise EngineMissingError("no analytic engine for cuda")
+
+    monkeypatch.setattr(on_device, "library_file", missing)
+    rows: Any = thrown("fig24a", 1)
+    card: Any = None
+    with pytest.raises(CardError, match=r"^no analytic engine for cuda$"):
+        on_device.toss_on_device(card, rows, contact_limits(MANY), NO_TRUST, unanswered(1))
 
 
 def test_a_card_has_the_engine_without_a_fused_product_and_on_a_stack_of_known_size(queue):
