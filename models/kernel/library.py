@@ -241,18 +241,19 @@ class Made(NamedTuple):
         return all(digest_of(home / name) == digest for name, digest in self.sources.items())
 
 
-def library_file(module: str, system: str = SYSTEM) -> Path:
+def library_file(module: str, system: str | None = None) -> Path:
     """Return the file of an engine's library: that which a wheel carries, or the one of the sources here.
 
     The library of sources that have none yet is built.
 
     Args:
         module: the full name of the engine's table of entries.
-        system: for which it is.
+        system: for which it is; by default this one.
 
     Raises:
         EngineMissingError: in one line.
     """
+    system = system or SYSTEM
     name = module.split(".")[-2]
     if CARRIED.is_dir():
         manifest = CARRIED / f"{name}-{system}{MANIFEST}"

@@ -8,7 +8,7 @@ import signal
 import sys
 import tempfile
 import threading
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from importlib import import_module
 from importlib.util import find_spec, module_from_spec
 from pathlib import Path
@@ -39,8 +39,7 @@ def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> N
 
     before = {path: digest_of(path) for part in ENGINES for path in (HOME / part).rglob("*.py")}
     table = alone(module)
-    if CUDA in systems:
-        import_module("cointoss.models.kernel.build.device")
+    assembled = _assembler() if CUDA in systems else None  # is read as a source
     sources = {name: before.get(HOME / name) or digest_of(HOME / name) for name in read_sources()}
     on_cards = [each.symbol for each in entries_of(table) if each.on_cards]
     known = (*linking.SYSTEMS, *[CUDA] * bool(on_cards))
@@ -55,8 +54,8 @@ def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> N
         raise RuntimeError("its sources have changed while they were compiled: build it again")
     with tempfile.TemporaryDirectory() as folder:
         for name in systems:
-            if name == CUDA:
-                library = _assembled(code, on_cards[0], Path(folder))
+            if assembled is not None and name == CUDA:
+                library = assembled(code, on_cards[0], Path(folder))
             else:
                 library = _linked(code, symbols, linking.SYSTEMS[name], Path(folder), carried=carried)
             digest = hashlib.sha256(library).hexdigest()
@@ -66,11 +65,11 @@ def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> N
             write_whole(out / f"{stem}{MANIFEST}", json.dumps(manifest._asdict()).encode())
 
 
-def _assembled(code: bytes, entry: str, folder: Path) -> bytes:
-    """Return the library of a module of code for cards."""
+def _assembler() -> Callable[[bytes, str, Path], bytes]:
+    """Return what makes the library for cards of a module of code and the symbol of an entry."""
     from cointoss.models.kernel.build import device
 
-    return device.assembled(device.ptx_of(code, entry), folder)[0]
+    return lambda code, entry, folder: device.assembled(device.ptx_of(code, entry), folder)[0]
 
 
 def _linked(code: bytes, symbols: Sequence[str], system: "System", folder: Path, *, carried: bool) -> bytes:
