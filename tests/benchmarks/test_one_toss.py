@@ -55,16 +55,21 @@ def by_heyoka() -> Answer:
     return heyoka_toss.toss(numbers, COIN, FIG24A.ending.max_time)
 
 
-@pytest.mark.parametrize("toss", [by_the_engine, by_its_event_loop, by_scipy, by_heyoka])
-def test_fig24a(benchmark, toss: Callable[[], Answer]):
-    """Past the horizon nothing need agree but that the toss ends."""
+@pytest.mark.parametrize(
+    ("toss", "alike"), [(by_the_engine, 8), (by_its_event_loop, 8), (by_scipy, 6), (by_heyoka, 8)]
+)
+def test_fig24a(benchmark, toss: Callable[[], Answer], alike: int):
+    """Past the horizon nothing need agree but that the toss ends.
+
+    In 113-bit arithmetic SciPy's seventh impact is 1.1e-9 s off, heyoka's 2.3e-10 s, the engine's 2.3e-11 s.
+    """
     reference = analytic.toss(FIG24A)
     trusted = reference.trusted_impacts
     times, faces = toss()
     assert trusted >= 8
     assert len(times) > trusted
-    # Six impacts have multiplied what rounding and tolerances of 1e-12 differ by; other errors would be far
-    # larger.
-    assert np.abs(np.array(times[:6]) - reference.impacts.time[:6]).max() < 1e-10
+    # Impacts have multiplied what rounding and tolerances of 1e-12 differ by; other errors would be larger.
+    off = np.abs(np.array(times[:alike]) - reference.impacts.time[:alike])
+    assert np.all(off < np.where(np.arange(alike) < 6, 1e-10, 1e-9))
     assert faces[:trusted] == reference.impacts.face[:trusted].tolist()
     benchmark(toss)
