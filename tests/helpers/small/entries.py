@@ -70,12 +70,12 @@ def sums(rows: Table, answers: Table, scale: float) -> None:
         if rows[i, 0] < 0:
             raise ValueError("fewer than none")
         total, spaces = 0.0, int(rows[i, 0])
+        held = np.zeros(spaces)
         for k in range(spaces):
             room = np.empty(32 + 8 * k)
             for j in range(rows.shape[1]):
                 room[j] = rows[i, j]
                 total += room[j] * room[j]
-        held = np.zeros(spaces)
         held[:] = total
         answers[i, 0] = scale * held[0] if spaces > 0 else 0.0
 
