@@ -1,6 +1,6 @@
 // Where the map and its tosses come from: the server, or the page itself where it is one file.
 
-import { changed } from "./engine.js";
+import { changed, unpacked } from "./engine.js";
 import { startWorkers } from "./workers.js";
 
 const SIDE = 32; // of a tile, in its own pixels
@@ -44,7 +44,7 @@ export async function toss(engine, place) {
 let started = null;
 
 // The engine in the page, on workers; it is started when it is first asked.
-const workers = () => (started ??= startWorkers(bytesOf(data.engine.wasm)));
+const workers = () => (started ??= unpacked(data.engine.wasm).then((bytes) => startWorkers(bytes)));
 
 // The toss of a point by the engine in the page, as the server gives it.
 async function tossedHere(place) {
@@ -77,5 +77,3 @@ function partOf(axis, level, number) {
   const [start, stop] = [inside[0], inside.at(-1)].map((place) => axis.start + place * ((axis.stop - axis.start) / (axis.count - 1)));
   return { field: axis.field, start, stop, count: inside.length, first: places.indexOf(inside[0]) };
 }
-
-const bytesOf = (text) => Uint8Array.from(atob(text), (sign) => sign.charCodeAt(0));

@@ -1,5 +1,6 @@
 """The engine's file, where the package carries it, and what a page needs beside it to toss one scenario."""
 
+import gzip
 import json
 from base64 import b64encode
 from importlib import resources
@@ -51,9 +52,10 @@ def engine_data(scenario: Scenario) -> dict[str, Any] | None:
         scenario: to be tossed.
 
     Returns:
-        None where the engine was not built.
+        The engine's file by gzip and base64, and the scenario; None where the engine was not built.
     """
     content = engine_bytes()
     if content is None:
         return None
-    return {"wasm": b64encode(content).decode("ascii"), "scenario": fields_of(scenario)}
+    packed = gzip.compress(content, mtime=0)
+    return {"wasm": b64encode(packed).decode("ascii"), "scenario": fields_of(scenario)}

@@ -13,6 +13,13 @@ const LISTS = { "release.angles": 0, "release.quaternion": null, "coin.inertia":
 
 export class EngineError extends Error {}
 
+/** The bytes of engine.wasm from a page's data, where they stand by gzip and base64. */
+export async function unpacked(text) {
+  const packed = Uint8Array.from(atob(text), (sign) => sign.charCodeAt(0));
+  const bytes = new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip")));
+  return new Uint8Array(await bytes.arrayBuffer());
+}
+
 /** Load engine.wasm; `version` is that of the page, if it asks for its own. */
 export async function load(bytes, version) {
   if (typeof WebAssembly === "undefined") throw new EngineError("this browser has no WebAssembly");
