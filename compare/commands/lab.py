@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Annotated
 
 import click
+from click.core import ParameterSource
 
 from cointoss.compare.commands.common import SCENARIO_HELP, say
 from cointoss.compare.commands.names import spared_scenario_argument
@@ -36,12 +37,14 @@ def lab(source: Source, asked: LabPage) -> None:
     """Toss coins in the browser: a map that follows sliders, and each of its tosses.
 
     The page is one file with the analytic engine in it; it needs no server and no network. It begins with
-    SCENARIO, by default fig24a. With --device the page is served, and its map is tossed here.
+    SCENARIO, by default with its tour. With --device the page is served, and its map is tossed here.
     """
+    given = click.get_current_context().get_parameter_source("scenario")
+    is_tour = given is ParameterSource.DEFAULT and not source.settings
     if asked.device is not None:
         from cointoss.compare.lab.served import ServedLab
 
-        serve(ServedLab(source.scenario, asked.port or 0, asked.device), asked)
+        serve(ServedLab(source.scenario, asked.port or 0, asked.device, is_tour=is_tour), asked)
         return
     import tempfile
     import webbrowser
@@ -50,7 +53,7 @@ def lab(source: Source, asked: LabPage) -> None:
     from cointoss.compare.output.files import require_file, write_text
 
     require_file(asked.out, ".html", source.name)
-    page = lab_page(source.scenario)
+    page = lab_page(source.scenario, is_tour=is_tour)
     target = asked.out or Path(tempfile.mkdtemp(prefix="cointoss-")) / "lab.html"
     write_text(target, page)
     click.echo(target)

@@ -12,11 +12,12 @@ SERVED_POLICY = f"{ENGINE_POLICY}; connect-src 'self'"
 """The Content-Security-Policy of the page where it is served."""
 
 
-def lab_page(scenario: Scenario, *, is_served: bool = False) -> str:
+def lab_page(scenario: Scenario, *, is_tour: bool = False, is_served: bool = False) -> str:
     """Return the page, which begins with a scenario.
 
     Args:
         scenario: the first one.
+        is_tour: whether the page begins with its tour instead.
         is_served: whether it asks the server that it comes from for its map; else it needs none.
 
     Raises:
@@ -27,4 +28,5 @@ def lab_page(scenario: Scenario, *, is_served: bool = False) -> str:
         raise UnusableEngineError("engine.wasm: not built, or of other sources; make docs builds it")
     files = {**files_of("cointoss.compare.lab"), **engine_scripts()}
     policy = SERVED_POLICY if is_served else ENGINE_POLICY
-    return one_file(files, {**data, "outcomes": shown_outcomes(), "served": is_served}, policy)
+    shown = {**data, "outcomes": shown_outcomes(), "tour": is_tour, "served": is_served}
+    return one_file(files, shown, policy)

@@ -42,11 +42,12 @@ class ServedLab(PageServer):
 
     refusals = (*PageServer.refusals, SweepError)
 
-    def __init__(self, scenario: Scenario, port: int, device: Device) -> None:
+    def __init__(self, scenario: Scenario, port: int, device: Device, *, is_tour: bool = False) -> None:
         """Listen.
 
         Args:
             scenario: with which the page begins.
+            is_tour: whether it begins with its tour instead.
             port: 0 for a free one.
             device: that tosses the map.
 
@@ -57,7 +58,7 @@ class ServedLab(PageServer):
         """
         Engine.ANALYTIC.package.require_rows(row_of(scenario)[np.newaxis], device=Processor(device))
         self.device = device
-        page = lab_page(scenario, is_served=True)
+        page = lab_page(scenario, is_tour=is_tour, is_served=True)
         super().__init__(port, {"index.html": page.encode()}, {"/map": self._map}, SERVED_POLICY)
 
     def _map(self, query: str, client: Client) -> bytes:

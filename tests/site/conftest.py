@@ -11,9 +11,9 @@ from tests.helpers.lab import WHOLE
 
 @pytest.fixture(scope="session")
 def lab_path(tmp_path_factory):
-    """The lab, as `cointoss lab` writes it."""
+    """The lab of a scenario, as `cointoss lab` writes it."""
     target = tmp_path_factory.mktemp("lab") / "lab.html"
-    answered = command("lab", "--out", target)
+    answered = command("lab", "fig24a", "--out", target)
     assert answered.exit_code == 0, answered.stderr
     assert target.stat().st_size < lab.MOST_BYTES
     return target

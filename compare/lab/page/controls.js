@@ -2,25 +2,26 @@
 
 import { COINS, coinPicture } from "./coins.js";
 import { changed } from "./engine.js";
+import { THINNEST, WIDEST } from "./hundred.js";
+import { element, HINTS, LABELS } from "./words.js";
 
 const TURN = 180 / Math.PI;
 const TOUCHES = 12; // that are offered
 
-// Sliders in the units that are shown: field, label, unit, units in one SI unit, least and most.
+// Sliders in the units that are shown: field, unit, units in one SI unit, least and most.
 const SLIDERS = {
   coin: [
-    ["coin.radius", "radius", "mm", 1e3, 5, 20], ["coin.thickness", "thickness", "mm", 1e3, 0, 20], ["coin.mass", "mass", "g", 1e3, 0.5, 50],
-    ["coin.center_of_mass.xi", "mass centre aside", "mm", 1e3, -3, 3], ["coin.center_of_mass.zeta", "mass centre up", "mm", 1e3, -0.9, 0.9],
+    ["coin.radius", "mm", 1e3, 5, 20], ["coin.thickness", "mm", 1e3, 0, 20], ["coin.mass", "g", 1e3, 0.5, 50],
+    ["coin.center_of_mass.xi", "mm", 1e3, -3, 3], ["coin.center_of_mass.zeta", "mm", 1e3, -0.9, 0.9],
   ],
-  floor: [["floor.restitution", "restitution χ", "", 1, 0, 1], ["floor.friction", "friction μ", "", 1, 0, 1]],
+  floor: [["floor.restitution", "", 1, 0, 1], ["floor.friction", "", 1, 0, 1]],
   release: [
-    ["release.position.z", "height", "m", 1, 0.03, 1.5], ["release.velocity.z", "speed upwards", "m/s", 1, 0, 4],
-    ["release.angular_velocity.eta", "spin", "rad/s", 1, 0, 150], ["release.angular_velocity.zeta", "wobble: spin about the normal", "rad/s", 1, 0, 100],
-    ["release.angles.theta", "tilt", "°", TURN, 0, 90],
+    ["release.position.z", "m", 1, 0.03, 1.5], ["release.velocity.z", "m/s", 1, 0, 4], ["release.angular_velocity.eta", "rad/s", 1, 0, 150],
+    ["release.angular_velocity.zeta", "rad/s", 1, 0, 100], ["release.angles.theta", "°", TURN, 0, 90],
   ],
 };
-const AXES = [...Object.values(SLIDERS).flat().map(([field, label, , factor, low, high]) => [field, label, low / factor, high / factor]),
-  ["release.velocity.x", "speed aside", 0, 2], ["release.angular_velocity.xi", "spin about ξ", 0, 150]];
+const AXES = [...Object.values(SLIDERS).flat().map(([field, , factor, low, high]) => [field, low / factor, high / factor]),
+  ["release.velocity.x", 0, 2], ["release.angular_velocity.xi", 0, 150]];
 const LAWS = { smooth: "smooth", coulomb: "Coulomb", perfectly_rough: "perfectly rough", knurled: "knurled", sharp_edge: "sharp edge",
   slip_preserving: "slip-preserving", sliding_friction: "sliding friction" };
 const AIR = { "air.normal": 0.8, "air.tangential": 0.2 };
@@ -32,7 +33,7 @@ export function makeControls(boxes, fields, change) {
   const scenario = (more) => change({ scenario: changed(state.scenario, more) });
   const value = (field) => state.scenario[field] ?? fields[field]?.default ?? 0;
 
-  function slider(box, name, unit, low, high, read, write) {
+  function slider(box, name, unit, low, high, read, write, words = (now) => `${Number(now.toPrecision(4))}${unit && (unit === "°" ? unit : `\u00a0${unit}`)}`) {
     const label = element("label", "slider"), input = element("input"), output = element("output");
     Object.assign(input, { type: "range", min: low, max: high, step: "any" });
     label.append(element("span", "", name), input, output);
@@ -40,19 +41,20 @@ export function makeControls(boxes, fields, change) {
     shows.push(() => {
       const now = read();
       input.value = String(now);
-      output.textContent = `${Number(now.toPrecision(4))}${unit && (unit === "°" ? unit : `\u00a0${unit}`)}`;
+      output.textContent = words(now);
       input.setAttribute("aria-valuetext", output.textContent);
     });
     box.append(label);
     return input;
   }
 
-  function fieldSlider(box, [field, name, unit, factor, low, high]) {
-    const input = slider(box, name, unit, low, high, () => value(field) * factor, (shown) => {
+  function fieldSlider(box, [field, unit, factor, low, high]) {
+    const input = slider(box, LABELS[field], unit, low, high, () => value(field) * factor, (shown) => {
       const caught = field === "release.position.z" && "ending.caught" in state.scenario;
       scenario({ [field]: shown / factor, ...(caught && { "ending.caught": shown / factor }) });
     });
     input.dataset.field = field;
+    if (HINTS[field]) input.after(element("small", "soft", HINTS[field]));
   }
 
   function choice(box, name, options, read, write) {
@@ -115,16 +117,21 @@ export function makeControls(boxes, fields, change) {
   choice(boxes.map, "shows", { ...touches, final: "final face" }, () => (state.after === null ? "final" : state.after + 1),
     (shown) => change({ after: shown === "final" ? null : Number(shown) - 1 })).id = "shows";
   for (const [name, label, other] of [["x", "across", "y"], ["y", "up", "x"]]) {
-    choice(boxes.map, label, Object.fromEntries(AXES.map(([field, text]) => [field, text])), () => state[name].field, (field) => {
-      const [, , from, to] = AXES.find(([each]) => each === field);
+    choice(boxes.map, label, Object.fromEntries(AXES.map(([field]) => [field, LABELS[field]])), () => state[name].field, (field) => {
+      const [, from, to] = AXES.find(([each]) => each === field);
       const swapped = state[other].field === field && { [other]: state[name] };
       change({ [name]: swapped ? state[other] : { field, from, to }, ...swapped, before: null });
     }).id = `across-${name}`;
   }
-  tick(boxes.map, "hatch what the engine's own errors may decide", () => state.trust, (trust) => change({ trust })).id = "trust";
-  tick(boxes.hand, "a hand's scatter", () => state.hand !== null, (on) => change({ hand: on ? 0.02 : null })).id = "hand";
+  tick(boxes.map, "hatch what the computer's own rounding may decide", () => state.trust, (trust) => change({ trust })).id = "trust";
+  tick(boxes.hand, "a hand that scatters: 2,000 tosses", () => state.hand !== null, (on) => change({ hand: on ? 0.02 : null })).id = "hand";
   const scatter = slider(boxes.hand, "of height, speed and spin", "%", 0.1, 20, () => 100 * (state.hand ?? 0.02), (percent) => change({ hand: percent / 100 }));
   shows.push(() => (scatter.disabled = state.hand === null));
+  tick(boxes.hand, "a hundred coins, released a hair apart", () => state.hair !== null, (on) => change({ hair: on ? 1e-6 : null })).id = "hair";
+  const hair = slider(boxes.hand, "the hair, as a part of the spin", "", Math.log10(THINNEST), Math.log10(WIDEST), () => Math.log10(state.hair ?? 1e-6),
+    (power) => change({ hair: Math.min(Math.max(Number((10 ** power).toPrecision(2)), THINNEST), WIDEST) }), (power) => (10 ** power).toExponential(1).replace(".0e", "e"));
+  hair.id = "thinness";
+  shows.push(() => (hair.disabled = state.hair === null));
 
   return {
     show(now) {
@@ -132,11 +139,4 @@ export function makeControls(boxes, fields, change) {
       for (const each of shows) each();
     },
   };
-}
-
-export function element(tag, kind = "", text = "") {
-  const made = document.createElement(tag);
-  if (kind) made.className = kind;
-  if (text) made.textContent = text;
-  return made;
 }

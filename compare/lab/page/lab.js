@@ -1,42 +1,47 @@
 // The lab's page: joins coin, map, controls, tour and address, which all show one state.
 
-import { changed } from "./engine.js";
+import { changed, unpacked } from "./engine.js";
 import { startWorkers } from "./workers.js";
-import { counted, shownAs } from "./words.js";
-import { makeControls, element } from "./controls.js";
+import { counted, element, LABELS, shownAs } from "./words.js";
+import { makeControls } from "./controls.js";
 import { makeLiveMap } from "./live_map.js";
 import { makeStage } from "./stage.js";
 import { horizonText, markTouch, showSequences } from "./sequences.js";
 import { showEnergy } from "./energy.js";
 import { address, fromAddress, START } from "./state.js";
 import { tossedThere } from "./served.js";
-import { makeTour } from "./tour.js";
+import { makeTour, STOPS } from "./tour.js";
 import { countHeads } from "./hand.js";
+import { makeHundred } from "./hundred_shown.js";
+import { makeThrows } from "./throws.js";
+import { glide } from "./glide.js";
 import { measure } from "./measure.js";
-import { copyCommand, saveCsv, savePng, saveToml } from "./save.js";
+import { copied, command, saveCsv, savePng, saveToml } from "./save.js";
 
 const SAMPLES = 800; // of the path that is played
 const PAUSE = 250; // milliseconds until the address follows, which browsers allow some times a second
-const LABELS = { analytic: "this pixel", before: "the pixel before" };
+const NAMES = { analytic: "this toss", before: "the toss before" };
 const byId = (id) => document.getElementById(id);
 const data = JSON.parse(byId("data").textContent), { outcomes } = data;
-const bytes = Uint8Array.from(atob(data.wasm), (sign) => sign.charCodeAt(0));
 
-let engine, workers, fields, state, stage, map, controls, showStop, moveEnergy = () => {};
+let bytes, engine, workers, fields, state, stage, map, controls, hundred, throws, showStop, moveEnergy = () => {}, stopGlide = () => {};
 let tosses = [null, null], tossed = null, wanted = null, isTossing = false, counting = null, pending = null;
 
 async function begin() {
+  bytes = await unpacked(data.wasm);
   workers = await startWorkers(bytes);
   engine = workers.engine;
   if (data.served) {
     workers.tossMap = tossedThere;
     byId("where").textContent = "on this machine";
   }
-  fields = Object.fromEntries(engine.about.fields.map((field) => [field.name, field]));
+  fields = Object.fromEntries(engine.about.fields.map((field) => [field.name, { ...field, word: LABELS[field.name] ?? field.word }]));
+  hundred = makeHundred({ box: byId("crowd"), scene: byId("hundred"), strip: byId("strip"), up: byId("up"), heads: byId("heads"), parting: byId("parting") }, workers, say);
   stage = makeStage(byId("played"), {
-    without: "The map, the sequences and the energies work without it.", labels: LABELS, shown: "The coin that is tossed",
+    without: "The map, the sequences and the energies work without it.", labels: NAMES, shown: "The coin that is tossed",
     onTime(time) {
       markTouch(byId("sequences"), [tosses[0]], time);
+      hundred.draw(time);
       moveEnergy(time);
     },
   });
@@ -51,12 +56,15 @@ async function begin() {
       progress(part, isCoarse) {
         byId("map").setAttribute("aria-busy", String(part < 1));
         byId("map").dataset.seen = String(isCoarse);
+        if (isCoarse) legend();
       },
     },
   });
   const box = (name) => byId(`of-${name}`);
   controls = makeControls({ map: box("map"), release: box("release"), coin: box("coin"), floor: box("floor"), hand: box("hand") }, fields, change);
-  showStop = makeTour(byId("tour"), byId("stop"), (stop) => address(stop, fields));
+  showStop = makeTour({ list: byId("tour"), box: byId("stop"), back: byId("back"), next: byId("next") }, (stop) => address(stop, fields), visit);
+  throws = makeThrows({ handle: byId("flick"), box: byId("challenge"), told: byId("thrown"), curve: byId("curve"), again: byId("again") },
+    { change: (more) => change(more, true), again: () => toss(true), isCaught: () => "ending.caught" in state.scenario, state: () => state });
   listen();
   restore();
   document.body.dataset.ready = "true";
@@ -70,19 +78,22 @@ function listen() {
     byId("both").setAttribute("aria-pressed", String(!areBoth()));
     showTosses(true);
   });
-  byId("copy").addEventListener("click", async () => (byId("copied").textContent = await copyCommand(state, fields, map.grid(), byId("command"))));
+  const copy = async (text) => (byId("copied").textContent = await copied(text, byId("command")));
+  byId("copy").addEventListener("click", () => copy(command(state, fields, map.grid())));
+  byId("link").addEventListener("click", () => copy(new URL(address(state, fields), location.href).href));
   byId("toml").addEventListener("click", () => saveToml(state, fields));
   byId("png").addEventListener("click", () => savePng(byId("map")));
   byId("csv").addEventListener("click", () => saveCsv(map.seen(), state.trust, outcomes));
+  byId("print").addEventListener("click", () => print());
   byId("measure").addEventListener("click", measured);
   addEventListener("hashchange", restore);
 }
 
 // The state of the address, or of the page where that names none.
 function restore() {
-  const own = { ...START, scenario: data.scenario };
-  let found = own;
+  let found = data.tour ? STOPS[0].state : { ...START, scenario: data.scenario };
   say("");
+  stopGlide();
   if (location.hash.length > 1) {
     try {
       found = fromAddress(location.hash, fields, (scenario) => engine.fault(scenario));
@@ -90,12 +101,24 @@ function restore() {
       say(`The address is no state of the lab: ${problem.message}. Shown is what the page begins with.`);
     }
   }
+  take(found, true);
+}
+
+// Goes to a stop of the tour: the controls move there, where they can be followed.
+function visit(stop) {
+  stopGlide();
+  say("");
+  stopGlide = glide(state, stop, fields, (now, isThere) => take(now, isThere, !isThere));
+}
+
+function take(found, fresh, isOnTheWay = false) {
   state = { ...found, home: { x: found.x, y: found.y } };
-  show(true);
+  show(fresh, isOnTheWay);
 }
 
 // Takes what is other in the state; what is no scenario is told, and nothing changes.
 function change(more, fresh = false) {
+  stopGlide();
   const wrong = more.scenario ? engine.fault(more.scenario) : null;
   if (more.scenario) say(wrong ?? "");
   if (wrong === null) state = { ...state, ...more };
@@ -103,12 +126,13 @@ function change(more, fresh = false) {
   else controls.show(state);
 }
 
-function show(fresh) {
+function show(fresh, isOnTheWay = false) {
   controls.show(state);
-  legend();
   map.update(state);
-  showStop(state);
+  showStop(state, isOnTheWay);
+  throws.show();
   toss(fresh);
+  if (isOnTheWay) return;
   count();
   clearTimeout(pending);
   pending = setTimeout(() => history.replaceState(null, "", address(state, fields)), PAUSE);
@@ -125,18 +149,19 @@ function choose(x, y) {
 async function toss(fresh) {
   const at = ([x, y]) => changed(state.scenario, { [state.x.field]: x, [state.y.field]: y });
   const scenarios = [state.scenario, state.before && at(state.before)];
-  const key = JSON.stringify([scenarios, state.after]);
+  const key = JSON.stringify([scenarios, state.after, state.hair]);
   if (key === tossed && !fresh && !wanted) return;
-  wanted = { scenarios, key, fresh: fresh || (wanted?.fresh ?? false) };
+  wanted = { scenarios, key, hair: state.hair, fresh: fresh || (wanted?.fresh ?? false) };
   if (isTossing) return;
   isTossing = true;
   while (wanted) {
-    const { scenarios, key, fresh } = wanted;
+    const { scenarios, key, hair, fresh } = wanted;
     wanted = null;
     try {
       if (key !== tossed) {
         const [one, before] = await Promise.all(scenarios.map((each) => each && workers.toss(each, SAMPLES)));
-        tosses = [{ ...one, label: "this pixel" }, before && { ...before, engine: "before", label: "before" }];
+        await hundred.toss(scenarios[0], hair);
+        tosses = [{ ...one, label: NAMES.analytic }, before && { ...before, engine: "before", label: "before" }];
         tossed = key;
       }
       showTosses(fresh);
@@ -158,7 +183,10 @@ function showTosses(fresh) {
   byId("sequences").hidden = one.count === 0;
   moveEnergy = showEnergy(byId("energy"), shown);
   byId("outcome").textContent = `${one.outcome} after ${counted(one.count, "impact")} in ${one.end_time.toFixed(4)} s. ${one.ending}`;
-  stage.show(shown, shown.map((each) => each.outcome), fresh);
+  document.querySelector(".coin").classList.toggle("crowded", hundred.isShown());
+  const played = hundred.longest() ?? null;
+  stage.show(played ? [played] : shown, (played ? [played] : shown).map((each) => each.outcome), fresh);
+  throws.landed(one.outcome);
 }
 
 // The share of heads of the hand, from its own tosses.
@@ -168,15 +196,16 @@ async function count() {
   counting?.controller.abort();
   const controller = new AbortController(), percent = (part) => (100 * part).toFixed(1);
   counting = { key, controller };
-  byId("share").hidden = state.hand === null;
+  byId("share").hidden = byId("bar").hidden = state.hand === null;
   byId("share").dataset.whole = "false";
   if (state.hand === null) return;
-  byId("share").textContent = "Tossing by the hand …";
+  byId("share").textContent = "The hand tosses …";
   try {
     await countHeads(workers, state, ({ share, low, high, count, isWhole }) => {
       const when = state.after === null ? "" : ` at touch ${state.after + 1}`;
-      byId("share").textContent = `Of ${counted(count, "toss", "tosses")} by this hand ${percent(share)} % are heads${when} ` +
+      byId("share").textContent = `Of ${counted(count, "toss", "tosses")} by this hand ${percent(share)} % show heads${when} ` +
         `[${percent(low)}, ${percent(high)}; 99 % interval]. The ellipse: two standard deviations.`;
+      byId("bar").firstElementChild.style.width = `${percent(share)}%`;
       byId("share").dataset.whole = String(isWhole);
     }, controller.signal);
   } catch (problem) {
@@ -201,12 +230,15 @@ function placeText({ x, y, code, trusted }) {
 
 function ends(isEnd) {
   byId("ends").hidden = !isEnd;
-  byId("ends").textContent = isEnd ? "Double precision ends here: neighbouring pixels differ in their last bit, and no toss lies between them." : "";
+  byId("ends").textContent = isEnd ? "Double precision ends here: neighbouring tosses differ in the last bit of a number, and no toss lies between them." : "";
 }
 
+// What is on the map.
 function legend() {
-  const entries = [1, 2, 3].map((code) => [outcomes[code].label, outcomes[code].color]);
-  entries.push([doubtText(), "repeating-linear-gradient(135deg, #fff 0 2px, var(--soft) 2px 6px)"]);
+  const codes = new Set(map.seen().codes), entries = Object.entries(outcomes).filter(([code]) => codes.has(Number(code))).map(([, { label, color }]) => [label, color]);
+  if (state.trust) entries.push([doubtText(), "repeating-linear-gradient(135deg, #fff 0 2px, var(--soft) 2px 6px)"]);
+  if (byId("legend").dataset.shows === String(entries)) return;
+  byId("legend").dataset.shows = String(entries);
   byId("legend").replaceChildren(...entries.map(([label, color]) => {
     const item = element("li"), patch = element("i");
     patch.style.background = color;

@@ -1,7 +1,9 @@
 // What leaves the page: the command, and files of what is seen.
 
 import { valueAt } from "./axes.js";
-import { command, toml } from "./toml.js";
+import { toml } from "./toml.js";
+
+export { command } from "./toml.js";
 
 export function saveToml(state, fields) {
   save("coin.toml", new Blob([toml(state.scenario, fields)], { type: "text/plain" }));
@@ -27,9 +29,8 @@ export function csv({ x, y, codes, trusted, isTossed }, trust, outcomes) {
   return `${rows.join("\n")}\n`;
 }
 
-// Copies the command; where the browser refuses, it is shown to be copied.
-export async function copyCommand(state, fields, grid, box) {
-  const text = command(state, fields, grid);
+// Copies a text; where the browser refuses, it is shown to be copied.
+export async function copied(text, box) {
   box.textContent = text;
   box.hidden = false;
   try {
@@ -37,7 +38,7 @@ export async function copyCommand(state, fields, grid, box) {
     return "Copied.";
   } catch {
     getSelection().selectAllChildren(box);
-    return "The browser refuses the clipboard; the command is selected below.";
+    return "The browser refuses the clipboard; the text is selected below.";
   }
 }
 

@@ -1,9 +1,12 @@
 // The state of the lab, and the address that carries it whole.
 
+import { THINNEST, WIDEST } from "./hundred.js";
+import { NAMES, stopNamed } from "./tour.js";
+
 export const START = {
   x: { field: "release.angular_velocity.eta", from: 20, to: 60 },
   y: { field: "release.position.z", from: 0.2, to: 0.6 },
-  after: 2, trust: false, hand: null, before: null, tour: null,
+  after: 1, trust: false, hand: null, hair: null, before: null, tour: null,
 };
 
 const NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
@@ -22,8 +25,9 @@ export function address(state, fields) {
   found.set("map", state.after === null ? "final" : String(state.after + 1));
   if (state.trust) found.set("trust", "1");
   if (state.hand !== null) found.set("hand", String(state.hand));
+  if (state.hair !== null) found.set("hair", String(state.hair));
   if (state.before) found.set("before", state.before.join(":"));
-  if (state.tour !== null) found.set("tour", String(state.tour));
+  if (state.tour !== null) found.set("tour", state.tour);
   return `#${found.toString().replaceAll("%3A", ":")}`;
 }
 
@@ -40,19 +44,23 @@ export function fromAddress(hash, fields, fault) {
     if (text !== undefined) state[name] = axisOf(name, text, fields);
   }
   if (state.x.field === state.y.field) throw new StateError(`y: ${state.y.field}; accepted: another field than that of x`);
-  const map = taken("map"), touch = map === undefined ? 3 : Number(map);
+  const map = taken("map"), touch = map === undefined ? START.after + 1 : Number(map);
   if (map === "final") state.after = null;
   else if (Number.isInteger(touch) && touch >= 1 && touch <= MOST_TOUCH) state.after = touch - 1;
   else throw new StateError(`map: ${shortened(map)}; accepted: final, or the number of a touch from 1 to ${MOST_TOUCH}`);
   state.trust = taken("trust") === "1";
-  const hand = taken("hand"), before = taken("before"), tour = taken("tour");
+  const hand = taken("hand"), hair = taken("hair"), before = taken("before"), tour = taken("tour");
   if (hand !== undefined) state.hand = within("hand", hand, 0, 0.3);
+  if (hair !== undefined) state.hair = within("hair", hair, THINNEST, WIDEST);
   if (before !== undefined) {
     const place = before.split(":");
     if (place.length !== 2) throw new StateError(`before: ${shortened(before)}; accepted: two numbers`);
     state.before = place.map((text) => within("before", text, -1e9, 1e9));
   }
-  if (tour !== undefined) state.tour = within("tour", tour, 1, 6);
+  if (tour !== undefined) {
+    state.tour = stopNamed(tour);
+    if (!NAMES.includes(state.tour)) throw new StateError(`tour: ${shortened(tour)}; accepted: ${NAMES.join(", ")}`);
+  }
   for (const [field, text] of given) {
     if (!(field in fields)) throw new StateError(`${shortened(field)}: no field of a scenario`);
     if (!NUMBER.test(text) && !WORD.test(text)) throw new StateError(`${field}: ${shortened(text)}; accepted: a number or a word`);

@@ -1,4 +1,4 @@
-// The guided tour: six stops, each a state of the lab with a few sentences on its map.
+// The guided tour: eight stops, each a state of the lab with a few sentences on what it shows.
 
 const COIN = { "coin.mass": 0.002, "coin.radius": 0.0125, "coin.thickness": 0.002 };
 const ASIDE = { "coin.center_of_mass.xi": -0.001, "coin.center_of_mass.eta": -0.001, "coin.center_of_mass.zeta": -0.0002 };
@@ -7,66 +7,93 @@ const FLOOR = { "floor.restitution": 0.8, "floor.contact": "smooth" };
 const PLACE = { "release.position.x": 0, "release.position.y": 0 };
 const FALL = { ...PLACE, "release.position.z": 0.4, "release.angular_velocity.eta": 45 };
 const SPIN = ["release.angular_velocity.eta", 20, 60], HEIGHT = ["release.position.z", 0.2, 0.6];
+const THROWN = { ...PLACE, "release.position.z": 1, "release.velocity.z": 2, "release.angular_velocity.eta": 40, "ending.caught": 1 };
 
-const STATES = [
-  [["release.angular_velocity.eta", 10, 100], ["release.velocity.z", 0.5, 3], null,
-    { ...COIN, "coin.thickness": 0, ...FLOOR, ...PLACE, "release.position.z": 1, "release.velocity.z": 2, "release.angular_velocity.eta": 40, "ending.caught": 1 }],
-  [SPIN, HEIGHT, 1, { ...COIN, ...FLOOR, ...FALL }],
-  [SPIN, ["floor.restitution", 0, 0.9], null, { ...COIN, ...FLOOR, ...FALL, "floor.restitution": 0.3 }],
-  [SPIN, HEIGHT, 2, { ...COIN, ...AIR, ...FLOOR, ...FALL }],
-  [SPIN, HEIGHT, 2, { ...COIN, ...ASIDE, ...AIR, ...FLOOR, ...FALL }],
-  [SPIN, HEIGHT, 0, { ...COIN, ...AIR, ...FLOOR, ...FALL, "release.angular_velocity.eta": 27 }, 0.02],
+// Name, title, sentences, axes across and up, impacts before the touch that is mapped, scenario, and what else is other.
+const TOLD = [
+  ["caught", "Caught", "Not if you catch it. A coin that is caught where it was released shows the face that its turns decide: " +
+    "spin times speed upwards over π g, from a sixth of a turn at the lower left to 9.7 at the upper right. " +
+    "So heads and tails lie in bands between hyperbolas, and the same throw always gives the same face. Throw it yourself.",
+    ["release.angular_velocity.eta", 10, 100], ["release.velocity.z", 0.5, 3], null, { ...COIN, "coin.thickness": 0, ...FLOOR, ...THROWN }],
+  ["touch", "One touch", "Now it falls onto a floor. At the first touch the face changes 3 to 5 times along a row of the map. " +
+    "The stripes are wide: who repeats spin and height within 2 % still repeats the face.", SPIN, HEIGHT, 0, { ...COIN, ...FLOOR, ...FALL }],
+  ["bounces", "A bounce", "At the second touch, after a single bounce, the face changes more than a hundred times along a row. " +
+    "A bounce turns a small difference into a large one. The stripes are still there, only thinner: zoom in, and see them apart.", SPIN, HEIGHT, 1, { ...COIN, ...FLOOR, ...FALL }],
+  ["hundred", "A hundred coins", "A hundred coins are released together. Their spins differ by a millionth at most. All show the same face up to touch 5, and part at touch 6. " +
+    "Make the hair a thousand times thinner: they part only one touch later, at a billionth of a millionth never, for there the numbers of the computer end.",
+    SPIN, HEIGHT, 2, { ...COIN, ...FLOOR, ...FALL }, { hair: 1e-6 }],
+  ["restitution", "A softer floor", "The final face, over the restitution χ of the floor: the part of its speed that a bounce gives back. On a floor that gives nothing back the face changes " +
+    "a dozen times or so along the row. At 0.3 it changes more than a hundred times, and at 0.6 more often than the map has columns.",
+    SPIN, ["floor.restitution", 0, 0.9], null, { ...COIN, ...FLOOR, ...FALL, "floor.restitution": 0.3 }],
+  ["air", "Air", "The face at the third touch, in air. Air slows the coin by little, and still a third of the tosses show another face than in vacuum. " +
+    "Untick the air under Floor and air, and see the stripes move.", SPIN, HEIGHT, 2, { ...COIN, ...AIR, ...FLOOR, ...FALL }],
+  ["imperfect", "An imperfect coin", "The mass centre of this coin lies 1.4 mm aside: the pink pin. At the first touch one toss in thirty shows another face " +
+    "than that of the perfect coin, at the third touch, shown here, nearly a third of them.", SPIN, HEIGHT, 2, { ...COIN, ...ASIDE, ...AIR, ...FLOOR, ...FALL }],
+  ["hand", "A hand", "A hand repeats height and spin within 2 %: the dashed ellipse. It reaches over stripes of both faces, so heads come in about half of its tosses. " +
+    "Nothing here is random but the hand. Choose face at touch 1 under Map: there nearly all of its tosses still show heads.",
+    SPIN, HEIGHT, null, { ...COIN, ...AIR, ...FLOOR, ...FALL, "release.angular_velocity.eta": 27 }, { hand: 0.02 }],
 ];
 
-const TEXTS = [
-  ["Keller's hyperbolas", "A thin coin turns in vacuum and is caught where it was released. The face in the hand depends on the number of turns alone, " +
-    "spin times speed over π g: from a sixth of a turn at the lower left to 9.7 turns at the upper right. So the boundaries are hyperbolas. " +
-    "Twice the speed with half the spin gives the same face."],
-  ["Bounces", "The same fall onto a floor. At the first touch the face changes 3 to 5 times along a row of the map; choose it under Map. " +
-    "At the second touch, shown here, it changes more than a hundred times: a bounce amplifies small differences. Zoom in to see the stripes apart."],
-  ["Restitution", "The final face, over the floor's restitution from 0 to 0.9. On a floor that gives nothing back the face changes a dozen times or so along the row. " +
-    "At 0.3 it changes more than a hundred times, and at 0.6 more often than the map has columns."],
-  ["Air", "The face at the third touch, in air. Air slows the coin by little, and still a third of the pixels have another face than in vacuum. " +
-    "Untick the air under Floor, and see the stripes move."],
-  ["The imperfect coin", "The mass centre of this coin lies 1.4 mm aside: the pink pin. At the first touch one pixel in thirty has another face " +
-    "than that of the perfect coin, at the third touch, shown here, nearly a third of them."],
-  ["The hand", "A hand repeats height and spin within 2 %: the ellipse. At the first touch the stripes are wider than that, and nearly all of its tosses are heads. " +
-    "Choose touch 3 under Map: the ellipse reaches over stripes of both faces, and heads come in about half. This is what makes a toss a gamble."],
-];
+// The stops that an address of an earlier release names by their numbers.
+const NUMBERED = ["caught", "bounces", "restitution", "air", "imperfect", "hand"];
 
-export const STOPS = STATES.map(([x, y, after, scenario, hand = null], i) => {
-  const axis = ([field, from, to]) => ({ field, from, to }), [title, text] = TEXTS[i];
-  return { title, text, state: { x: axis(x), y: axis(y), after, scenario, hand, trust: false, before: null, tour: i + 1 } };
+export const STOPS = TOLD.map(([name, title, text, x, y, after, scenario, more = {}]) => {
+  const axis = ([field, from, to]) => ({ field, from, to });
+  return { name, title, text, state: { x: axis(x), y: axis(y), after, scenario, hand: null, hair: null, trust: false, before: null, tour: name, ...more } };
 });
+export const NAMES = STOPS.map(({ name }) => name);
 
-// Fills a list with links to the stops; returns what shows the stop of a state, or none.
-export function makeTour(list, box, link) {
+export const stopNamed = (text) => (/^[1-6]$/.test(text) ? NUMBERED[Number(text) - 1] : text);
+
+// Fills a list with links to the stops, and has `go` called with the state of the one that is wanted; returns what
+// shows the stop of a state, or none. `link` is the address of a state.
+export function makeTour({ list, box, back, next }, link, go) {
+  let stands = null, at = -1;
   const links = STOPS.map(({ title, state }, i) => {
     const item = document.createElement("li"), to = document.createElement("a");
     to.href = link(state);
-    to.textContent = `${i + 1}. ${title}`;
+    to.title = title;
+    to.setAttribute("aria-label", `${i + 1}. ${title}`);
+    to.textContent = String(i + 1);
     item.append(to);
     list.append(item);
     return to;
   });
-  let stands = null;
-  return (state) => {
-    const stop = STOPS[state.tour - 1] ?? null, isOther = stop !== null && mapped(stop.state) !== mapped(state), now = `${state.tour} ${isOther}`;
+  // Another tab, or a link that is copied, has the address.
+  links.forEach((to, i) => to.addEventListener("click", (event) => {
+    if (event.ctrlKey || event.metaKey || event.shiftKey) return;
+    event.preventDefault();
+    go(STOPS[i].state);
+  }));
+  back.addEventListener("click", () => go(STOPS[Math.max(at - 1, 0)].state));
+  next.addEventListener("click", () => go(STOPS[Math.min(at + 1, STOPS.length - 1)].state));
+
+  return (state, isOnTheWay = false) => {
+    at = NAMES.indexOf(state.tour);
+    const stop = STOPS[at] ?? null, isOther = stop !== null && !isOnTheWay && shown(stop.state) !== shown(state), now = `${state.tour} ${isOther}`;
     if (now === stands) return;
     stands = now;
-    links.forEach((to, i) => (STOPS[i] === stop ? to.setAttribute("aria-current", "step") : to.removeAttribute("aria-current")));
+    links.forEach((to, i) => (i === at ? to.setAttribute("aria-current", "step") : to.removeAttribute("aria-current")));
+    back.disabled = at <= 0;
+    next.disabled = at === STOPS.length - 1;
     box.hidden = stop === null;
-    box.textContent = stop?.text ?? "";
+    box.replaceChildren(...(stop ? [bold(`${at + 1}. ${stop.title}. `), stop.text] : []));
     if (!isOther) return;
-    const back = document.createElement("a");
-    back.href = link(stop.state);
-    back.textContent = "Back to this stop";
-    box.append(" You have changed the map. ", back, ".");
+    const return_ = document.createElement("a");
+    return_.href = link(stop.state);
+    return_.textContent = "Back to this stop";
+    box.append(" You have changed something. ", return_, ".");
   };
 }
 
+function bold(text) {
+  const made = document.createElement("b");
+  made.textContent = text;
+  return made;
+}
+
 // What the sentences of a stop speak of.
-function mapped({ scenario, x, y, after, hand }) {
+function shown({ scenario, x, y, after, hand, hair }) {
   const own = Object.entries(scenario).filter(([field]) => field !== x.field && field !== y.field);
-  return JSON.stringify([own.sort(), x, y, after, hand]);
+  return JSON.stringify([own.sort(), x, y, after, hand, hair]);
 }
