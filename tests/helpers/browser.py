@@ -194,7 +194,8 @@ class Page:
         """Wait until an expression is true."""
         deadline = time.monotonic() + HANGS
         while not self.value(expression):
-            assert time.monotonic() < deadline, f"never: {expression}; {self.complaints()}"
+            failed = time.monotonic() > deadline or any("SyntaxError" in one for one in self.complaints())
+            assert not failed, f"never: {expression}; {self.complaints()}"
             time.sleep(0.05)
 
     def text(self, id_: str) -> str:

@@ -6,9 +6,9 @@ const still = matchMedia("(prefers-reduced-motion: reduce)");
 // A state between two, `part` of the way; null where they differ in more than numbers. `fields` has their defaults.
 export function between(from, to, part, fields) {
   if (["x", "y"].some((name) => from[name].field !== to[name].field) || from.after !== to.after) return null;
-  const fields = [...new Set([...Object.keys(from.scenario), ...Object.keys(to.scenario)])];
+  const named = [...new Set([...Object.keys(from.scenario), ...Object.keys(to.scenario)])];
   const mixed = (a, b) => a + part * (b - a), scenario = {};
-  for (const field of fields) {
+  for (const field of named) {
     const [a, b] = [from, to].map((state) => state.scenario[field] ?? fields[field].default);
     if (a !== b && (typeof a !== "number" || typeof b !== "number")) return null;
     scenario[field] = a === b ? a : mixed(a, b);

@@ -13,7 +13,7 @@ const THROWN = { ...PLACE, "release.position.z": 1, "release.velocity.z": 2, "re
 const TOLD = [
   ["caught", "Caught", "Not if you catch it. A coin that is caught where it was released shows the face that its turns decide: " +
     "spin times speed upwards over π g, from a sixth of a turn at the lower left to 9.7 at the upper right. " +
-    "So heads and tails lie in bands between hyperbolas, and the same throw always gives the same face. Throw it yourself.",
+    "So heads and tails lie in bands between hyperbolas, and the same throw always gives the same face. Throw it: can you land three heads in a row?",
     ["release.angular_velocity.eta", 10, 100], ["release.velocity.z", 0.5, 3], null, { ...COIN, "coin.thickness": 0, ...FLOOR, ...THROWN }],
   ["touch", "One touch", "Now it falls onto a floor. At the first touch the face changes 3 to 5 times along a row of the map. " +
     "The stripes are wide: who repeats spin and height within 2 % still repeats the face.", SPIN, HEIGHT, 0, { ...COIN, ...FLOOR, ...FALL }],

@@ -1,0 +1,100 @@
+"""The coin that is thrown by hand in the lab, and the challenge."""
+
+import json
+import re
+import time
+
+import numpy as np
+import pytest
+from scipy.stats import norm
+
+from tests.helpers.coins_shown import box
+from tests.helpers.lab import TOSSED
+
+CAUGHT = "document.querySelectorAll('#tour a')[0].click()"
+THROWN = "document.getElementById('thrown').textContent"
+
+
+def throws(page):
+    """Return the faces of the throws as the challenge lists them, and the turns of the last one."""
+    page.wait_for(f"{THROWN} !== ''")
+    faces, turns = re.search(r" ((?:[HT] ?)+): ([\d.]+) turns", page.value(THROWN)).groups()
+    return faces.split(), float(turns)
+
+
+def middle(page):
+    left, top, width, height = box(page, "flick")
+    return left + width / 2, top + height / 2
+
+
+@pytest.fixture(name="caught")
+def _caught(page, lab_path):
+    """The lab at the stop of the coin that is caught."""
+    page.open(lab_path.as_uri())
+    page.value(CAUGHT)
+    page.wait_for(f"location.hash.endsWith('tour=caught') && {TOSSED}")
+    return page
+
+
+def test_a_flick_throws_the_coin_and_its_face_is_kellers(caught):
+    x, y = middle(caught)
+    for speed in (2, 6):
+        before = caught.value(THROWN)
+        caught.mouse("mousePressed", x, y, button="left", buttons=1, clickCount=1)
+        for step in range(1, 6):
+            caught.mouse("mouseMoved", x, y - 8 * speed * step, button="left", buttons=1)
+        caught.mouse("mouseReleased", x, y - 40 * speed, button="left", clickCount=1)
+        caught.wait_for(f"{THROWN} !== {json.dumps(before)}")
+    faces, turns = throws(caught)
+    assert len(faces) == 2
+    speed, spin = (
+        float(caught.value(f"document.querySelector('[data-field=\"{field}\"]').value"))
+        for field in ("release.velocity.z", "release.angular_velocity.eta")
+    )
+    assert turns == pytest.approx(spin * speed / (np.pi * 9.81), abs=0.006)
+    assert faces[-1] == ("H" if abs(turns - round(turns)) < 1 / 4 else "T")
+    caught.value("document.getElementById('again').click()")
+    caught.wait_for("document.getElementById('challenge').hidden")
+    assert caught.complaints() == []
+
+
+def test_a_key_that_is_held_longer_throws_harder(caught):
+    caught.value("document.getElementById('flick').focus()")
+    found = []
+    for held in (0.05, 1.5):
+        before = caught.value(THROWN)
+        caught.call("Input.dispatchKeyEvent", type="keyDown", key=" ")
+        time.sleep(held)
+        caught.call("Input.dispatchKeyEvent", type="keyUp", key=" ")
+        caught.wait_for(f"{THROWN} !== {json.dumps(before)}")
+        found.append(throws(caught)[1])
+    assert found[0] < found[1]
+    assert caught.complaints() == []
+
+
+def test_the_fastest_and_the_slowest_flick_are_scenarios(caught):
+    limits = caught.value("import('flick.js').then(({ SPEEDS, SPINS }) => [SPEEDS, SPINS])")
+    for flick in ("0, 0", "0, 1e9", "-1e9, -1e9", "1e9, 0"):
+        found = caught.value(f"import('flick.js').then(({{ thrown }}) => thrown({flick}))")
+        assert limits[0][0] <= found["speed"] <= limits[0][1]
+        assert limits[1][0] <= found["spin"] <= limits[1][1]
+
+
+def test_kellers_curve_is_the_share_of_the_square_wave(caught):
+    for scatter in (0.02, 0.1, 0.3, 0.7):
+        whole = np.arange(-40, 41)
+        due = np.sum(norm.cdf((whole + 0.25) / scatter) - norm.cdf((whole - 0.25) / scatter))
+        found = caught.value(f"import('challenge.js').then(({{ kellersCurve }}) => kellersCurve({scatter}))")
+        assert found == pytest.approx(due, abs=1e-9)
+    made = [
+        {"speed": 2, "spin": 40, "outcome": "heads"},
+        {"speed": 2.2, "spin": 40, "outcome": "tails"},
+        {"speed": 1.8, "spin": 40, "outcome": "heads"},
+        {"speed": 2, "spin": 40, "outcome": "heads"},
+    ]
+    asked = f"[handOf({json.dumps(made)}), longestRow({json.dumps(made)})]"
+    hand, row = caught.value(f"import('challenge.js').then(({{ handOf, longestRow }}) => {asked})")
+    speeds = [each["speed"] for each in made]
+    assert row == 2
+    assert hand["scatter"] == pytest.approx(np.std(speeds, ddof=1) / 2 / 2**0.5)
+    assert hand["turns"] == pytest.approx(np.std(speeds, ddof=1) * 40 / (np.pi * 9.81))
