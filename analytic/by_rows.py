@@ -2,14 +2,13 @@
 
 import numpy as np
 
-from cointoss.analytic.contact.automaton import Mode, contact_at
 from cointoss.analytic.contact.floor_laws import friction_in_contact
-from cointoss.analytic.contact.sampling import floor_force, sample_contact
 from cointoss.analytic.events import TossEnd, started_of, toss_coin
-from cointoss.analytic.flight.flying import sample
 from cointoss.analytic.flight.state_vector import STATE_SIZE, position_of, spin_of, velocity_of
+from cointoss.analytic.going_on import go_on
 from cointoss.analytic.horizon.certainty import certainty_of
 from cointoss.analytic.horizon.horizon import MOST_CARRIED, STEP_ERROR, TURN_ERROR, ErrorsMade, find_horizon
+from cointoss.analytic.path import force_in, sample_piece
 from cointoss.analytic.settings import MANY, ContactLimits, contact_limits
 from cointoss.models.barriers import energy
 from cointoss.models.body import NO_CODE, OwnCode, with_budgets, with_own_law
@@ -160,7 +159,8 @@ def toss_one(row: Row, answer: Row, impacts: Table, pieces: Table, sizes: Row) -
         row: of its fields; of a scenario, see `examine`.
         answer: where it goes, (7,), see `cointoss.models.answers.ANSWER`.
         impacts: where they go, (m, 6), see `IMPACT`.
-        pieces: where they go, (k, `PIECE`), the last where the toss ends.
+        pieces: where they go, (k, `PIECE`), the last where the path ends: with the toss, or after it, see
+            `cointoss.analytic.going_on`.
         sizes: how many impacts and pieces there are, (2,); written to.
     """
     if has_linear_air(row):
@@ -177,6 +177,8 @@ def _toss_one(body, row, answer, impacts, pieces, sizes):
     n, rows, found, outcome, ending, end_time = toss_coin(body, rules, _LIMITS, y, room, True)
     _write_end(n, rows, TossEnd(outcome, ending), end_time, answer)
     _write_trust(body, rules, rows[:n], found, TossEnd(outcome, ending), CERTAIN, answer)
+    if row[AT.ending_until] > end_time:
+        found = go_on(body, rules, _LIMITS, found, ending, row[AT.ending_until])
     sizes[0], sizes[1] = n, len(found)
     for i in range(min(n, len(impacts))):
         row = rows[i]
@@ -216,17 +218,10 @@ def _sample_path(body, row, pieces, times, states, more):
                 last += 1
         if last == first:
             continue
-        # Nothing starts at the end; as a flight, it is sampled as it is.
-        start, mode = piece[2:].copy(), int(piece[1])
-        if mode == Mode.FLIGHT.value or mode == Mode.ENDED.value:
-            sample(body, start, piece[0], times[first:last], states[first:last])
-        else:
-            contact = contact_at(body, friction, mode, start)
-            sample_contact(contact, start, piece[0], times[first:last], _LIMITS.tolerance, states[first:last])
+        start, mode, some = piece[2:].copy(), int(piece[1]), states[first:last]
+        sample_piece(body, friction, _LIMITS.tolerance, mode, start, piece[0], times[first:last], some)
         for i in range(first, last):
-            y, force = states[i], (0.0, 0.0, 0.0)
-            if mode != Mode.FLIGHT.value and mode != Mode.ENDED.value:
-                force = floor_force(contact_at(body, friction, mode, y), y)
+            y = states[i]
             more[i, 0] = energy(body, position_of(y)[2], velocity_of(y), spin_of(y))
-            more[i, 1], more[i, 2], more[i, 3] = force
+            more[i, 1], more[i, 2], more[i, 3] = force_in(body, friction, mode, y)
         first = last

@@ -1,6 +1,6 @@
 """What Python and a page call of the compiled engine; annotations say which rows of numbers are passed."""
 
-from cointoss.analytic import by_rows, events, path, seeing, striking
+from cointoss.analytic import by_rows, events, going_on, path, seeing, striking
 from cointoss.analytic.air import force
 from cointoss.analytic.horizon import certainty, horizon
 from cointoss.analytic.horizon import event_tangent as tangent
@@ -17,6 +17,7 @@ sample_path = engine.entry(by_rows.sample_path)
 toss_rows = engine.entry(by_rows.toss_rows)
 toss_apart = engine.entry(by_rows.toss_apart, on_cards=True)
 toss_coin = engine.entry(events.toss_coin)
+go_on = engine.entry(going_on.go_on)
 find_horizon = engine.entry(horizon.find_horizon)
 certainty_of = engine.entry(certainty.certainty_of)
 closest_other = engine.entry(certainty.closest_other)

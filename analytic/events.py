@@ -9,11 +9,11 @@ from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.edge.guards import comes_upright, stands_for_good
 from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.integrator import ContactStep, contact_work, step_contact
+from cointoss.analytic.contact.lying import lay_flat
 from cointoss.analytic.contact.periodic import record_tilt, repeats, start_tilt_history
 from cointoss.analytic.contact.resets import (
     begin_contact,
     bounce,
-    lay_flat,
     rebound_at,
     stand_up,
     stop_slip,
@@ -38,8 +38,8 @@ from cointoss.models.records import Array, Ending, Outcome
 
 # A step that takes less than this part of √(r/g) counts as so many, or changes without time could go on.
 _NO_TIME, _STALLED = 1e-12, 1000
-# An event after the first sustained contact takes as long as so many steps.
-_EVENT = 4
+EVENT = 4
+"""An event after the first sustained contact takes as long as so many steps."""
 NO_LOSS = 1e-12
 """A loss in the time √(r/g) that rounding may cause, against the energy; steps of contact come on top."""
 
@@ -65,7 +65,7 @@ class Spent(NamedTuple):
     """Now [s]."""
     impacts: int
     steps: int
-    """The steps from the first sustained contact on; an event counts as `_EVENT`."""
+    """The steps from the first sustained contact on; an event counts as `EVENT`."""
 
 
 class TossEnd(NamedTuple):
@@ -245,7 +245,7 @@ def fly_to_event(setup: Setup, y: Array, spent: Spent) -> Passage:
             spent = Spent(spent.time + caught, spent.impacts, spent.steps)
             return ends(spent, face_outcome(state_of(y)), Ending.CAUGHT)
     flown = fly(body, y, left, setup.with_graze and spent.steps == 0)
-    steps = _EVENT + flown.steps if spent.steps > 0 else 0
+    steps = EVENT + flown.steps if spent.steps > 0 else 0
     spent = Spent(spent.time + flown.time, spent.impacts, spent.steps + steps)
     if not flown.touches:
         return ends(spent, Outcome.UNDECIDED, Ending.MAX_TIME)
@@ -329,7 +329,7 @@ def cost_of(body: Body, step: ContactStep) -> int:
     is_short = step.elapsed < _NO_TIME * (body.radius / body.gravity) ** 0.5
     if step.is_over and step.event == Event.NONE and is_short:
         return _STALLED
-    return 1 + _EVENT if step.is_over else 1
+    return 1 + EVENT if step.is_over else 1
 
 
 @compiled

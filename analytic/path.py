@@ -5,8 +5,10 @@ from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.sampling import floor_force, sample_contact
 from cointoss.analytic.flight.flying import sample
 from cointoss.models.body import Body
-from cointoss.models.kernel.arrays import Codes, Row, Table
+from cointoss.models.kernel.arrays import Codes, Row, Table, copy_into
 from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Vector
+from cointoss.models.records import Array
 
 
 @compiled
@@ -34,6 +36,9 @@ def sample_piece(
     """
     if mode == Mode.FLIGHT or mode == Mode.ENDED:
         sample(body, start, start_time, times, states)
+    elif mode == Mode.RESTING:
+        for i in range(len(times)):
+            copy_into(states[i], start)
     else:
         contact = contact_at(body, friction, mode, start)
         sample_contact(contact, start, start_time, times, tolerance, states)
@@ -51,5 +56,15 @@ def floor_forces(body: Body, friction: FloorFriction, modes: Codes, states: Tabl
         forces: where they go.
     """
     for i in range(len(states)):
-        mode, y = 0 + int(modes[i]), states[i]  # of eight bits, an integer keeps them in compiled code
-        forces[i, 0], forces[i, 1], forces[i, 2] = floor_force(contact_at(body, friction, mode, y), y)
+        mode = 0 + int(modes[i])  # of eight bits, an integer keeps them in compiled code
+        copy_into(forces[i], force_in(body, friction, mode, states[i]))
+
+
+@compiled
+def force_in(body: Body, friction: FloorFriction, mode: int, y: Array) -> Vector:
+    """Return the floor's force on a coin in the state y, (13,), and in this `Mode`, space frame, (3,) [N]."""
+    if mode == Mode.FLIGHT or mode == Mode.ENDED:
+        return 0.0, 0.0, 0.0
+    if mode == Mode.RESTING:
+        return 0.0, 0.0, body.mass * body.gravity
+    return floor_force(contact_at(body, friction, mode, y), y)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.analytic.contact.automaton import Mode
-from cointoss.analytic.entries import closest_other, find_horizon, toss_coin
+from cointoss.analytic.entries import closest_other, find_horizon, go_on, toss_coin
 from cointoss.analytic.entries import event_tangent as find_event_tangent
 from cointoss.analytic.events import Started, TossEnd, started_of
 from cointoss.analytic.flight.state_vector import STATE_SIZE
@@ -15,7 +15,7 @@ from cointoss.analytic.horizon.horizon import ErrorsMade, Horizon
 from cointoss.analytic.settings import FINE, AnalyticSettings, contact_limits
 from cointoss.models.body import Body, Rules
 from cointoss.models.impact_row import FIRST_ROOM
-from cointoss.models.records import IMPACT_ROW, Array, Ending, OtherOutcome, Outcome
+from cointoss.models.records import IMPACT_ROW, Array, Ending, Later, OtherOutcome, Outcome
 
 
 class EventLog(NamedTuple):
@@ -29,6 +29,8 @@ class EventLog(NamedTuple):
     outcome: Outcome
     ending: Ending
     end_time: float
+    later: Started
+    """Where modes start from the end of the toss on, and the end of the path, (m,)."""
 
     @property
     def verdict(self) -> TossEnd:
@@ -51,13 +53,22 @@ class EventLog(NamedTuple):
         return self.started.modes
 
 
-def run(body: Body, rules: Rules, start: Array, settings: AnalyticSettings = FINE) -> EventLog:
-    """Toss the coin in state `start`, (13,), until the toss is decided or a budget is spent."""
-    room = np.zeros(FIRST_ROOM, IMPACT_ROW)
-    n, rows, pieces, outcome, ending, end_time = toss_coin(
-        body, rules, contact_limits(settings), start.copy(), room, True
-    )
+def run(
+    body: Body, rules: Rules, start: Array, settings: AnalyticSettings = FINE, until: float | None = None
+) -> EventLog:
+    """Toss the coin in state `start`, (13,), until the toss is decided or a budget is spent.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        start: state, (13,).
+        settings: of the engine.
+        until: the coin is followed up to this time, see `EndingCriteria.until`.
+    """
+    room, limits = np.zeros(FIRST_ROOM, IMPACT_ROW), contact_limits(settings)
+    n, rows, pieces, outcome, ending, end_time = toss_coin(body, rules, limits, start.copy(), room, True)
     started = started_of(pieces)
+    followed = pieces if until is None else go_on(body, rules, limits, pieces, Ending(ending), until)
     return EventLog(
         rows=rows[:n].copy(),
         started=started,
@@ -65,6 +76,7 @@ def run(body: Body, rules: Rules, start: Array, settings: AnalyticSettings = FIN
         outcome=Outcome(outcome),
         ending=Ending(ending),
         end_time=end_time,
+        later=started_of(followed[len(pieces) - 1 :]),
     )
 
 
@@ -73,6 +85,18 @@ def contacts_of(start_times: Array, started: NDArray[np.int8]) -> Array:
     lasting = (started != Mode.FLIGHT) & (started != Mode.ENDED)
     changes = np.diff(lasting.astype(np.int8), prepend=0)
     return np.stack([start_times[changes == 1], start_times[changes == -1]], axis=1)
+
+
+def later_part(toss: EventLog) -> Later:
+    """Return how the coin goes on after its toss."""
+    times, modes = toss.later.times, toss.later.modes
+    bounces = (modes[1:] == Mode.FLIGHT) & (modes[:-1] == Mode.FLIGHT)
+    held = toss.ending != Ending.CAUGHT
+    return Later(
+        end=float(times[-1]),
+        times=times[1:][bounces],
+        contacts=contacts_of(times, modes) if held else np.empty((0, 2)),
+    )
 
 
 def horizon_of(body: Body, rules: Rules, toss: EventLog, made: ErrorsMade | None = None) -> Horizon:

@@ -1,7 +1,7 @@
 """One toss by the analytic engine, and its path."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,10 +10,11 @@ from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.entries import certainty_of, floor_forces, force_and_moment, sample_piece
+from cointoss.analytic.events import Started
 from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
 from cointoss.analytic.horizon.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR
 from cointoss.analytic.impact.own_law import OwnLaw, contact_in, residuals, rules_by
-from cointoss.analytic.runs import EventLog, horizon_of, other_outcome, run
+from cointoss.analytic.runs import EventLog, horizon_of, later_part, other_outcome, run
 from cointoss.analytic.settings import FINE, AnalyticSettings
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.barriers import barrier, energy
@@ -119,7 +120,7 @@ def toss(scenario: ScenarioSource, *, settings: AnalyticSettings = FINE, law: Ow
 
 def _toss(scenario: Scenario, rules: Rules, settings: AnalyticSettings, law: OwnLaw | None) -> Toss:
     body, start = scenario.body, state_at_release(scenario.release)
-    answer = run(body, rules, start, settings)
+    answer = run(body, rules, start, settings, scenario.ending.until)
     impacts, end = Impacts.from_rows(answer.rows), answer.start_states[-1]
     horizon, contacts = horizon_of(body, rules, answer), answer.contacts
     certainty = certainty_of(body, rules, answer.rows, answer.started, answer.verdict, horizon)
@@ -165,7 +166,18 @@ def _toss(scenario: Scenario, rules: Rules, settings: AnalyticSettings, law: Own
             ),
             *(() if law is None else _of_own_law(law, body, rules, impacts, answer)),
         ),
-        path=path,
+        path=_with_later(path, answer.later),
+        later=later_part(answer),
+    )
+
+
+def _with_later(path: Pieces, later: Started) -> Pieces:
+    """Return a path that goes on, in place of its end."""
+    return replace(
+        path,
+        start_times=np.concatenate([path.start_times[:-1], later.times]),
+        start_states=np.concatenate([path.start_states[:-1], later.states]),
+        modes=np.concatenate([path.modes[:-1], later.modes]),
     )
 
 

@@ -95,13 +95,19 @@ def _replacing(name: str) -> Callable[[Rules, Any], Rules]:
 
 _with_max_impacts, _with_max_time = _replacing("max_impacts"), _replacing("max_time")
 _with_restitution, _with_friction = _replacing("restitution"), _replacing("friction")
-_with_law, _with_own = _replacing("law"), _replacing("own")
+_with_caught, _with_law, _with_own = _replacing("caught"), _replacing("law"), _replacing("own")
 
 
 @compiled
 def with_budgets(rules: Rules, max_impacts: int, max_time: float) -> Rules:
     """Return the rules with other budgets."""
     return _with_max_time(_with_max_impacts(rules, max_impacts), max_time)
+
+
+@compiled
+def with_time_alone(rules: Rules, max_time: float) -> Rules:
+    """Return the rules with another time limit [s], and without a hand."""
+    return _with_caught(_with_max_time(rules, max_time), math.inf)
 
 
 @compiled

@@ -26,10 +26,13 @@ from cointoss.models.geometry import tilt_sine_of
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, apply, dot, norm
 from cointoss.models.laws import EndingTest
+from cointoss.models.making import AT_REST
 from cointoss.models.perpetual import EnergyHistory, can_be_judged, energy_loss_converges
 from cointoss.models.records import Ending, Face, Outcome
 from cointoss.models.state import State
 
+REST_WAIT = 60.0
+"""A coin is followed for at most so long after its toss until it is at rest [s]: some never are."""
 # What is left of the energy of tilting, against m g r, in a coin that lies flat; and in one that lies still
 # to the eye, where that is waited for.
 WOBBLE, STILL = 1e-9, 1e-3
@@ -131,6 +134,33 @@ def out_of_steps(body: Body, rules: Rules, state: State, history: EnergyHistory)
 
 
 @compiled
+def followed_until(rules: Rules, ending: Ending, end_time: float, until: float) -> float:
+    """Return the time up to which a coin is followed after its toss [s]; `end_time` where it is not.
+
+    It is not where a budget has ended the toss, or a law that goes no further.
+
+    Args:
+        rules: floor and ending.
+        ending: of the toss.
+        end_time: of the toss [s].
+        until: that is asked for [s]; `AT_REST`: until the coin is at rest.
+    """
+    if (
+        ending == Ending.MAX_IMPACTS
+        or ending == Ending.MAX_TIME
+        or ending == Ending.CHATTER
+        or ending == Ending.NO_SOLUTION
+        or ending == Ending.CONTACT_STEPS
+        or ending == Ending.FLIGHT_STEPS
+        or ending == Ending.ROLLING
+        or ending == Ending.TRANSIENT
+    ):
+        return end_time
+    last = end_time + REST_WAIT if until == AT_REST else until
+    return max(min(last, rules.max_time), end_time)
+
+
+@compiled
 def final_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Ending]:
     """Return the face that stays up and why, or the edge; UNDECIDED and NONE where either may still come.
 
@@ -152,7 +182,7 @@ def final_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Ending]
             return face, Ending.PAPER
     elif rules.test == EndingTest.PAPER_SMOOTH and energy_without_spin(body, state) < mgr:
         return face, Ending.PAPER_SMOOTH
-    if _lies(body, rules, state):
+    if lies(body, rules, state, STILL if rules.test == EndingTest.LYING else WOBBLE):
         return face, Ending.LYING
     return Outcome.UNDECIDED, Ending.NONE
 
@@ -241,12 +271,18 @@ def _beyond_the_pass(body: Body, up: Vector, tilt_sine: float) -> bool:
 
 
 @compiled
-def _lies(body: Body, rules: Rules, state: State) -> bool:
+def lies(body: Body, rules: Rules, state: State, left: float) -> bool:
     """Return whether the coin lies flat for good, whatever it has of sliding and of spin about its normal.
 
     What is left of its tilt, of its turning about diameters and of its vertical motion is nothing, and the
     floor can balance all moments that spin, drag and friction make about diameters by pressing inside the
     rim. As sliding and spinning never grow, neither do these moments.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        state: of the coin, a `State`.
+        left: the most energy of its tilting, against m g r: `WOBBLE` or `STILL`.
     """
     z, v, w, up = state.position[2], state.velocity, state.spin, state.R[2]
     c, J = body.center, body.inertia
@@ -256,7 +292,6 @@ def _lies(body: Body, rules: Rules, state: State) -> bool:
         body.mass * (v[2] * v[2] / 2 + body.gravity * abs(z - flat_z)) + dot(across, apply(J, across)) / 2
     )
     weight = body.mass * body.gravity
-    left = STILL if rules.test == EndingTest.LYING else WOBBLE
     # Upright a coin as thick as wide is as high as flat.
     if wobble > left * weight * body.radius or not _is_on_face(body, up):
         return False

@@ -12,6 +12,8 @@ from cointoss.models.laws import ContactLaw, RestitutionKind
 
 # More impacts than a coin needs that loses energy; and enough of one that may never lose any.
 MOST_IMPACTS, MOST_LOSSLESS = 30_000_000, 1_000_000
+AT_REST = 1e9
+"""The number that stands for `ending.until = "rest"` [s]: no toss lasts so long."""
 _TAKING = 0.7
 """Up to this kinematic restitution the laws that hardly add energy do so in hardly an impact."""
 

@@ -31,7 +31,7 @@ from cointoss.models.faults import (
 )
 from cointoss.models.kernel.vectors import Matrix, Vector
 from cointoss.models.laws import ContactLaw, EndingTest, RestitutionKind
-from cointoss.models.making import MOST_IMPACTS, Cylinder, moved_inertia
+from cointoss.models.making import AT_REST, MOST_IMPACTS, Cylinder, moved_inertia
 from cointoss.models.state import State, state
 from cointoss.models.units import in_si, lambda_unit
 from cointoss.models.words import Word
@@ -73,6 +73,20 @@ class Quantity(BeforeValidator):
 
 def _quantity(unit: str) -> Quantity:
     return Quantity(lambda value: in_si(value, unit) if isinstance(value, str) else value, unit=unit)
+
+
+def _time_or_rest() -> Quantity:
+    def as_time(value: Any) -> Any:
+        if not isinstance(value, str):
+            return value
+        if value == "rest":
+            return AT_REST
+        try:
+            return in_si(value, "s")
+        except ValueError as error:
+            raise ValueError(f'{error}, or "rest"') from error
+
+    return Quantity(as_time, unit="s")
 
 
 def _list_of(count: int, accepted: str) -> BeforeValidator:
@@ -358,3 +372,12 @@ class EndingCriteria(Part):
     caught: Annotated[float | None, _size, _quantity("m"), Label("height of the catch")] = None
     """Height at which a hand catches the coin: the toss ends, with the face up, when C first comes down to it
     [m]."""
+    until: Annotated[
+        float | None,
+        _not_negative,
+        _time_or_rest(),
+        Label("path until"),
+        PlainSerializer(lambda time: "rest" if time == AT_REST else time, when_used="json"),
+    ] = None
+    """The path goes on to this time after the toss is decided [s], or until the coin is at rest, `AT_REST`.
+    By default it ends with the toss. The answers are those of the toss."""

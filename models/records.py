@@ -1,7 +1,7 @@
 """What a toss gives: its impacts, how it ended, and its path; the same record from both engines."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -340,6 +340,23 @@ class OtherOutcome:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class Later:
+    """How a coin goes on after its toss is decided, see `ending.until`; arrays are read-only."""
+
+    end: float = 0.0
+    """The time at which its path ends [s]; where it is no later than the toss, nothing goes on."""
+    times: Array = field(default_factory=lambda: np.empty(0))
+    """The times at which it touches and bounces, (n,) [s]."""
+    contacts: Array = field(default_factory=lambda: np.empty((0, 2)))
+    """Start and end of its sustained contacts, (n, 2) [s]."""
+
+    def __post_init__(self) -> None:
+        """Make the arrays read-only."""
+        for array in (self.times, self.contacts):
+            array.setflags(write=False)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Toss:
     """One toss by one engine."""
 
@@ -363,6 +380,8 @@ class Toss:
     certificate: Sequence[Setting]
     """Settings used and errors measured."""
     path: Path
+    later: Later = field(default_factory=Later)
+    """How the coin goes on after `end_time`."""
 
     def __post_init__(self) -> None:
         """Check the contacts and make them read-only."""
@@ -374,6 +393,16 @@ class Toss:
     def sequence(self) -> str:
         """The faces up at the touches, as in "HHT"."""
         return self.impacts.sequence
+
+    @property
+    def path_end(self) -> float:
+        """The time at which the path ends [s]: `end_time`, or with `ending.until` later."""
+        return max(self.end_time, self.later.end)
+
+    @property
+    def later_times(self) -> Array:
+        """The times at which the coin touches and bounces after `end_time`, (n,) [s]."""
+        return self.later.times
 
     # What ended the toss, whether the engine's errors can change its outcome, and which impacts they can
     # change, are three things. No two of the words below deny each other.
@@ -435,7 +464,7 @@ class Toss:
 
     def _repr_html_(self) -> str:
         """Return what `repr` says, with a picture of the path."""
-        times = np.linspace(0, self.end_time, _DRAWN)
+        times = np.linspace(0, self.path_end, _DRAWN)
         heights = self.sample(times).position[:, 2]
         impacts, trusted = self.impacts, self.trusted_impacts
         labels = [str(Face(face)) for face in impacts.face]
@@ -511,7 +540,7 @@ class Toss:
         takes time, gives the state at first touch.
 
         Args:
-            times: one time, or (n,), each from 0 to `end_time` [s].
+            times: one time, or (n,), each from 0 to `path_end` [s].
 
         Raises:
             ValueError: for a time outside the toss, or times in more than one dimension.
@@ -526,16 +555,17 @@ class Toss:
         takes no time, too, such as that in which a coin comes to lie flat.
 
         Args:
-            times: one time, or (n,), each from 0 to `end_time` [s].
+            times: one time, or (n,), each from 0 to `path_end` [s].
 
         Raises:
             ValueError: as `sample`.
         """
         t = self._required(times)
         force = np.zeros((len(t), 3))
-        contact = np.searchsorted(self.contacts[:, 0], t, side="right") - 1
+        contacts = np.concatenate([self.contacts, self.later.contacts])
+        contact = np.searchsorted(contacts[:, 0], t, side="right") - 1
         # The last is that of contact -1, before the first.
-        starts, ends = np.append(self.contacts, [[-np.inf, -np.inf]], axis=0).T
+        starts, ends = np.append(contacts, [[-np.inf, -np.inf]], axis=0).T
         held = (t <= ends[contact]) & (starts[contact] < ends[contact])
         if held.any():
             force[held] = interruptible(lambda: self.path.floor_force(t[held]))
@@ -546,9 +576,9 @@ class Toss:
         t = np.atleast_1d(np.array(times, dtype=float))
         if t.ndim != 1:
             raise ValueError(f"times: shape {t.shape}, accepted: (n,)")
-        outside = t[~((t >= 0) & (t <= self.end_time))]
+        outside = t[~((t >= 0) & (t <= self.path_end))]
         if outside.size:
-            raise ValueError(f"times: {outside[0]} s is outside the toss, from 0 to {self.end_time} s")
+            raise ValueError(f"times: {outside[0]} s is outside the toss, from 0 to {self.path_end} s")
         return t
 
 

@@ -37,6 +37,7 @@ def fields_of(scenario: Scenario) -> dict[str, float | str]:
     """Return a scenario as a page has it: its fields by their names, numbers in SI."""
     tables = scenario.as_tables()
     found = {name: _value(tables, place) for name, place in PLACES.items()}
+    found["ending.until"] = scenario.ending.until
     return {name: value for name, value in found.items() if value is not None}
 
 
@@ -249,7 +250,7 @@ def examine_each(rows: Table, faults: Codes) -> None:
     """Write the `Fault` of each row, 0 of a scenario's.
 
     Args:
-        rows: of numbers, each within its bounds where it is finite, (n, 46).
+        rows: of numbers, each within its bounds where it is finite, (n, 47).
         faults: where they go, (n,).
     """
     first = 0

@@ -9,7 +9,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from cointoss.analytic.contact import incipient_slip, sliding, sticking, upright
+from cointoss.analytic.contact import incipient_slip, lying, sliding, sticking, upright
 from cointoss.analytic.contact.contact import BOTH_RIMS, SustainedContact, lower_rim_of
 from cointoss.analytic.contact.one_rim import contact_in_flight
 from cointoss.analytic.contact.resistance import FloorFriction
@@ -33,6 +33,10 @@ class Mode(IntEnum):
     ENDED = 5
     TOUCHING = 6
     """The coin touches at one rim, for no time: which mode of contact starts is still to be found."""
+    LYING = 7
+    """The coin lies flat on a face, and slides or spins; once its toss is decided."""
+    RESTING = 8
+    """The coin does not move any more; once its toss is decided."""
 
 
 class Event(IntEnum):
@@ -66,6 +70,10 @@ class Event(IntEnum):
     """No step of the contact, however short, has a finite end."""
     ENDS = 12
     """The toss is decided, a budget is spent, or the contact law goes no further: see `Ending`."""
+    LIES = 13
+    """The coin lies flat on a face for good."""
+    RESTS = 14
+    """The coin comes to rest: on a face, or on its edge by the floor's resistance to rolling."""
 
 
 _ONE_RIM = (Mode.SLIDING, Mode.INCIPIENT_SLIP, Mode.STICKING)
@@ -83,8 +91,10 @@ _TABLE = {
     Event.SLIP_STOPS: (Mode.STICKING, (*_ONE_RIM, Mode.TOUCHING)),
     Event.COMES_UPRIGHT: (Mode.UPRIGHT, _ONE_RIM),
     Event.TIPS_OVER: (Mode.TOUCHING, (Mode.UPRIGHT,)),
-    Event.NO_SOLUTION: (Mode.ENDED, _CONTACT),
-    Event.ENDS: (Mode.ENDED, (Mode.FLIGHT, *_CONTACT)),
+    Event.NO_SOLUTION: (Mode.ENDED, (*_CONTACT, Mode.LYING)),
+    Event.ENDS: (Mode.ENDED, (Mode.FLIGHT, *_CONTACT, Mode.LYING, Mode.RESTING)),
+    Event.LIES: (Mode.LYING, (Mode.FLIGHT, *_CONTACT)),
+    Event.RESTS: (Mode.RESTING, (*_CONTACT, Mode.LYING)),
 }
 _AFTER = np.array([_TABLE[event][0].value for event in sorted(_TABLE)])
 _IS_LEGAL = np.array([[mode in _TABLE[event][1] for event in sorted(_TABLE)] for mode in sorted(Mode)])
@@ -109,7 +119,8 @@ def mode_after(mode: int, event: Event) -> int:
 @compiled
 def contact_at(body: Body, friction: FloorFriction, mode: int, y: Array) -> SustainedContact:
     """Return the `SustainedContact` of a coin in the state y, (13,), in this mode of contact."""
-    return SustainedContact(body, friction, mode, BOTH_RIMS if mode == Mode.UPRIGHT else lower_rim_of(y))
+    no_rim_lands = mode == Mode.UPRIGHT or mode == Mode.LYING
+    return SustainedContact(body, friction, mode, BOTH_RIMS if no_rim_lands else lower_rim_of(y))
 
 
 @compiled
@@ -131,6 +142,8 @@ def inlined_flow(contact: SustainedContact, y: Array, dy: Array) -> float:
         return incipient_slip.flow(contact, y, dy)
     if contact.mode == Mode.UPRIGHT:
         return upright.flow(contact, y, dy)
+    if contact.mode == Mode.LYING:
+        return lying.flow(contact, y, dy)
     return sliding.flow(contact, y, dy)
 
 
@@ -146,6 +159,8 @@ def project(contact: SustainedContact, y: Array) -> None:
         incipient_slip.project(contact, y)
     elif contact.mode == Mode.UPRIGHT:
         upright.project(contact, y)
+    elif contact.mode == Mode.LYING:
+        lying.project(contact, y)
     else:
         sliding.project(contact, y)
 
@@ -163,6 +178,8 @@ def margin_event(contact: SustainedContact, y: Array) -> Event:
     """
     if contact.mode == Mode.UPRIGHT:
         return Event.TIPS_OVER
+    if contact.mode == Mode.LYING:
+        return Event.RESTS
     A = contact_in_flight(contact, y)
     if A.free_acceleration[2] >= 0:
         return Event.LIFTS_OFF

@@ -11,7 +11,7 @@ from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import Array
 
 BOTH_RIMS = 0.0
-"""The `SustainedContact.rim` of an upright coin."""
+"""The `SustainedContact.rim` of an upright coin, and of one that lies."""
 
 
 class SustainedContact(NamedTuple):
@@ -22,7 +22,8 @@ class SustainedContact(NamedTuple):
     mode: int
     """Number of the `Mode`."""
     rim: float
-    """The one that touches: -1 tails', 1 heads', as `cointoss.models.geometry.lower_rim`; 0 for both."""
+    """The one that touches: -1 tails', 1 heads', as `cointoss.models.geometry.lower_rim`; 0 for both, or a
+    face."""
 
 
 @compiled

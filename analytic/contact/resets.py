@@ -13,9 +13,7 @@ from cointoss.analytic.contact.rim_contact import accelerate, rim_contact
 from cointoss.analytic.contact.sliding import jams, slips
 from cointoss.analytic.flight.state_vector import (
     attitude_of,
-    normalise,
     position_of,
-    set_attitude,
     set_height,
     set_spin,
     set_velocity,
@@ -190,17 +188,3 @@ def tip_over(body: Body, friction: FloorFriction, y: Array) -> None:
     rim = -1.0 if on_tails > on_heads else 1.0
     upright.tilt(y, rim * _TIP)
     set_height(y, -rim_contact(body, y, rim).arm[2])
-
-
-@compiled
-def lay_flat(body: Body, y: Array) -> None:
-    """Turn a coin that all but lies on a face until it does, and all of the face touches the floor.
-
-    A coin whose axis passes the vertical at a tilt below `FACE_SINE` would go on upon its rim, around which
-    the lowest point runs in no time: here the opposite rim point lands, as where the axis passes through it.
-    """
-    a, b, c, d = attitude_of(y)
-    heads_up = rotation_matrix((a, b, c, d))[2][2] > 0
-    set_attitude(y, (a, 0.0, 0.0, d) if heads_up else (0.0, b, c, 0.0))
-    normalise(y)
-    set_height(y, body.thickness / 2 + (body.center[2] if heads_up else -body.center[2]))

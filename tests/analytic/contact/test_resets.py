@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cointoss.analytic.contact.resets import lay_flat
+from cointoss.analytic.contact.lying import lay_flat
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from tests.helpers.draws import IMPERFECT, scenario
 

@@ -14,6 +14,7 @@ from cointoss.compare.web.wasm import carried
 from cointoss.models.answers import ANSWER
 from cointoss.models.batch import rows_of
 from cointoss.models.devices import Device
+from cointoss.models.fields import FIELDS
 from cointoss.models.rows import row_of
 from tests.helpers.cards import with_card, without_card
 from tests.helpers.command_line import cointoss as command
@@ -67,7 +68,7 @@ def test_a_map_is_that_of_the_entry_that_a_page_calls(server, after, trust):
         assert 1 in trusted[0]
 
 
-NO_ROW = np.where(np.arange(46) == 1, -1.0, row_of(CASE))
+NO_ROW = np.where(np.arange(len(FIELDS)) == 1, -1.0, row_of(CASE))
 WRONG = [
     *("/map", "/map?x=1", f"{target()}&more=1"),
     *(target(**{name: text}) for name in ("x", "y") for text in ("", "spin", "floor.contact", "nothing")),
@@ -80,7 +81,12 @@ WRONG = [
     *(target(trust=text) for text in ("", "2", "true")),
     *(target(numbers=text) for text in ("", "00", "g" * 800, "0" * 798)),
     *(target(*ends) for ends in ((np.nan, 60, 0.5, 0.9), (20, np.inf, 0.5, 0.9), (20, 60, -1e308, 1e308))),
-    *(target(row=NO_ROW), target(row=np.full(46, np.nan)), target(y=SPIN), target(x="ending.max_impacts")),
+    *(
+        target(row=NO_ROW),
+        target(row=np.full(len(FIELDS), np.nan)),
+        target(y=SPIN),
+        target(x="ending.max_impacts"),
+    ),
 ]
 
 

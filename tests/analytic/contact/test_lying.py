@@ -1,0 +1,84 @@
+"""A coin that lies flat: the friction of its face by quadrature, and its rates of change."""
+
+import numpy as np
+import pytest
+
+from cointoss.analytic.contact.automaton import Mode, contact_at, flow, project
+from cointoss.analytic.contact.floor_laws import friction_in_contact
+from cointoss.analytic.contact.lying import face_friction
+from cointoss.analytic.toss import state_at_release
+from tests.helpers.draws import AIR, scenario
+
+
+def by_quadrature(speed, rim_speed):
+    """Return the friction and the moment of a face as sums over its points, r = 1."""
+    n = 600
+    rho, angle = np.meshgrid((np.arange(n) + 0.5) / n, (np.arange(2 * n) + 0.5) * np.pi / n)
+    x, y, share = rho * np.cos(angle), rho * np.sin(angle), rho / n / n
+    slip = np.stack([speed - rim_speed * y, rim_speed * x]) / np.hypot(speed - rim_speed * y, rim_speed * x)
+    return (slip[0] * share).sum(), ((x * slip[1] - y * slip[0]) * share).sum()
+
+
+@pytest.mark.parametrize("ratio", [1e-4, 0.02, 0.4, 0.95, 1.05, 3.0, 25.0, 80.0])
+def test_the_friction_of_a_face_is_the_sum_over_its_points(ratio):
+    for rim_speed in (1.0, 0.03):
+        found = face_friction(ratio * rim_speed, rim_speed)
+        assert found == pytest.approx(by_quadrature(ratio, 1.0), abs=5e-6)
+
+
+@pytest.mark.parametrize("border", [1e-3, 1.0, 30.0])
+def test_it_is_continuous_where_its_formulas_meet(border):
+    below, above = (np.array(face_friction(border * (1 + d), 1.0)) for d in (-1e-13, 1e-13))
+    assert above == pytest.approx(below, rel=2e-10)
+
+
+def test_a_face_that_does_not_slip_has_no_friction():
+    assert face_friction(0.0, 0.0) == (0.0, 0.0)
+    assert face_friction(0.3, 0.0) == (1.0, 0.0)
+
+
+@pytest.mark.parametrize("tails_up", [False, True])
+@pytest.mark.parametrize("air", [{}, AIR])
+def test_friction_takes_the_energy_that_the_slip_of_the_face_loses(tails_up, air):
+    """The power of the floor is -μ N times the mean slip; its rates are those of an off-centre coin."""
+    case = scenario(
+        coin={"center_of_mass": [1e-3, -2e-3, 3e-4]},
+        air=air,
+        floor={"contact": "coulomb", "friction": 0.3},
+        release={
+            "velocity": [0.4, -0.2, 0.1],
+            "angles": [0.7, np.pi * tails_up, 0],
+            "angular_velocity": [1e-3, 0, 30.0],
+        },
+    )
+    body, y, dy = case.body, state_at_release(case.release), np.empty(13)
+    contact = contact_at(body, friction_in_contact(case.rules), Mode.LYING.value, y)
+    project(contact, y)
+    assert y[2] == pytest.approx(1e-3 + (-3e-4 if tails_up else 3e-4), abs=1e-18)
+    assert y[5] == y[10] == y[11] == 0
+    assert flow(contact, y, dy) > 0
+    assert dy[5] == dy[10] == dy[11] == 0
+    side = -1 if tails_up else 1
+    frictionless = contact_at(body, friction_in_contact(scenario().rules), Mode.LYING.value, y)
+    free = np.empty(13)
+    flow(frictionless, y, free)
+    power = body.mass * y[3:5] @ (dy[3:5] - free[3:5]) + body.inertia[2][2] * y[12] * (dy[12] - free[12])
+    n = 500
+    rho, angle = np.meshgrid((np.arange(n) + 0.5) / n, (np.arange(2 * n) + 0.5) * np.pi / n)
+    turn = np.array([[np.cos(0.7), -np.sin(0.7)], [np.sin(0.7), np.cos(0.7)]])
+    center = turn @ (np.array(body.center[:2]) * [1, side])
+    x, z = body.radius * rho * np.cos(angle) - center[0], body.radius * rho * np.sin(angle) - center[1]
+    slip = np.hypot(y[3] - side * y[12] * z, y[4] + side * y[12] * x)
+    normal = body.mass * body.gravity
+    assert power == pytest.approx(-0.3 * normal * (slip * rho).sum() / n**2, rel=1e-5)
+
+
+def test_the_coin_keeps_its_frame_and_its_height():
+    case = scenario(release={"velocity": [0.4, 0, 0], "angular_velocity": [0, 0, 30.0]})
+    y, dy = state_at_release(case.release), np.empty(13)
+    contact = contact_at(case.body, friction_in_contact(case.rules), Mode.LYING.value, y)
+    project(contact, y)
+    flow(contact, y, dy)
+    assert dy[:3] == pytest.approx([0.4, 0, 0])
+    assert not dy[3:6].any()
+    assert dy[6:10] == pytest.approx([0, 0, 0, 15.0])

@@ -1,0 +1,231 @@
+"""A coin that is followed after its toss is decided: by closed forms, and its toss stays what it was."""
+
+from math import pi, sqrt
+
+import numpy as np
+import pytest
+
+from cointoss import analytic
+from cointoss.analytic.contact.automaton import Mode
+from cointoss.analytic.going_on import FOLLOWED
+from cointoss.models.batch import rows_of
+from cointoss.models.ending import REST_WAIT
+from cointoss.models.reading import load
+from cointoss.models.records import Ending, Outcome
+from tests.helpers.draws import AIR, ZLOTY, draw_coin, draw_release, scenario
+
+g, r, h, mu = 9.81, 1.25e-2, 2e-3, 0.05
+COIN = {"mass": 5e-3, "radius": r, "thickness": h}
+UPRIGHT = [0, pi / 2, 0]
+
+
+def on_rough_floor(release, until, **floor):
+    """Return the toss of a coin on the floor from its start, and where the modes after it begin."""
+    floor = {"contact": "coulomb", "friction": mu, "restitution": 0.5, **floor}
+    return analytic.toss(scenario(coin=COIN, floor=floor, release=release, ending={"until": until}))
+
+
+def lying(until="3 s", **release):
+    return on_rough_floor({"position": [0, 0, h / 2], **release}, until)
+
+
+def last_state(toss):
+    end = toss.sample(toss.path_end)
+    return end.position[0], end.velocity[0], end.angular_velocity[0]
+
+
+def time_of_rest(toss):
+    return toss.path.start_times[np.flatnonzero(toss.path.modes == Mode.RESTING)[0]]
+
+
+def test_a_coin_that_lies_slides_as_a_point_on_the_floor():
+    """It stops after v/(μ g), v²/(2 μ g) away; its speed falls evenly."""
+    v = 0.5
+    toss = lying(velocity=[v, 0, 0])
+    assert toss.ending == Ending.LYING
+    assert toss.end_time < 1e-6
+    assert toss.path_end == 3
+    assert time_of_rest(toss) == pytest.approx(v / (mu * g), rel=1e-6)
+    position, velocity, spin = last_state(toss)
+    assert position == pytest.approx([v**2 / (2 * mu * g), 0, h / 2], rel=1e-6, abs=1e-12)
+    assert not np.append(velocity, spin).any()
+    times = np.linspace(0.1, 0.9, 9) * v / (mu * g)
+    assert toss.sample(times).velocity[:, 0] == pytest.approx(v - mu * g * times, rel=1e-6)
+    assert toss.floor_force(times) == pytest.approx(
+        np.tile(COIN["mass"] * g * np.array([-mu, 0, 1]), (9, 1)), abs=1e-12
+    )
+    assert toss.floor_force(2.5)[0] == pytest.approx([0, 0, COIN["mass"] * g])
+
+
+def test_a_coin_that_lies_and_spins_stops_by_the_friction_of_its_face():
+    """The moment of a face is 2/3 μ N r, and J = m r²/2: it stops after 3 r ω/(4 μ g)."""
+    w = 40.0
+    toss = lying(angular_velocity=[0, 0, w])
+    assert time_of_rest(toss) == pytest.approx(3 * r * w / (4 * mu * g), rel=1e-6)
+    position, _, _ = last_state(toss)
+    assert np.abs(position[:2]).max() < 1e-12
+
+
+def test_sliding_and_spin_of_a_coin_that_lies_end_together():
+    """Their ratio v/(r ω) becomes 0.653, however it starts: Farkas et al. 2003."""
+    for v in (0.3, 1.0):
+        toss = lying(velocity=[0, v, 0], angular_velocity=[0, 0, 40.0])
+        before = toss.sample(time_of_rest(toss) - 1e-5)
+        ratio = np.linalg.norm(before.velocity[0]) / (r * abs(before.angular_velocity[0, 2]))
+        assert ratio == pytest.approx(0.653, abs=1e-3)
+
+
+def test_a_coin_on_its_edge_with_backspin_stops_where_friction_has_taken_both():
+    """v = √(2 μ g d) and ω = 2 v/r: v falls by μ g, the backspin by 2 μ g/r, and both are gone at d."""
+    d = 0.4
+    v = sqrt(2 * mu * g * d)
+    release = {"position": [0, 0, r], "velocity": [v, 0, 0], "angles": UPRIGHT}
+    toss = on_rough_floor({**release, "angular_velocity": [0, 0, 2 * v / r]}, 3)
+    assert (toss.outcome, toss.ending) == (Outcome.EDGE, Ending.STANDING)
+    times = np.linspace(0.1, 0.9, 9) * v / (mu * g)
+    found = toss.sample(times)
+    assert found.position[:, 0] == pytest.approx(v * times - mu * g * times**2 / 2, rel=1e-6)
+    assert found.angular_velocity[:, 2] == pytest.approx(2 * (v - mu * g * times) / r, rel=1e-6)
+    position, velocity, spin = last_state(toss)
+    assert position == pytest.approx([d, 0, r], rel=1e-6, abs=1e-6)
+    assert max(np.abs(velocity).max(), r * np.abs(spin).max()) < 1e-6
+    at_rest = on_rough_floor({**release, "angular_velocity": [0, 0, 2 * v / r]}, "rest")
+    assert at_rest.path_end == pytest.approx(v / (mu * g), rel=1e-2)
+
+
+@pytest.mark.parametrize("until", [0.5, 60])
+def test_a_coin_that_rolls_on_its_edge_rolls_on(until):
+    v = 0.3
+    release = {"position": [0, 0, r], "velocity": [v, 0, 0], "angles": UPRIGHT}
+    toss = on_rough_floor({**release, "angular_velocity": [0, 0, -v / r]}, until, friction=0.2)
+    assert toss.ending == Ending.STANDING
+    position, velocity, spin = last_state(toss)
+    assert toss.path_end == until
+    assert position == pytest.approx([v * until, 0, r], rel=1e-9, abs=1e-9)
+    assert velocity == pytest.approx([v, 0, 0], abs=1e-9)
+    assert spin == pytest.approx([0, 0, -v / r], rel=1e-9, abs=1e-9)
+
+
+def test_resistance_brings_a_coin_that_rolls_to_rest():
+    """Rolling friction δ slows it by δ g/r over 1 + J/(m r²) = 3/2; the last of it, slow, dies away."""
+    v, delta = 0.3, 2e-4
+    release = {"position": [0, 0, r], "velocity": [v, 0, 0], "angles": UPRIGHT}
+    toss = on_rough_floor({**release, "angular_velocity": [0, 0, -v / r]}, "rest", rolling_friction=delta)
+    position, velocity, _ = last_state(toss)
+    assert toss.outcome == Outcome.EDGE
+    assert not velocity.any()
+    assert position[0] == pytest.approx(v**2 / 2 * 1.5 * r / (delta * g), rel=1e-2)
+
+
+def test_a_wobbling_coin_comes_to_lie():
+    """On a table that resists rolling and pivoting a coin wobbles ever faster, until it lies flat at rest."""
+    toss = analytic.toss(load("table").replace("ending.test", "rigorous", "ending.until", "rest"))
+    assert toss.ending == Ending.PAPER
+    assert toss.end_time < toss.path_end < toss.end_time + REST_WAIT
+    position, velocity, spin = last_state(toss)
+    assert position[2] == pytest.approx(toss.scenario.coin.thickness / 2, rel=1e-12)
+    assert not np.append(velocity, spin).any()
+
+
+def test_a_coin_on_a_smooth_floor_in_air_bounces_and_wobbles_on():
+    toss = analytic.toss(load("fig24a").replace("ending.until", "3 s"))
+    assert toss.path_end == 3
+    assert len(toss.later_times) > 10
+    assert np.all(toss.later_times > toss.end_time)
+    times = np.linspace(0, 3, 3000)
+    heights = toss.sample(times).position[:, 2]
+    assert heights.min() > 0.99 * toss.scenario.coin.thickness / 2
+    after = heights[times > toss.end_time]
+    assert after.max() < 2 * toss.scenario.coin.radius
+    # It has bounced low ever since, and wobbles in contact at the end.
+    assert toss.later.contacts[-1, 1] == 3
+
+
+def test_a_coin_that_never_rests_is_followed_for_a_named_time():
+    """On a smooth floor in vacuum a coin that lies slides for ever."""
+    release = {"position": [0, 0, h / 2], "velocity": [0.5, 0, 0]}
+    toss = analytic.toss(scenario(coin=COIN, release=release, ending={"until": "rest"}))
+    assert toss.path_end == toss.end_time + REST_WAIT
+    assert last_state(toss)[0][0] == pytest.approx(0.5 * toss.path_end, rel=1e-12)
+
+
+def test_a_coin_that_wobbles_for_ever_is_followed_for_a_budget_of_steps():
+    case = load("contact_smooth").replace("ending.until", 40)
+    few = analytic.AnalyticSettings(contact_steps=500)
+    toss = analytic.toss(case, settings=few)
+    assert toss.end_time < toss.path_end < 40
+    more = analytic.toss(case, settings=analytic.AnalyticSettings(contact_steps=500 * FOLLOWED))
+    assert toss.path_end < more.path_end
+
+
+def test_a_caught_coin_stays_in_the_hand():
+    case = load("fig24a").replace("ending.caught", 0.2, "release.position.z", 0.5, "ending.until", 2)
+    toss = analytic.toss(case)
+    assert toss.ending == Ending.CAUGHT
+    states = toss.sample([toss.end_time, 1.5, 2])
+    assert np.ptp(states.position, axis=0).max() == 0
+    assert states.position[0, 2] == pytest.approx(0.2)
+    assert not toss.floor_force([1.5, 2]).any()
+
+
+@pytest.mark.parametrize(
+    ("name", "ending"),
+    [("contact_knurled", Ending.CHATTER), ("contact_perfectly_rough", Ending.MAX_IMPACTS)],
+)
+def test_what_is_not_decided_is_not_followed(name, ending):
+    toss = analytic.toss(load(name).replace("ending.until", "rest"))
+    assert toss.ending == ending
+    assert toss.path_end == toss.end_time
+    assert len(toss.later_times) == 0
+
+
+def test_times_beyond_the_path_are_refused():
+    toss = lying("3 s", velocity=[0.5, 0, 0])
+    with pytest.raises(ValueError, match=r"3.1 s is outside the toss, from 0 to 3.0 s"):
+        toss.sample(3.1)
+
+
+def kinds_of_tosses():
+    rng = np.random.default_rng(58)
+    for name in ("fig24a", "fig2", "fig12_imperfect", "contact_coulomb", "contact_smooth", "zloty", "table"):
+        yield load(name)
+    for law in ("smooth", "coulomb", "perfectly_rough", "sharp_edge"):
+        for air in ({}, AIR):
+            yield scenario(
+                coin={**ZLOTY, **draw_coin(rng)},
+                air=air,
+                floor={"contact": law, "friction": 0.3, "restitution": 0.4},
+                release=draw_release(rng),
+                ending={"max_impacts": 300},
+            )
+
+
+def test_a_toss_and_its_path_up_to_the_end_stay_the_same_to_the_bit():
+    longer = 0
+    for case in kinds_of_tosses():
+        toss = analytic.toss(case)
+        followed = analytic.toss(case.replace("ending.until", toss.end_time + 0.5))
+        longer += followed.path_end > toss.end_time
+        for name in ("outcome", "ending", "end_time", "outcome_certain", "trusted_impacts", "certificate"):
+            assert getattr(toss, name) == getattr(followed, name), name
+        assert toss.later_times.size == 0
+        assert toss.path_end == toss.end_time
+        for name in vars(toss.impacts):
+            assert np.array_equal(getattr(toss.impacts, name), getattr(followed.impacts, name)), name
+        assert np.array_equal(toss.contacts, followed.contacts)
+        times = np.linspace(0, toss.end_time, 400)[:-1]
+        for name in vars(before := toss.sample(times)):
+            assert np.array_equal(getattr(before, name), getattr(followed.sample(times), name)), name
+    assert longer > 8
+
+
+def test_batches_do_not_depend_on_it():
+    case = load("fig24a")
+    plain, followed = (
+        analytic.toss_rows(
+            rows_of(each, 20, {"release.position.z": np.linspace(0.3, 0.5, 20)}), trust="certain"
+        )
+        for each in (case, case.replace("ending.until", 9))
+    )
+    for name, column in plain._asdict().items():
+        assert np.array_equal(column, getattr(followed, name)), name
