@@ -30,7 +30,8 @@ class EventLog(NamedTuple):
     ending: Ending
     end_time: float
     later: Started
-    """Where modes start from the end of the toss on, and the end of the path, (m,)."""
+    """Where modes start from the end of the toss on, and the end of the path, (m,); their steps and their
+    grazes are not counted."""
 
     @property
     def verdict(self) -> TossEnd:

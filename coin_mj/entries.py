@@ -9,6 +9,7 @@ engine = Library(__name__, lacks_none=True)
 
 toss_rows = engine.entry(by_rows.toss_rows)
 toss_coin = engine.entry(events.toss_coin)
+go_on = engine.entry(events.go_on)
 sample_path = engine.entry(sampling.sample_path)
 sample_contacts = engine.entry(sampling.sample_contacts)
 knot_forces = engine.entry(sampling.knot_forces)

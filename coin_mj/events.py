@@ -4,21 +4,28 @@ import math
 
 import numpy as np
 
-from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin, joint_of
 from cointoss.coin_mj.model.settings import Budgets
-from cointoss.coin_mj.model.state import state_of
+from cointoss.coin_mj.model.state import set_motion, state_of
 from cointoss.coin_mj.steps.flight import FlightExit, fly
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap
 from cointoss.coin_mj.steps.impact import TouchResult, resolve_impact
-from cointoss.coin_mj.steps.knots import StepKind, add_knot, nothing_recorded
-from cointoss.coin_mj.steps.sustained_contact import NO_LOSS, ContactExit, follow_contact, slow_speed
-from cointoss.models.body import Body, Rules, is_linear
-from cointoss.models.ending import classify_ending, face_outcome, unless_caught
+from cointoss.coin_mj.steps.knots import RecordedPath, StepKind, add_knot, nothing_recorded
+from cointoss.coin_mj.steps.sustained_contact import (
+    NO_LOSS,
+    NOT_DECIDED,
+    ContactExit,
+    follow_contact,
+    slow_speed,
+)
+from cointoss.models.body import Body, Rules, is_linear, with_time_alone
+from cointoss.models.ending import classify_ending, face_outcome, followed_until, unless_caught
 from cointoss.models.geometry import lowest_point
 from cointoss.models.impact_row import FIRST_ROOM, ImpactRow, ImpactRows, with_room, write_impact
 from cointoss.models.kernel.arrays import Table, doubled
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector
+from cointoss.models.making import AT_REST
 from cointoss.models.perpetual import energy_history, start_history
 from cointoss.models.records import Ending, Outcome
 from cointoss.models.state import State
@@ -26,6 +33,8 @@ from cointoss.models.state import State
 ROUNDED_FLAT = 1e-13
 """A flat coin's tilt, and its turn in √(r/g), by MuJoCo's rounding alone; measured: 3e-15 in five bounces."""
 
+STILL = 1e-4
+"""A coin in contact is at rest where it moves slower than this part of √(g r)."""
 AIR_STEPS = 50
 """A step in air with b > 0 counts as so many: its quadratures take up to 1 ms for each force."""
 
@@ -87,7 +96,7 @@ def toss_coin(
         if sustained:
             start_history(coin.body, history, time)
             left_by, time, steps_left, outcome, ending, path = follow_contact(
-                coin, rules, time, steps_left, history, path
+                coin, rules, time, steps_left, history, path, NOT_DECIDED
             )
             if keep_all and time > start:
                 contacts = doubled(contacts) if c == len(contacts) else contacts
@@ -98,6 +107,79 @@ def toss_coin(
     path = add_knot(coin, time, StepKind.FLIGHT, path)
     outcome, ending = unless_caught(rules, outcome, ending)
     return n, rows, path.table[: path.size], contacts[:c], outcome, ending, time
+
+
+@compiled
+def go_on(
+    coin: MujocoCoin,
+    plastic: MujocoCoin,
+    rules: Rules,
+    budgets: Budgets,
+    knots: Table,
+    ending: Ending,
+    until: float,
+) -> tuple[Table, Table]:
+    """Step the coin on after its toss, without the tests that end one, see `EndingCriteria.until`.
+
+    Args:
+        coin: MuJoCo's.
+        plastic: the same, for touches up to the threshold of restitution.
+        rules: floor and ending.
+        budgets: the most steps in flight and in sustained contact, from the end of the toss on.
+        knots: of the path of the toss, (k, 15).
+        ending: of the toss.
+        until: the time up to which the coin is followed [s]; `AT_REST`: until it is at rest.
+
+    Returns:
+        Knots of the whole path, (m, 15); and start and end of what the floor does after the toss, (n, 3) [s]:
+        an impact, or a sustained contact where the third number is 1.
+    """
+    k, time = len(knots) - 1, knots[-1, 0]
+    touches, n = np.empty((FIRST_ROOM, 3)), 0
+    last = followed_until(rules, ending, time, until)
+    if last == time:
+        return knots, touches[:n]
+    path = RecordedPath(doubled(knots), k)
+    set_motion(coin, knots[k, 2:])
+    if ending == Ending.CAUGHT:
+        joint_of(coin).qvel[:] = 0
+        path = add_knot(coin, last, StepKind.FLIGHT, add_knot(coin, time, StepKind.IMPACT, path))
+        return path.table[: path.size], touches[:n]
+    rules, history = with_time_alone(rules, last), energy_history(NO_LOSS)
+    still = STILL * (coin.body.gravity * coin.body.radius) ** 0.5 if until == AT_REST else 0.0
+    weight = 1 if is_linear(coin.body.air) else AIR_STEPS
+    steps_left, flight_steps_left = budgets.contact_steps // weight, budgets.flight_steps // weight
+    sustained, lands = knots[k - 1, 1] == StepKind.CONTACT.value, False
+    while time < last and steps_left > 0:
+        touched = coin
+        if not (sustained or lands):
+            time, way, flight_steps_left, path = fly(coin, rules, time, flight_steps_left, path)
+            if way == FlightExit.BUDGET:
+                break
+            speed = -evaluate_gap(coin).speed
+            is_plastic = rules.restitution_threshold > 0 and speed <= rules.restitution_threshold
+            if is_plastic:
+                touched = plastic
+            chi = 0.0 if is_plastic else rules.restitution
+            sustained = speed < slow_speed(coin, chi, state_of(coin).spin)
+        start, left_by = time, ContactExit.LIFT_OFF
+        if not sustained:
+            result, time, _, path = resolve_impact(touched, time, path)
+            sustained = result == TouchResult.SUSTAINED
+        held = sustained
+        if held:
+            left_by, time, steps_left, _, _, path = follow_contact(
+                coin, rules, time, steps_left, history, path, still
+            )
+        touches = doubled(touches) if n == len(touches) else touches
+        touches[n, 0], touches[n, 1], touches[n, 2] = start, time, 1.0 if held else 0.0
+        n += 1
+        steps_left -= 1
+        sustained, lands = False, left_by == ContactExit.RIM_LANDS
+        if left_by == ContactExit.DECIDED:
+            break
+    path = add_knot(coin, time, StepKind.FLIGHT, path)
+    return path.table[: path.size], touches[:n]
 
 
 @compiled

@@ -4,12 +4,13 @@
 # pyright: reportAttributeAccessIssue=false
 
 import warnings
+from dataclasses import replace
 from typing import NamedTuple
 
 import mujoco
 import numpy as np
 
-from cointoss.coin_mj.entries import air_force, toss_coin
+from cointoss.coin_mj.entries import air_force, go_on, toss_coin
 from cointoss.coin_mj.model.air import PowerLaw
 from cointoss.coin_mj.model.machine import Machine, machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
@@ -32,6 +33,7 @@ from cointoss.models.records import (
     Array,
     Ending,
     Impacts,
+    Later,
     Outcome,
     Setting,
     Toss,
@@ -140,6 +142,7 @@ def _toss(scenario: Scenario, rules: Rules, settings: MujocoSettings) -> Toss:
     answer = run(machine, rules)
     impacts = Impacts.from_rows(answer.rows)
     path = Knots(machine=machine, knots=answer.knots, restitution=scenario.floor.restitution)
+    followed, later = _followed(machine, rules, answer, scenario.ending.until)
     trusted, trust_end = _trust(scenario, settings, impacts, answer.contacts)
     return Toss(
         engine="mujoco",
@@ -171,8 +174,20 @@ def _toss(scenario: Scenario, rules: Rules, settings: MujocoSettings) -> Toss:
                 _force_and_moment,
             ),
         ),
-        path=path,
+        path=replace(path, knots=followed),
+        later=later,
     )
+
+
+def _followed(machine: Machine, rules: Rules, answer: MujocoRun, until: float | None) -> tuple[Array, Later]:
+    """Return the knots of a path that goes on after the toss as it is asked to, and what happens there."""
+    if until is None:
+        return answer.knots, Later()
+    knots, touches = go_on(
+        machine.coin, machine.plastic, rules, machine.settings.budgets, answer.knots, answer.ending, until
+    )
+    held = touches[:, 2] == 1
+    return knots, Later(end=float(knots[-1, 0]), times=touches[~held, 0], contacts=touches[held, :2])
 
 
 def warn_of_approximation(scenario: Scenario) -> None:

@@ -16,7 +16,7 @@ from cointoss.models.body import Rules
 from cointoss.models.ending import classify_ending, out_of_steps
 from cointoss.models.geometry import lowest_point
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import Matrix, Vector, apply, cross, subtract
+from cointoss.models.kernel.vectors import Matrix, Vector, apply, cross, norm, subtract
 from cointoss.models.perpetual import FIRST_CHECK, EnergyHistory
 from cointoss.models.records import Ending, Outcome
 from cointoss.models.rest import is_held, is_slowing
@@ -51,6 +51,10 @@ NO_LOSS = 8e-5
 """A loss in the time √(r/g) that is none, against the energy: the steps alone change it by up to 4e-5."""
 
 
+NOT_DECIDED = -1.0
+"""In place of the speed of a coin at rest, while its toss is not decided."""
+
+
 class ContactExit(IntEnum):
     """How a sustained contact ended."""
 
@@ -79,7 +83,13 @@ def slow_speed(coin: MujocoCoin, chi: float, w: Vector) -> float:
 
 @compiled
 def follow_contact(
-    coin: MujocoCoin, rules: Rules, time: float, steps_left: int, history: EnergyHistory, path: RecordedPath
+    coin: MujocoCoin,
+    rules: Rules,
+    time: float,
+    steps_left: int,
+    history: EnergyHistory,
+    path: RecordedPath,
+    still: float,
 ) -> tuple[ContactExit, float, int, Outcome, Ending, RecordedPath]:
     """Follow a sustained contact until the coin lifts off, another rim point lands, or the toss is decided.
 
@@ -90,6 +100,7 @@ def follow_contact(
         steps_left: the most steps wanted.
         history: `EnergyHistory` of the toss; kept up.
         path: of the toss so far.
+        still: of a toss that is decided, the speed at which the coin is at rest [m/s]; `NOT_DECIDED` before.
 
     Returns:
         `ContactExit`, the time [s], the steps left, the outcome, the ending, and the path.
@@ -105,13 +116,18 @@ def follow_contact(
         sunk = -min(evaluate_gap(coin).gap, 0.0)
         z = x[2] + sunk
         now = State((x[0], x[1], z), v, e, w, R)
-        outcome, ending = classify_ending(body, rules, now, time, history)
-        if ending == Ending.NONE and upright * rate > FIRST_CHECK and not slows(coin, R, w):
-            outcome, ending = Outcome.EDGE, Ending.STANDING
-        if ending == Ending.NONE and rests(coin, now, upright > 0):
-            outcome, ending = Outcome.EDGE, Ending.AT_REST
-        if ending == Ending.NONE and steps_left <= 0:
-            outcome, ending = out_of_budget(coin, upright > 0, *out_of_steps(body, rules, now, history))
+        if still == NOT_DECIDED:
+            outcome, ending = classify_ending(body, rules, now, time, history)
+            if ending == Ending.NONE and upright * rate > FIRST_CHECK and not slows(coin, R, w):
+                outcome, ending = Outcome.EDGE, Ending.STANDING
+            if ending == Ending.NONE and rests(coin, now, upright > 0):
+                outcome, ending = Outcome.EDGE, Ending.AT_REST
+            if ending == Ending.NONE and steps_left <= 0:
+                outcome, ending = out_of_budget(coin, upright > 0, *out_of_steps(body, rules, now, history))
+        elif max(norm(v), body.radius * norm(w)) < still:
+            outcome, ending = Outcome.UNDECIDED, Ending.AT_REST
+        else:
+            outcome, ending = Outcome.UNDECIDED, Ending.CONTACT_STEPS if steps_left <= 0 else Ending.NONE
         if ending != Ending.NONE:
             return ContactExit.DECIDED, time, steps_left, outcome, ending, path
         dt, lands = next_step(coin, rules.restitution, up, up_rate, w, sunk)

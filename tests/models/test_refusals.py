@@ -39,7 +39,7 @@ OTHERS = [
     (lambda arguments: HERE.replace(*json.loads(arguments)), TABLES["change"]),
     (lambda arguments: AnalyticSettings(**json.loads(arguments)), TABLES["settings"]),
 ]
-UNKNOWN = "unknown key; accepted: test, max_impacts, max_time, caught"
+UNKNOWN = "unknown key; accepted: test, max_impacts, max_time, caught, until"
 NESTED = "{'a': "
 LONG = {
     "x = " + 1900 * "[": "nested too deeply; accepted: tables of numbers and lists",

@@ -39,8 +39,10 @@ WAYS = {
     Event.SLIP_STOPS: (ONE_RIM | {Mode.TOUCHING}, Mode.STICKING),
     Event.COMES_UPRIGHT: (ONE_RIM, Mode.UPRIGHT),
     Event.TIPS_OVER: ({Mode.UPRIGHT}, Mode.TOUCHING),
-    Event.NO_SOLUTION: (CONTACT, Mode.ENDED),
-    Event.ENDS: (CONTACT | {Mode.FLIGHT}, Mode.ENDED),
+    Event.NO_SOLUTION: (CONTACT | {Mode.LYING}, Mode.ENDED),
+    Event.ENDS: (CONTACT | {Mode.FLIGHT, Mode.LYING, Mode.RESTING}, Mode.ENDED),
+    Event.LIES: (CONTACT | {Mode.FLIGHT}, Mode.LYING),
+    Event.RESTS: (CONTACT | {Mode.LYING}, Mode.RESTING),
 }
 """Which modes an event can end, and the mode after it."""
 
