@@ -72,18 +72,18 @@ def _impact(impacts: Impacts, i: int) -> dict[str, Any]:
 
 
 def path_times(toss: Toss) -> np.ndarray:
-    """Return times evenly spread over a toss, and those of its impacts and its end [s].
+    """Return times evenly spread over a path, and those of its impacts, of the toss's end and its own [s].
 
     Raises:
         UnsupportedError: if they are more than `MOST_ROWS`.
     """
-    if toss.end_time * ROWS_PER_SECOND > MOST_ROWS:
+    if toss.path_end * ROWS_PER_SECOND > MOST_ROWS:
         raise UnsupportedError(
             f"ending.max_time = {toss.scenario.ending.max_time:g}: accepted where the path is written: "
-            f"at most {MOST_ROWS / ROWS_PER_SECOND:g} s (this toss lasts {toss.end_time:g} s)"
+            f"at most {MOST_ROWS / ROWS_PER_SECOND:g} s (this toss lasts {toss.path_end:g} s)"
         )
-    even = np.arange(0.0, toss.end_time, 1 / ROWS_PER_SECOND)
-    return np.unique(np.concatenate([even, toss.impacts.time, [toss.end_time]]))
+    even, ends = np.arange(0.0, toss.path_end, 1 / ROWS_PER_SECOND), [toss.end_time, toss.path_end]
+    return np.unique(np.concatenate([even, toss.impacts.time, toss.later_times, ends]))
 
 
 def path_csv(states: States, scenario: Scenario) -> str:

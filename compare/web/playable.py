@@ -37,6 +37,8 @@ def coin_of(scenario: Scenario) -> dict[str, Any]:
 def playable(toss: Toss, samples: int = SAMPLES, most_symbols: int = MOST_SYMBOLS) -> dict[str, Any]:
     """Return a toss as scripts show it: how it ended, its sequence with the horizon of trust, and its path.
 
+    Where the coin is followed after the toss, the path goes on, and `later_times` are those of its touches.
+
     Args:
         toss: by either engine.
         samples: of the path, roughly.
@@ -54,11 +56,17 @@ def playable(toss: Toss, samples: int = SAMPLES, most_symbols: int = MOST_SYMBOL
         "notes": [],
         "coin": coin_of(toss.scenario),
         "path": path_of(toss, samples),
+        **_later(toss, most_symbols),
     }
 
 
+def _later(toss: Toss, most: int) -> dict[str, Any]:
+    """Return the first times at which a coin touches after its toss, where it is followed."""
+    return {"later_times": rounded(toss.later_times[:most], 7)} if toss.path_end > toss.end_time else {}
+
+
 def path_of(toss: Toss, samples: int, *, with_spin: bool = False) -> dict[str, Any]:
-    """Return a path at evenly spread times, and on both sides of its first impacts, number after number.
+    """Return a path at evenly spread times, and on both sides of its first touches, number after number.
 
     Args:
         toss: by either engine.
@@ -68,11 +76,11 @@ def path_of(toss: Toss, samples: int, *, with_spin: bool = False) -> dict[str, A
     Returns:
         Times [s], positions of C [m], Euler parameters, energies [J], and spins [rad/s].
     """
-    hits = toss.impacts.time[: samples // 4]
+    hits = np.concatenate([toss.impacts.time, toss.later_times])[: samples // 4]
     times = np.unique(
         np.concatenate(
-            [np.linspace(0, toss.end_time, samples - 2 * len(hits)), hits, np.nextafter(hits, 0)]
-        ).clip(0, toss.end_time)
+            [np.linspace(0, toss.path_end, samples - 2 * len(hits)), hits, np.nextafter(hits, 0)]
+        ).clip(0, toss.path_end)
     )
     states = toss.sample(times)
     # Finer than the eye sees: a ten-thousandth of a radius.

@@ -73,6 +73,10 @@ export interface Toss {
   sentence: string;
   /** [s] */
   endTime: number;
+  /** The time at which the path ends: endTime, or with `ending.until` later [s]. */
+  pathEnd: number;
+  /** The times after endTime at which the coin touches and bounces [s]. */
+  laterTimes: number[];
   impacts: Impact[];
   /** The faces up at the touches, as in "HHT". */
   sequence: string;
@@ -81,7 +85,7 @@ export interface Toss {
   /** Whether they cannot change the outcome. */
   outcomeCertain: boolean;
   coin: Coin;
-  /** Sample the path at increasing times, from 0 to `endTime`; others are an EngineError. */
+  /** Sample the path at increasing times, from 0 to `pathEnd`; others are an EngineError. */
   path(times: ArrayLike<number>): Path;
 }
 
@@ -100,6 +104,8 @@ export interface PlayedToss {
   trusted: number;
   notes: string[];
   coin: Coin;
+  /** Where the path goes on after end_time: the times of the first touches there. */
+  later_times?: number[];
   path: { time: number[]; position: number[]; quaternion: number[]; energy: number[] };
 }
 

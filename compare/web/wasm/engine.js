@@ -151,6 +151,8 @@ export class Engine {
       ending,
       sentence,
       endTime: of("end_time"),
+      pathEnd: path[path.length - this.about.piece],
+      laterTimes: bouncesAfter(of("end_time"), path, this.about.piece),
       impacts,
       sequence: impacts.map(({ face }) => face).join(""),
       trustedImpacts: of("trusted_impacts"),
@@ -263,6 +265,12 @@ export function changed(scenario, values) {
   return made;
 }
 
+// The times after the end of a toss at which a flight follows a flight: the coin touches and bounces.
+function bouncesAfter(end, path, wide) {
+  const starts = Array.from({ length: path.length / wide }, (_, i) => ({ time: path[i * wide], flies: path[i * wide + 1] === 0 }));
+  return starts.filter(({ time, flies }, i) => time > end && flies && starts[i - 1].flies).map(({ time }) => time);
+}
+
 // An array of numbers as the engine takes it: its size, the bytes of a number, its place, shape and strides.
 const line = (address, length) => [0, 0, length, WORD, address, length, WORD];
 const table = (address, rows, columns) => [0, 0, rows * columns, WORD, address, rows, columns, columns * WORD, WORD];
@@ -365,9 +373,9 @@ export const startWorker = () => new Worker(import.meta.url, { type: "module", n
 
 /** A toss as the scripts of a page play it, with its path at evenly spread times, and on both sides of its first impacts. */
 export function played(toss, samples) {
-  const { impacts, endTime } = toss, shown = impacts.slice(0, samples / 4);
-  const even = Array.from({ length: samples }, (_, i) => (i * endTime) / (samples - 1)), hits = shown.flatMap(({ time }) => [time * (1 - 2 ** -52), time]);
-  const times = [...new Set([...even, ...hits])].filter((time) => time <= endTime).sort((a, b) => a - b);
+  const { impacts, endTime, pathEnd, laterTimes } = toss, most = Math.floor(samples / 4), shown = impacts.slice(0, most), later = laterTimes.slice(0, most - shown.length);
+  const even = Array.from({ length: samples }, (_, i) => (i * pathEnd) / (samples - 1)), hits = [...shown.map(({ time }) => time), ...later].flatMap((time) => [time * (1 - 2 ** -52), time]);
+  const times = [...new Set([...even, ...hits])].filter((time) => time <= pathEnd).sort((a, b) => a - b);
   const { states, energies } = toss.path(times), part = (first, count) => times.flatMap((_, i) => [...states.subarray(13 * i + first, 13 * i + first + count)]);
   return {
     engine: "analytic",
@@ -382,5 +390,6 @@ export function played(toss, samples) {
     notes: [],
     coin: toss.coin,
     path: { time: times, position: part(0, 3), quaternion: part(6, 4), energy: [...energies] },
+    ...(pathEnd > endTime ? { later_times: later } : {}),
   };
 }
