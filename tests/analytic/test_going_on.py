@@ -8,6 +8,7 @@ import pytest
 from cointoss import analytic
 from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.going_on import FOLLOWED
+from cointoss.models.attitude import rotation_matrix
 from cointoss.models.batch import rows_of
 from cointoss.models.ending import REST_WAIT
 from cointoss.models.reading import load
@@ -91,6 +92,26 @@ def test_a_coin_on_its_edge_with_backspin_stops_where_friction_has_taken_both():
     assert max(np.abs(velocity).max(), r * np.abs(spin).max()) < 1e-6
     at_rest = on_rough_floor({**release, "angular_velocity": [0, 0, 2 * v / r]}, "rest")
     assert at_rest.path_end == pytest.approx(v / (mu * g), rel=1e-2)
+
+
+def test_friction_turns_a_coin_with_backspin_about_the_vertical_ever_faster():
+    """N of its rims differs by the gyroscopic moment J_ζ ω Ω, and so does friction: Ω' = μ ω J_ζ/J_ξ Ω.
+
+    It is said to stand, and falls.
+    """
+    v, rough = 1.25, 0.2
+    release = {"position": [0, 0, r], "velocity": [v, 0, 0], "angles": UPRIGHT}
+    toss = on_rough_floor({**release, "angular_velocity": [0, 0, 2 * v / r]}, 3, friction=rough)
+    assert (toss.outcome, toss.ending) == (Outcome.EDGE, Ending.STANDING)
+    times = np.linspace(0.1, 0.2, 11)
+    found = toss.sample(times)
+    e, w = found.quaternion, found.angular_velocity
+    turning = np.array([np.array(rotation_matrix(tuple(e[i])))[2] @ w[i] for i in range(len(times))])
+    J, spin = toss.scenario.body.inertia, 2 * (v - rough * g * times) / r
+    expected = rough * J[2][2] / J[0][0] * (spin[1:] + spin[:-1]) / 2
+    grown = np.diff(np.log(np.abs(turning))) / np.diff(times)
+    assert grown == pytest.approx(expected, rel=0.02)
+    assert last_state(toss)[0][2] < r / 2
 
 
 @pytest.mark.parametrize("until", [0.5, 60])
