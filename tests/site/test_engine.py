@@ -176,20 +176,26 @@ def test_a_map_has_each_pixel_once_coarse_ones_first_and_is_that_of_the_package(
         f"""(async () => {{
           const parts = [];
           await workers.map({written(case)}, {axes}, {{ after: {json.dumps(after)}, trust: true }},
-            ({{ stride, columns, rows, codes, trusted }}) =>
-              parts.push([stride, [...columns], [...rows], [...codes], [...trusted]]));
+            ({{ stride, pixels, codes, trusted, finished }}) =>
+              parts.push([stride, [...pixels], [...codes], [...trusted], finished]));
           return parts;
         }})()"""
     )
-    codes, trusted, strides = np.full((ny, nx), -9), np.full((ny, nx), -9), []
-    for stride, columns, rows, some, sure in found:
-        block = np.ix_(rows, columns)
-        assert (codes[block] == -9).all()
-        codes[block], trusted[block] = (np.reshape(each, (len(rows), len(columns))) for each in (some, sure))
-        strides.append(stride)
+    codes, trusted = np.full((2, ny * nx), -9)
+    strides = [part[0] for part in found]
+    for _, pixels, some, sure, finished in found:
+        assert (codes[pixels] == -9).all()
+        codes[pixels], trusted[pixels] = some, sure
+        if finished:
+            columns, rows = -(-nx // finished), -(-ny // finished)
+            tossed = np.flatnonzero(codes != -9)
+            squares = {(at // nx // finished, at % nx // finished) for at in tossed.tolist()}
+            assert len(squares) == columns * rows
+    codes, trusted = codes.reshape(ny, nx), trusted.reshape(ny, nx)
     assert (codes != -9).all()
     assert max(strides) >= 2
     assert strides[0] == max(strides)
+    assert found[-1][-1] == 1
     more = {"after": after} if after is not None else {}
     made = cointoss.basin(
         case,

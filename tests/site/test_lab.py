@@ -60,8 +60,7 @@ def test_the_page_shows_a_coin_and_its_map_with_the_network_off(page, lab_path, 
     offline(page)
     page.open(lab_path.as_uri(), width=width, height=1900, scheme=scheme)
     page.wait_for(TOSSED)
-    # Coarse pixels stand for the finer ones at first.
-    page.wait_for("document.getElementById('map').dataset.seen === 'true'")
+    page.wait_for(WHOLE)
     shown = picture(page, "map")[10:-52, 74:-14].reshape(-1, 3)
     for color in (GOLD, BLUE):
         assert np.mean((shown == color).all(axis=1)) > 0.3

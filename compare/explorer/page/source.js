@@ -64,8 +64,8 @@ async function tiledHere(level, column, row) {
   const { axes, after } = data.map, codes = new Int8Array(SIDE * SIDE).fill(-1);
   const x = partOf(axes.x, level, column), y = partOf(axes.y, level, row);
   if (!x || !y) return codes;
-  await (await workers()).map(data.engine.scenario, x, y, { after }, (part) =>
-    part.rows.forEach((j, at) => part.columns.forEach((i, along) => (codes[(y.first + j) * SIDE + x.first + i] = part.codes[at * part.columns.length + along]))));
+  await (await workers()).map(data.engine.scenario, x, y, { after }, ({ pixels, codes: found }) =>
+    pixels.forEach((pixel, at) => (codes[(y.first + Math.floor(pixel / x.count)) * SIDE + x.first + (pixel % x.count)] = found[at])));
   return codes;
 }
 

@@ -2,19 +2,18 @@
 
 import { indexOf, valueAt } from "./axes.js";
 import { drawCursor, drawHatch, makeView, style } from "./map_view.js";
-import { colorsOf } from "./pixels.js";
+import { makePicture } from "./picture.js";
 import { ellipse } from "./hand.js";
 
 const PIXEL = 2; // of the map, in those of the screen
 const ULP = 2 ** -52;
-const PATIENCE = 500; // milliseconds for which a server, which gives all pixels at once, is waited for
-const FAR = 2 ** 20; // the stride of a pixel that nothing stands for yet
+const FRAME = 80; // [ms] between two pictures of one map
 
 // `fields` has the word and the unit of each field, `outcomes` { color } by code. `told` has what is called: place
-// and choose, with { x, y, code, trusted }; moved, with both windows; end; progress, with the part that is tossed and whether coarse pixels cover the map; and
-// problem, with a message.
+// and choose, with { x, y, code, trusted }; moved, with both windows; end; progress, with the part that is tossed and
+// whether coarse pixels cover the map; and problem, with a message.
 export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
-  let state = null, behind = null, job = null, next = null;
+  let state = null, behind = null, job = null, next = null, drawn = 0;
   const identity = { start: 0, stop: 1, count: 2 }; // u and v are the values themselves
   const worded = (axis) => ({ ...identity, word: fields[axis?.field]?.word ?? "", unit: fields[axis?.field]?.unit ?? "" });
   const windowOf = ({ x, y }) => ({ left: x.from, right: x.to, bottom: y.from, top: y.to });
@@ -98,26 +97,21 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
   function ask() {
     if (!state) return;
     const at = grid(), key = keyOf(at);
-    if (job?.key === key) return void (next = null);
-    if (job && !job.isCoarse && !job.isEnded && !(workers.tossMap && performance.now() - job.begun >= PATIENCE)) {
-      if (workers.tossMap) setTimeout(ask, PATIENCE);
-      return void (next = key);
-    }
-    begin(at, key);
+    if (job?.key === key) next = null;
+    else if (job && !job.isCoarse && !job.isEnded) next = key;
+    else begin(at, key);
   }
 
   async function begin({ x, y }, key) {
     job?.controller.abort();
     if (job?.isCoarse) behind = job;
     next = null;
-    const size = x.count * y.count;
-    const mine = { key, begun: performance.now(), x, y, window: view.window(), codes: new Int8Array(size).fill(-1), trusted: new Int8Array(size).fill(1),
-      strides: new Int32Array(size).fill(FAR), isTossed: new Uint8Array(size), covered: 0, tossed: 0, isCoarse: false, isEnded: false, controller: new AbortController(), ...layers(x, y) };
+    const { scenario, after, trust } = state;
+    const mine = Object.assign(makePicture({ x, y, outcomes, trust }), { key, window: view.window(), isEnded: false, controller: new AbortController() });
     job = mine;
     told.progress(0, false);
-    const { scenario, after, trust } = state;
     try {
-      await workers.map(scenario, x, y, { after, trust }, (part) => job === mine && take(mine, part), mine.controller.signal);
+      await workers.map(scenario, x, y, { after, trust }, (part) => job === mine && take(part), mine.controller.signal);
     } catch (error) {
       if (error.name !== "AbortError") told.problem(error.message);
     }
@@ -125,63 +119,30 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
     if (job === mine && next !== null) ask();
   }
 
-  function layers(x, y) {
-    const made = () => Object.assign(document.createElement("canvas"), { width: x.count, height: y.count });
-    const picture = made(), hatch = made();
-    return { picture, hatch, pixels: picture.getContext("2d").createImageData(x.count, y.count), lines: hatch.getContext("2d").createImageData(x.count, y.count) };
-  }
-
-  function take(job, { stride, columns, rows, codes, trusted }) {
-    const colors = colorsOf(outcomes), { x, y } = job;
-    rows.forEach((row, j) => columns.forEach((column, i) => {
-      const code = codes[j * columns.length + i], trust = trusted ? trusted[j * columns.length + i] : 1;
-      const [red, green, blue] = colors[code] ?? colors[-1];
-      job.isTossed[row * x.count + column] = 1;
-      for (let b = row; b < Math.min(row + stride, y.count); b++) {
-        for (let a = column; a < Math.min(column + stride, x.count); a++) {
-          const at = 4 * ((y.count - 1 - b) * x.count + a), index = b * x.count + a;
-          if (job.strides[index] < stride) continue;
-          if (job.strides[index] === FAR) job.covered += 1;
-          job.strides[index] = stride;
-          job.pixels.data[at] = red;
-          job.pixels.data[at + 1] = green;
-          job.pixels.data[at + 2] = blue;
-          job.pixels.data[at + 3] = 255;
-          job.lines.data.fill(trust || code < 0 ? 0 : 255, at, at + 4);
-          job.codes[index] = code;
-          job.trusted[index] = trust;
-        }
-      }
-    }));
-    job.isDrawn = false;
-    job.tossed += rows.length * columns.length;
-    job.isCoarse = job.covered === x.count * y.count;
-    told.progress(job.tossed / (x.count * y.count), job.isCoarse);
-    view.redraw();
+  function take(part) {
+    const wasCoarse = job.isCoarse, isOther = job.take(part), isWhole = job.tossed === job.codes.length, now = performance.now();
+    told.progress(job.tossed / job.codes.length, job.isCoarse);
+    if (isOther && (!wasCoarse || isWhole || now - drawn > FRAME)) {
+      drawn = now;
+      view.redraw();
+    }
     if (job.isCoarse && next !== null) ask();
   }
 
   function paint(pen, at) {
     if (!state) return;
     const spread = ({ window: { left, right, bottom, top } }) => [at.across(left), at.down(top), at.across(right) - at.across(left), at.down(bottom) - at.down(top)];
-    const shown = job?.isCoarse ? [behind, job] : [behind ?? job];
-    pen.imageSmoothingEnabled = false;
-    for (const each of shown.filter(Boolean)) pen.drawImage(drawn(each).picture, ...spread(each));
-    const last = shown.at(-1);
-    if (state.trust && last) drawHatch(pen, at, last.hatch, spread(last));
+    const shown = [behind, job].filter((each) => each?.isCoarse);
+    for (const each of shown) {
+      pen.imageSmoothingEnabled = each !== job; // of another window it may be enlarged
+      pen.drawImage(each.drawn().image, ...spread(each));
+    }
+    const last = shown.at(-1), hatch = last?.drawn().hatch;
+    if (state.trust && hatch) drawHatch(pen, at, hatch, spread(last));
     const half = { u: (at.window.right - at.window.left) / at.box.width, v: (at.window.top - at.window.bottom) / at.box.height };
     if (state.hand !== null) drawHand(pen, at);
     if (state.before) outline(pen, at, state.before);
     drawCursor(pen, at, chosen(), half);
-  }
-
-  function drawn(job) {
-    if (!job.isDrawn) {
-      job.picture.getContext("2d").putImageData(job.pixels, 0, 0);
-      job.hatch.getContext("2d").putImageData(job.lines, 0, 0);
-    }
-    job.isDrawn = true;
-    return job;
   }
 
   function drawHand(pen, { across, down }) {

@@ -22,11 +22,9 @@ export async function measure(bytes, workers, told) {
   told("planar tosses to their end, one core", `${await rate(engine, PLANE)} tosses/s`);
   told("tosses of an imperfect coin to their end, one core", `${await rate(engine, GENERAL)} tosses/s`);
   const start = performance.now(), { signal } = new AbortController();
-  let first = null, coarse = null;
-  await workers.map(PLANE, ...MAP, { after: 2, trust: false }, ({ stride, rows, columns }) => {
-    coarse ??= { stride, left: Math.ceil(400 / stride) * Math.ceil(300 / stride) };
-    if (stride === coarse.stride) coarse.left -= rows.length * columns.length;
-    if (coarse.left > 0 || first) return;
+  let first = null;
+  await workers.map(PLANE, ...MAP, { after: 2, trust: false }, ({ finished }) => {
+    if (finished === null || first) return;
     first = performance.now() - start;
     told("400 by 300 map of Fig. 24(a), third touch: first seen", `${(first / 1000).toFixed(2)} s`);
   }, signal);

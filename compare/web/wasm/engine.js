@@ -105,22 +105,29 @@ export class Engine {
     }, wanted);
   }
 
-  /** The mapped outcomes of a part of a map, row by row: for workers; see workers.js. */
-  tossGrid({ row, x, y, after, trust }) {
-    const wide = x.values.length, max = this.#place("ending.max_impacts"), base = Float64Array.from(row);
+  /** The mapped outcomes of some pixels, each at a value of x and one of y, and the milliseconds taken: for workers; see workers.js. */
+  tossPixels({ row, x, y, after, trust }) {
+    const start = performance.now(), max = this.#place("ending.max_impacts"), base = Float64Array.from(row);
     if (after !== null) base[max] = Math.min(after + 1, base[max] || Infinity);
-    const wanted = trust ? (after === null ? "certain" : "trust") : "outcome", [across, up] = [x, y].map(({ field }) => this.#place(field));
-    const within = (place, value) => (value < (this.about.fields[place].least ?? -Infinity) || value > (this.about.fields[place].most ?? Infinity) ? Infinity : value);
-    const found = this.#each(wide * y.values.length, base, (made, i) => {
-      made[across] = within(across, x.values[i % wide]);
-      made[up] = within(up, y.values[Math.floor(i / wide)]);
+    const wanted = trust ? (after === null ? "certain" : "trust") : "outcome";
+    const [[across, ofX], [up, ofY]] = [x, y].map(({ field, values }) => [this.#place(field), this.#within(field, values)]);
+    const found = this.#each(ofX.length, base, (made, i) => {
+      made[across] = ofX[i];
+      made[up] = ofY[i];
     }, wanted);
     const { outcome, impacts, lastFace, trustedImpacts, outcomeCertain } = found;
     const isTouch = (i) => after !== null && impacts[i] > after;
     return {
       codes: outcome.map((code, i) => (isTouch(i) ? lastFace[i] : code)),
       trusted: trust ? outcome.map((_, i) => Number(after === null ? outcomeCertain[i] === 1 : trustedImpacts[i] > after)) : null,
+      time: performance.now() - start,
     };
+  }
+
+  // Values of a field, infinite where its bounds do not have them.
+  #within(field, values) {
+    const { least, most } = this.about.fields[this.#place(field)];
+    return values.map((value) => (value < (least ?? -Infinity) || value > (most ?? Infinity) ? Infinity : value));
   }
 
   /** Toss a row of numbers. */
@@ -355,7 +362,7 @@ if (typeof WorkerGlobalScope !== "undefined" && self.name === NAME) {
   let engine = null;
   const answers = {
     load: async (bytes) => (engine = await load(bytes)).about.version,
-    grid: (part) => engine.tossGrid(part),
+    pixels: (some) => engine.tossPixels(some),
     each: (scenario, changes, wanted) => engine.tossEach(scenario, changes, wanted),
     played: (scenario, samples) => played(engine.toss(scenario), samples),
   };

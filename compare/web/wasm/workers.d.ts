@@ -2,16 +2,18 @@
 
 import type { Axis, Engine, Outcomes, PlayedToss, Scenario, Wanted } from "./engine.js";
 
-/** Some pixels of a map: all of some rows and columns. */
+/** Some pixels of a map. */
 export interface MapPart {
-  /** Until finer pixels come, each stands for the square of so many pixels that begins at it. */
+  /** Until finer pixels come, each stands for the square of so many by so many pixels that it lies in. */
   stride: number;
-  columns: Int32Array;
-  rows: Int32Array;
-  /** Outcomes, or faces at the mapped touch, row by row: numbers of `Engine.about.outcomes`; -2 for what is no scenario. */
+  /** Their numbers, row by row: row * x.count + column. */
+  pixels: Int32Array;
+  /** Outcomes, or faces at the mapped touch: numbers of `Engine.about.outcomes`; -2 for what is no scenario. */
   codes: Int8Array;
   /** 1 where the engine's own errors cannot change them; null where that was not asked for. */
   trusted: Int8Array | null;
+  /** The least stride of whose squares each has a tossed pixel by now; null for none. */
+  finished: number | null;
 }
 
 export interface MapOptions {
@@ -36,7 +38,7 @@ export class Workers {
   /** Workers that run; 0 where the page itself tosses, part by part. */
   readonly count: number;
 
-  /** Tosses the whole map in place of the workers, as a server may; null for none. */
+  /** Tosses a map in place of the workers, as a server may; null for none. Before a large map a small one of some of its pixels is asked for. */
   tossMap: ((asked: MapAsked, signal?: AbortSignal) => Promise<Pick<MapPart, "codes" | "trusted">>) | null;
 
   /** Toss a coin, with about so many samples of its path. */
@@ -46,7 +48,7 @@ export class Workers {
   tossEach(scenario: Scenario, changes: Record<string, ArrayLike<number>>, wanted?: Wanted): Promise<Outcomes>;
 
   /**
-   * Toss a map, coarse pixels first, each pixel once.
+   * Toss a map: some pixels that are spread over it first, as many as take about 60 ms, then those between. Each pixel is tossed once, but by a server.
    * @param onPart is called with each part
    * @param signal ends it: no further part is tossed, and the promise is rejected with the signal's reason
    */
