@@ -1,4 +1,4 @@
-"""The lab's map in a browser: its pictures from few tosses, and while a slider moves."""
+"""The lab's map in a browser: its pictures from few tosses, while a slider moves, and while one zooms."""
 
 import csv
 import io
@@ -10,7 +10,7 @@ import pytest
 import cointoss
 from cointoss.compare.lab.served import ServedLab
 from cointoss.models.devices import Device
-from tests.helpers.coins_shown import BLUE, GOLD, NO_WEBGL, picture
+from tests.helpers.coins_shown import BLUE, GOLD, NO_WEBGL, box, picture
 from tests.helpers.explored import serving
 from tests.helpers.lab import ADDRESSED, HEIGHT, SAVED, WHOLE, saved
 
@@ -130,6 +130,37 @@ def test_pictures_follow_a_slider_and_each_is_whole(page, lab_path, capsys):
         print(f"\n{len(pictures)} pictures in {span / 1000:.1f} s, the first after {first:.0f} ms", end="")
     assert all(pictures)
     page.wait_for(WHOLE)
+
+
+@pytest.mark.parametrize("moving", [True, False])
+def test_a_zoom_glides_where_one_likes_motion(page, lab_path, moving):
+    page.call("Page.addScriptToEvaluateOnNewDocument", source=DRAWS)
+    page.open(lab_path.as_uri(), width=420, height=1900, moving=moving)
+    page.wait_for(WHOLE)
+    page.value("document.getElementById('map').focus()")
+    page.press("+")
+    page.wait_for(f"draws.length > 1 && {WHOLE}")
+    widths = np.array(page.value("draws[0].widths")) / (box(page, "map")[2] - 74 - 14)
+    # What was seen before grows to twice its size.
+    assert (widths[0], widths[-1]) == pytest.approx((1, 2))
+    assert (np.diff(widths) >= -1e-9).all()
+    assert ((widths > 1.001) & (widths < 1.999)).any() == moving
+
+
+def test_the_depth_of_a_zoom_is_told(kept):
+    asked = [[1, False], [0.5, False], [2, False], [0.0125, False], [1e-3, False], [3.2e-13, True]]
+    told = kept.value(
+        "import('live_map.js').then(({ depthText }) =>"
+        f" {json.dumps(asked)}.map((given) => depthText(...given)))"
+    )
+    assert told == [
+        "",
+        "0.5 of the map",
+        "2 of the map",
+        "1.3e-2 of the map",
+        "1e-3 of the map",
+        "3.2e-13 of the map; doubles end here",
+    ]
 
 
 def test_a_server_is_asked_for_few_pixels_first(page):

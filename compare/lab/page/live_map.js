@@ -11,9 +11,9 @@ const FRAME = 80; // [ms] between two pictures of one map
 
 // `fields` has the word and the unit of each field, `outcomes` { color } by code. `told` has what is called: place
 // and choose, with { x, y, code, trusted }; moved, with both windows; end; progress, with the part that is tossed and
-// whether coarse pixels cover the map; and problem, with a message.
+// whether coarse pixels cover the map; problem, with a message; and, where it is wanted, depth, with a text.
 export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
-  let state = null, behind = null, job = null, next = null, drawn = 0;
+  let state = null, behind = null, job = null, next = null, drawn = 0, isLast = false, depth = "";
   const identity = { start: 0, stop: 1, count: 2 }; // u and v are the values themselves
   const worded = (axis) => ({ ...identity, word: fields[axis?.field]?.word ?? "", unit: fields[axis?.field]?.unit ?? "" });
   const windowOf = ({ x, y }) => ({ left: x.from, right: x.to, bottom: y.from, top: y.to });
@@ -25,7 +25,10 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
     hover: (u, v) => state && told.place(place(u, v)),
     choose: (u, v) => state && told.choose(place(u, v)),
     moved: () => told.moved(windows()),
-    end: (isEnd) => told.end(isEnd),
+    end(isEnd) {
+      isLast = isEnd;
+      told.end(isEnd);
+    },
   });
 
   function windows() {
@@ -143,17 +146,39 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
     if (state.hand !== null) drawHand(pen, at);
     if (state.before) outline(pen, at, state.before);
     drawCursor(pen, at, chosen(), half);
+    drawDepth(pen, at.box);
+  }
+
+  // How wide the window is, in the upper right corner where it is not the whole.
+  function drawDepth(pen, box) {
+    const { left, right } = view.window(), home = windowOf(state.home), text = depthText((right - left) / (home.right - home.left), isLast);
+    if (text !== depth) told.depth?.(text);
+    depth = text;
+    if (!text) return;
+    pen.font = `600 14px ${getComputedStyle(document.body).fontFamily}`;
+    pen.textAlign = "right";
+    pen.textBaseline = "middle";
+    const wide = pen.measureText(text).width + 14, x = box.left + box.width - 6;
+    pen.fillStyle = style("--card");
+    pen.beginPath();
+    pen.roundRect(x - wide, box.top + 6, wide, 25, 6);
+    pen.fill();
+    pen.fillStyle = style("--ink");
+    pen.fillText(text, x - 7, box.top + 19);
   }
 
   function drawHand(pen, { across, down }) {
     const points = ellipse(state, state.hand);
-    for (const [color, width] of [["#fff", 5], [style("--cursor"), 2.5]]) {
+    pen.save();
+    for (const [color, width, dashes] of [["#fff", 3.5, []], ["#000", 2.5, [7, 6]]]) {
       pen.strokeStyle = color;
       pen.lineWidth = width;
+      pen.setLineDash(dashes);
       pen.beginPath();
       for (const [u, v] of points) pen.lineTo(across(u), down(v));
       pen.stroke();
     }
+    pen.restore();
   }
 
   function outline(pen, { across, down }, [u, v]) {
@@ -172,4 +197,11 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
     // What is seen: codes row by row, and of which pixels they are their own.
     seen: () => job,
   };
+}
+
+// The width of a window as a part of the whole map's; nothing for the whole.
+export function depthText(part, isLast = false) {
+  if (Math.abs(part - 1) < 1e-3) return "";
+  const number = part < 0.1 ? part.toExponential(1).replace(".0e", "e") : String(Number(part.toPrecision(2)));
+  return `${number} of the map${isLast ? "; doubles end here" : ""}`;
 }

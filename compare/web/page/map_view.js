@@ -5,6 +5,7 @@ import { ticks } from "./ticks.js";
 
 const LEFT = 74, BOTTOM = 52, TOP = 10, RIGHT = 14;
 const HATCH = 7; // between two lines over untrusted pixels
+const GLIDE = 200; // [ms] that a zoom takes where one likes motion
 const FINE = 1e-6; // values closer than this, relative, are labelled by their difference from one of them
 
 export const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
@@ -17,7 +18,7 @@ export const style = (name) => getComputedStyle(document.documentElement).getPro
 // are wanted moved() and end(whether), when the window changes and when it can be no smaller.
 export function makeView(about) {
   const { canvas, axes, whole, hold = (window) => window, limits, paint } = about;
-  let window_ = whole(), waiting = 0, drag = null, pinch = null;
+  let window_ = whole(), glide = null, waiting = 0, drag = null, pinch = null;
   const touches = new Map();
 
   const frame = () => {
@@ -26,22 +27,33 @@ export function makeView(about) {
   };
 
   function placing() {
-    const box = frame(), { left, right, bottom, top } = window_;
+    const box = frame(), window = seen(), { left, right, bottom, top } = window;
     return {
-      box, window: window_,
+      box, window,
       across: (u) => box.left + ((u - left) / (right - left)) * box.width,
       down: (v) => box.top + box.height - ((v - bottom) / (top - bottom)) * box.height,
     };
+  }
+
+  // The window that is drawn, which may be on its way to the one that is chosen: its size changes at an even rate.
+  function seen() {
+    const time = glide ? (performance.now() - glide.start) / GLIDE : 1;
+    if (time >= 1) {
+      glide = null;
+      return window_;
+    }
+    const { from, factor } = glide, eased = 1 - (1 - time) ** 3, part = Math.abs(factor - 1) < 1e-9 ? eased : (factor ** eased - 1) / (factor - 1);
+    return Object.fromEntries(Object.keys(from).map((side) => [side, from[side] + part * (window_[side] - from[side])]));
   }
 
   function draw() {
     waiting = 0;
     const dots = devicePixelRatio || 1, size = canvas.getBoundingClientRect();
     if (!size.width || !size.height) return;
-    canvas.width = Math.round(size.width * dots);
-    canvas.height = Math.round(size.height * dots);
+    const wide = Math.round(size.width * dots), high = Math.round(size.height * dots);
+    if (canvas.width !== wide || canvas.height !== high) Object.assign(canvas, { width: wide, height: high });
     const pen = canvas.getContext("2d"), at = placing(), { box } = at;
-    pen.scale(dots, dots);
+    pen.setTransform(dots, 0, 0, dots, 0, 0);
     pen.clearRect(0, 0, size.width, size.height);
     pen.save();
     pen.beginPath();
@@ -50,30 +62,33 @@ export function makeView(about) {
     paint(pen, at);
     pen.restore();
     drawAxes(pen, at, axes());
+    if (glide) redraw();
   }
 
   function redraw() {
     if (!waiting) waiting = requestAnimationFrame(draw);
   }
 
-  function show(window) {
+  function show(window, glides = false) {
+    const from = seen(), isGliding = glides && !matchMedia("(prefers-reduced-motion: reduce)").matches;
     window_ = hold(window);
+    glide = isGliding ? { from, factor: (window_.right - window_.left) / (from.right - from.left), start: performance.now() } : null;
     redraw();
     about.moved?.();
   }
 
   const moved = (from, du, dv) => ({ left: from.left + du, right: from.right + du, bottom: from.bottom + dv, top: from.top + dv });
 
-  function zoom(factor, u = (window_.left + window_.right) / 2, v = (window_.bottom + window_.top) / 2) {
+  function zoom(factor, u = (window_.left + window_.right) / 2, v = (window_.bottom + window_.top) / 2, glides = true) {
     const { left, right, bottom, top } = window_, { least, most } = limits(window_);
     const size = clamp(factor, Math.min(least, 1), Math.max(most, 1));
     about.end?.(factor < size);
-    show({ left: u + (left - u) * size, right: u + (right - u) * size, bottom: v + (bottom - v) * size, top: v + (top - v) * size });
+    show({ left: u + (left - u) * size, right: u + (right - u) * size, bottom: v + (bottom - v) * size, top: v + (top - v) * size }, glides);
   }
 
   function showWhole() {
     about.end?.(false);
-    show(whole());
+    show(whole(), true);
   }
 
   // The window goes along where a point is outside of it.
@@ -86,7 +101,7 @@ export function makeView(about) {
   function under(event) {
     const size = canvas.getBoundingClientRect(), box = frame();
     const px = event.clientX - size.left - box.left, py = event.clientY - size.top - box.top;
-    const { left, right, bottom, top } = window_;
+    const { left, right, bottom, top } = seen();
     return {
       inside: px >= 0 && py >= 0 && px <= box.width && py <= box.height,
       u: left + (px / box.width) * (right - left), v: top - (py / box.height) * (top - bottom),
@@ -100,7 +115,7 @@ export function makeView(about) {
     if (pinch) {
       const from = under(pinch.middle), to = under(middle);
       window_ = moved(window_, from.u - to.u, from.v - to.v);
-      if (spread > 0 && pinch.spread > 0) zoom(pinch.spread / spread, from.u, from.v);
+      if (spread > 0 && pinch.spread > 0) zoom(pinch.spread / spread, from.u, from.v, false);
     }
     pinch = { spread, middle };
   }
