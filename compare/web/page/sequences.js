@@ -1,8 +1,9 @@
-// The faces up at the touches of both tosses, each up to its horizon, and those of the pixel before.
+// The faces up at the touches of both tosses, each up to its horizon, and those of the toss before.
 
 import { nameOf } from "./motion.js";
 
 const ROUNDED = 1e-6; // times of touches have seven digits
+const CELL = 27, GAP = 7; // width of a face, and between two, as in shared.css [px]
 
 export function commonPrefix(a, b) {
   let n = 0;
@@ -18,7 +19,25 @@ export function showSequences(box, tosses, before, after) {
   numbers.setAttribute("aria-hidden", "true");
   numbers.append(element("b"), ...Array.from({ length: longest }, (_, i) => element("span", "", String(i + 1))));
   box.replaceChildren(...rows, ...(longest ? [numbers] : []));
+  wrap(box);
+  watched.observe(box);
 }
+
+// The rows are cut where the box ends, all at the same touch, and go on below each other.
+function wrap(box) {
+  const rows = [...box.querySelectorAll(".row")], [name, first] = rows[0]?.children ?? [];
+  if (!first || !box.clientWidth) return;
+  const wide = Math.max(Math.floor((box.clientWidth - name.offsetWidth - GAP) / (CELL + GAP)), 1);
+  rows.forEach((row, i) => [...row.children].forEach((cell, k) => {
+    const at = Math.max(k - 1, 0);
+    cell.style.gridRow = String(Math.floor(at / wide) * rows.length + i + 1);
+    cell.style.gridColumn = k ? `${(at % wide) + 2} / span ${cell.tagName === "EM" ? Math.min(5, wide - (at % wide)) : 1}` : "1";
+  }));
+  const bar = box.querySelector(".horizon");
+  if (bar) box.scrollTop = Math.max(0, bar.offsetTop + bar.offsetHeight + GAP - box.clientHeight);
+}
+
+const watched = new ResizeObserver((seen) => seen.forEach(({ target }) => wrap(target)));
 
 function row(label, kind, toss, after) {
   const found = element("div", "row"), { sequence, trusted, count } = toss;
@@ -53,22 +72,23 @@ export function horizonText(tosses, before, after) {
   const own = (toss) => (toss.trusted >= toss.count ? `all ${toss.count}` : `the first ${toss.trusted}`);
   if (a || b) {
     const horizons = [a, b].filter(Boolean).map((toss) => `${nameOf(toss)}: ${own(toss)}`).join(", ");
-    parts.push(`Horizon of trust, the bar: ${horizons}. Up to it the errors of the engine itself change no face; ` +
-      "after it each impact amplifies small errors.");
+    parts.push(`The bar is the horizon of trust (${horizons}): the touch after which the computer's own rounding could change a face.`);
   }
   if (a && b) {
     const shared = commonPrefix(a.sequence, b.sequence);
     const all = shared === Math.max(a.sequence.length, b.sequence.length);
-    parts.push(all ? "Both sequences are the same." : `They agree up to touch ${shared}.`);
+    parts.push(all ? "Both sequences are the same." : sharedText(shared, "The two tosses"));
   }
   if (before && a) {
     const shared = commonPrefix(before.sequence, a.sequence);
     const same = shared === Math.max(before.sequence.length, a.sequence.length);
-    parts.push(same ? "The pixel before has the same sequence." : `The pixel before parts from it at touch ${shared + 1}.`);
+    parts.push(same ? "The toss before has the same sequence." : sharedText(shared, "This toss and the one before"));
   }
   if (after !== null) parts.push(`The map shows touch ${after + 1}, framed.`);
   return parts.join(" ");
 }
+
+const sharedText = (shared, both) => (shared ? `${both} show the same faces up to touch ${shared}.` : `${both} differ from the first touch on.`);
 
 function element(tag, kind = "", text = "") {
   const made = document.createElement(tag);
