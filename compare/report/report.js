@@ -7,7 +7,7 @@ import { makeStage } from "./stage.js";
 
 const { tosses, apart, parted, rounding, ...data } = JSON.parse(document.getElementById("data").textContent);
 const byId = (id) => document.getElementById(id);
-const span = makeSpan(Math.max(...tosses.map((toss) => toss.end_time)));
+const span = makeSpan(tosses);
 
 // Of one other engine two lines in colours of their own; those of several have the colours of their engines.
 function apartLines({ engine, label, time, distance, angle }) {

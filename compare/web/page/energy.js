@@ -8,7 +8,7 @@ export function showEnergy(box, tosses) {
   const there = tosses.filter((toss) => toss?.path);
   box.replaceChildren();
   if (!there.length) return () => {};
-  const span = makeSpan(Math.max(...there.map((toss) => toss.end_time)));
+  const span = makeSpan(there);
   makePlot(box, { ...energyOf(there), height: 230 }, span);
   return span.play;
 }

@@ -1,26 +1,30 @@
 // The clock of the tosses that are played: play, pause, the time's slider, and the speed.
 
+import { makeTimeline, proofText } from "./timeline.js";
+
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 
+// `onTime` is called with the time, and with the time before where what is between is played.
 export function makePlayer(onTime) {
-  const [button, slider, clock, speed] = ["play", "time", "clock", "speed"].map((id) => document.getElementById(id));
-  let end = 0, time = 0, last = null, playing = false;
+  const [button, slider, clock, speed, marks] = ["play", "time", "clock", "speed", "marks"].map((id) => document.getElementById(id));
+  let line = makeTimeline([]), end = 0, time = 0, last = null, playing = false;
 
   function tick(now) {
     if (!playing) return;
+    const before = time;
     time = Math.min(time + (Math.max(now - (last ?? now), 0) / 1000) * Number(speed.value), end);
     last = now;
     if (time >= end) stop();
-    told();
+    told(before);
     if (playing) requestAnimationFrame(tick);
   }
 
-  function told() {
-    slider.value = String(time);
+  function told(before = null) {
+    slider.value = String(line.placeOf(time));
     clock.textContent = `${time.toFixed(3)} s`;
     slider.setAttribute("aria-valuetext", clock.textContent);
     button.textContent = playing ? "Pause" : "Play";
-    onTime(time);
+    onTime(time, before);
   }
 
   function stop() {
@@ -39,7 +43,7 @@ export function makePlayer(onTime) {
     playing ? stop() : play();
     told();
   });
-  slider.addEventListener("input", () => seek(Number(slider.value)));
+  slider.addEventListener("input", () => seek(line.timeAt(Number(slider.value))));
 
   function seek(wanted) {
     stop();
@@ -48,11 +52,13 @@ export function makePlayer(onTime) {
   }
 
   return {
-    // Other tosses, up to `until`; from the start where they are of another pixel.
-    load(until, fresh) {
-      end = until;
+    // Other tosses; from the start where they are `fresh`.
+    load(tosses, fresh) {
+      line = makeTimeline(tosses);
+      end = line.isEmpty ? 0 : line.end;
       slider.max = String(end);
       slider.disabled = button.disabled = end === 0;
+      showMarks(marks, line);
       if (fresh) {
         time = still.matches ? end : 0;
         if (!still.matches && end > 0) play();
@@ -60,6 +66,24 @@ export function makePlayer(onTime) {
       told();
     },
     seek,
-    redraw: () => onTime(time),
+    redraw: () => onTime(time, null),
   };
+}
+
+// Below the slider: where its scale changes, and from which moments on the coins can't turn over.
+function showMarks(box, { end, pivot, bend, proofs, placeOf }) {
+  box.hidden = pivot === end && !proofs.length;
+  const mark = (kind, place, text) => {
+    const made = document.createElement("span");
+    made.className = kind;
+    made.style.setProperty("--place", String(place / end));
+    made.textContent = text;
+    return made;
+  };
+  box.replaceChildren(
+    ...(pivot < end ? [mark("squeezed", bend, "")] : []),
+    ...proofs.map(({ engine, time }) => mark(`proof ${engine}`, placeOf(time), "")),
+    ...proofs.slice(0, 1).map(({ time }) => mark("said", placeOf(time), proofText(proofs))),
+  );
+  box.title = pivot < end ? `The shaded part, from ${pivot.toFixed(3)} s on, has a scale of its own: the wobble.` : "";
 }

@@ -1,6 +1,7 @@
 // A plot over time as SVG: the values at the pointer, zoom by dragging, and a line at the time that is played.
 
 import { placeIn, valueAt } from "./sampled.js";
+import { makeTimeline, proofText } from "./timeline.js";
 import { logTicks, ticks } from "./ticks.js";
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -22,11 +23,11 @@ export function numberText(value) {
   return size !== 0 && (size < 1e-3 || size >= 1e5) ? value.toExponential(1).replace(".0e", "e") : String(Number(value.toPrecision(5)));
 }
 
-// The stretch of time that several plots show, and the times that are marked in all of them; `pick` is called with
-// a time that is clicked.
-export function makeSpan(until) {
-  const end = until || 1, plots = [];
-  const span = { end, low: 0, high: end, pointed: null, played: null, pick: () => {} };
+// The stretch of time that several plots of tosses show, and the times that are marked in all of them; `pick` is called
+// with a time that is clicked. Its ends are places on the axis of timeline.js, and so is what changes them.
+export function makeSpan(tosses) {
+  const axis = makeTimeline(tosses), { end } = axis, plots = [];
+  const span = { axis, end, low: 0, high: end, pointed: null, played: null, pick: () => {} };
   const all = (how) => plots.forEach((plot) => plot[how]());
   span.add = (plot) => plots.push(plot);
   span.show = (low, high) => {
@@ -36,11 +37,11 @@ export function makeSpan(until) {
     all("draw");
   };
   span.zoom = (factor) => {
-    const about = span.pointed ?? (span.low + span.high) / 2;
+    const about = span.pointed === null ? (span.low + span.high) / 2 : axis.placeOf(span.pointed);
     span.show(about + factor * (span.low - about), about + factor * (span.high - about));
   };
   span.point = (time) => {
-    span.pointed = time === null ? null : Math.min(Math.max(time, span.low), span.high);
+    span.pointed = time === null ? null : Math.min(Math.max(time, axis.timeAt(span.low)), axis.timeAt(span.high));
     all("mark");
   };
   span.play = (time) => {
@@ -63,18 +64,37 @@ export function makePlot(box, about, span) {
   box.replaceChildren(readout, svg);
   let wide = 0, low = 0, high = 1, drag = null;
 
-  const x = (time) => LEFT + ((time - span.low) / (span.high - span.low)) * (wide - LEFT - RIGHT);
-  const timeAt = (place) => span.low + ((place - LEFT) / (wide - LEFT - RIGHT)) * (span.high - span.low);
+  const { axis } = span;
+  const xOf = (place) => LEFT + ((place - span.low) / (span.high - span.low)) * (wide - LEFT - RIGHT);
+  const x = (time) => xOf(axis.placeOf(time));
+  const placeAt = (x) => span.low + ((x - LEFT) / (wide - LEFT - RIGHT)) * (span.high - span.low);
   const y = (value) => {
     const part = about.log ? Math.log(Math.max(value, low) / low) / Math.log(high / low) : (value - low) / (high - low);
     return height - BOTTOM - part * (height - TOP - BOTTOM);
   };
-  const visible = (time) => time >= span.low && time <= span.high;
+  const visible = (time) => axis.placeOf(time) >= span.low && axis.placeOf(time) <= span.high;
 
   // The samples of a line that are in sight, and one more on each side.
-  function inSight(line) {
-    const first = placeIn(line.time, span.low).at, last = placeIn(line.time, span.high).at + 2;
-    return { time: line.time.slice(first, last), values: line.values.slice(first, last) };
+  function inSight({ time, values }) {
+    const first = placeIn(time, axis.timeAt(span.low)).at, last = placeIn(time, axis.timeAt(span.high)).at + 2;
+    return { time: time.slice(first, last), values: values.slice(first, last) };
+  }
+
+  // Round times, as many on each scale as have room.
+  function times() {
+    const room = Math.min(6, wide / 100) / (span.high - span.low), isBent = span.low < axis.bend && axis.bend < span.high;
+    const parts = isBent ? [[span.low, axis.bend], [axis.bend, span.high]] : [[span.low, span.high]];
+    const found = parts.flatMap(([low, high]) => ticks(axis.timeAt(low), axis.timeAt(high), Math.max(room * (high - low), 2)).values);
+    return found.filter((time, i) => !i || x(time) - x(found[i - 1]) > 45);
+  }
+
+  // The part whose scale is another is shaded, and its begin is cut.
+  function squeezed(foot) {
+    const from = Math.max(xOf(axis.bend), LEFT), to = wide - RIGHT;
+    if (from >= to) return [];
+    const made = [element("rect", { class: "squeezed", x: from, y: TOP, width: to - from, height: foot - TOP })];
+    if (from > LEFT) made.push(element("path", { class: "cut", d: `M${from - 5} ${foot + 6}l5 -12m3 12l5 -12` }));
+    return made;
   }
 
   function scale(parts) {
@@ -108,10 +128,11 @@ export function makePlot(box, about, span) {
       made.push(element("line", { class: "grid", x1: LEFT, x2: right, y1: y(value), y2: y(value) }));
       made.push(element("text", { x: LEFT - 7, y: y(value) + 5, "text-anchor": "end" }, text));
     }
-    for (const time of ticks(span.low, span.high, Math.min(6, wide / 100)).values) {
+    made.push(...squeezed(foot));
+    for (const time of times()) {
       made.push(element("text", { x: x(time), y: foot + 20, "text-anchor": "middle" }, String(time)));
     }
-    made.push(element("text", { x: right, y: height - 5, "text-anchor": "end" }, "t [s]"));
+    made.push(element("text", { x: right, y: height - 5, "text-anchor": "end" }, span.high > axis.bend ? "t [s], shaded: on a scale of its own" : "t [s]"));
     const near = marks.filter(visible);
     if (near.length) {
       const all = near.map((time) => `M${x(time).toFixed(1)} ${TOP}V${foot}`).join("");
@@ -135,6 +156,14 @@ export function makePlot(box, about, span) {
       frame.append(element("line", { class: `bar ${kind}`, x1: x(time), x2: x(time), y1: TOP, y2: foot }));
       made.push(element("text", { class: "bar", x: Math.min(Math.max(x(time), LEFT + 30), right - 30), y: TOP - 6, "text-anchor": "middle" }, text));
     }
+    for (const { engine, time } of axis.proofs.filter((proof) => visible(proof.time))) {
+      frame.append(element("line", { class: `proof ${engine}`, x1: x(time), x2: x(time), y1: TOP, y2: foot }));
+    }
+    const proofs = axis.proofs.map(({ time }) => time).filter(visible).map(x);
+    if (proofs.length) {
+      const isRight = proofs.at(-1) > (LEFT + right) / 2, at = isRight ? proofs[0] - 7 : proofs.at(-1) + 7;
+      named.push(element("text", { x: at, y: TOP + 17, "text-anchor": isRight ? "end" : "start" }, proofText(axis.proofs)));
+    }
     frame.append(...named);
     drawn.replaceChildren(...made, frame);
     mark();
@@ -142,14 +171,14 @@ export function makePlot(box, about, span) {
 
   function mark() {
     const made = [], foot = height - BOTTOM;
-    const line = (kind, time) => made.push(element("line", { class: kind, x1: x(time), x2: x(time), y1: TOP, y2: foot }));
+    const upright = (kind, time) => made.push(element("line", { class: kind, x1: x(time), x2: x(time), y1: TOP, y2: foot }));
     if (drag && drag.to !== drag.from) {
       const [from, to] = [drag.from, drag.to].sort((a, b) => a - b);
       made.push(element("rect", { class: "chosen", x: from, y: TOP, width: to - from, height: foot - TOP }));
     }
-    if (span.played !== null && visible(span.played)) line("now", span.played);
+    if (span.played !== null && visible(span.played)) upright("now", span.played);
     if (span.pointed !== null) {
-      line("pointed", span.pointed);
+      upright("pointed", span.pointed);
       for (const { kind, time, values } of lines) {
         const value = valueAt(time, values, span.pointed);
         if (value !== null && value <= high) made.push(element("circle", { class: kind, cx: x(span.pointed), cy: y(value), r: 4 }));
@@ -179,7 +208,7 @@ export function makePlot(box, about, span) {
   const placed = (event) => Math.min(Math.max(event.clientX - svg.getBoundingClientRect().left, LEFT), wide - RIGHT);
   svg.addEventListener("pointermove", (event) => {
     if (drag) drag.to = placed(event);
-    span.point(timeAt(placed(event)));
+    span.point(axis.timeAt(placeAt(placed(event))));
   });
   svg.addEventListener("pointerleave", () => {
     if (!drag) span.point(null);
@@ -190,11 +219,11 @@ export function makePlot(box, about, span) {
     svg.setPointerCapture(event.pointerId);
   });
   svg.addEventListener("pointerup", () => {
-    const ends = drag && [drag.from, drag.to].map(timeAt).sort((a, b) => a - b);
+    const ends = drag && [drag.from, drag.to].map(placeAt).sort((a, b) => a - b);
     const far = drag && Math.abs(drag.to - drag.from) > 6;
     drag = null;
     if (far) span.show(...ends);
-    else if (ends) span.pick(ends[0]);
+    else if (ends) span.pick(axis.timeAt(ends[0]));
   });
   svg.addEventListener("pointercancel", () => {
     drag = null;
@@ -203,9 +232,9 @@ export function makePlot(box, about, span) {
   svg.addEventListener("dblclick", () => span.show(0, span.end));
   svg.addEventListener("keydown", (event) => {
     const step = ((span.high - span.low) / 100) * (event.shiftKey ? 10 : 1);
-    const from = span.pointed ?? (span.low + span.high) / 2;
+    const from = span.pointed ?? axis.timeAt((span.low + span.high) / 2), stepped = (by) => span.point(axis.timeAt(axis.placeOf(from) + by));
     const done = {
-      ArrowLeft: () => span.point(from - step), ArrowRight: () => span.point(from + step),
+      ArrowLeft: () => stepped(-step), ArrowRight: () => stepped(step),
       "+": () => span.zoom(0.5), "-": () => span.zoom(2), 0: () => span.show(0, span.end), Escape: () => span.point(null), Enter: () => span.pick(from),
     }[event.key];
     if (!done || event.ctrlKey || event.metaKey || event.altKey) return;

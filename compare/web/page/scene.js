@@ -4,12 +4,17 @@ import * as THREE from "./three.module.min.js";
 import { placeIn } from "./sampled.js";
 
 const TRAIL = "#7d8894", PIN = "#d6006c";
+const FAINT = 0.35; // of the path that is still to come
+const NEAR = 7.5, BOUNCES = 11; // radii to the coin in the close view: where it lies, and where it bounces
+const LOW = 5; // radii: below such a height the close view hardly follows the coin up and down
+const DOWN = [0.42, 0.75]; // how far the close view looks down: near the floor, and how much more high above it [rad]
+const MOST = 0.16; // the coin is at most so far above the middle of the close view [rad]
 
 export function makeScene(canvas) {
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
   renderer.setScissorTest(true);
   const style = (name) => new THREE.Color(getComputedStyle(document.documentElement).getPropertyValue(name).trim());
-  let panels = [], looks = "follow", turn = -0.5, drag = null;
+  let panels = [], looks = "close", turn = -0.5, drag = null;
 
   function show(tosses) {
     for (const panel of panels) dispose(panel?.scene);
@@ -25,7 +30,7 @@ export function makeScene(canvas) {
     scene.add(lamp);
 
     const coin = new THREE.Group(), body = new THREE.Group();
-    const side = new THREE.MeshStandardMaterial({ color: "#9aa1ab", roughness: 0.45, metalness: 0.3, fog: false });
+    const side = new THREE.MeshStandardMaterial({ color: "#9aa1ab", roughness: 0.45, metalness: 0.3 });
     const shape = new THREE.CylinderGeometry(r, r, 2 * half, 72).rotateX(Math.PI / 2);
     body.add(new THREE.Mesh(shape, [side, faceMaterial("#f5ab1f", "#2a1a00", "H"), faceMaterial("#0d5ca8", "#ffffff", "T")]));
     body.position.set(...toss.coin.center.map((part) => -part));
@@ -33,7 +38,7 @@ export function makeScene(canvas) {
     // A pin along the normal through the mass centre, where that lies aside.
     if (Math.hypot(...toss.coin.center.slice(0, 2)) > 1e-3 * r) {
       const pin = new THREE.CylinderGeometry(0.035 * r, 0.035 * r, 2 * half + 0.06 * r, 12).rotateX(Math.PI / 2);
-      const place = new THREE.Mesh(pin, new THREE.MeshBasicMaterial({ color: PIN, fog: false }));
+      const place = new THREE.Mesh(pin, new THREE.MeshBasicMaterial({ color: PIN }));
       place.position.z = -toss.coin.center[2];
       coin.add(place);
     }
@@ -45,24 +50,28 @@ export function makeScene(canvas) {
     scene.add(shadow);
 
     const box = boxOf(tosses.filter((one) => one?.path), r);
-    const reach = 60 * Math.max(r, box.size / 12);
     const tile = Math.max(2 * r, box.size / 12);
+    const wide = 2 * tile * Math.ceil(Math.max(box.wide + 6 * r, 16 * r, box.high / 2) / (2 * tile));
     const checks = new THREE.CanvasTexture(document.createElement("canvas"));
     checks.wrapS = checks.wrapT = THREE.RepeatWrapping;
-    checks.repeat.set(reach / tile / 2, reach / tile / 2);
+    checks.repeat.set(wide / tile / 2, wide / tile / 2);
     checks.magFilter = THREE.NearestFilter;
     checks.colorSpace = THREE.SRGBColorSpace;
     checks.anisotropy = 4;
-    const floor = new THREE.Mesh(new THREE.PlaneGeometry(reach, reach), new THREE.MeshBasicMaterial({ map: checks }));
-    floor.position.z = -0.03 * r;
+    const edge = new THREE.MeshBasicMaterial(), top = new THREE.MeshBasicMaterial({ map: checks }), thick = tile / 4;
+    const floor = new THREE.Mesh(new THREE.BoxGeometry(wide, wide, thick), [edge, edge, edge, edge, top, edge]);
+    floor.position.set(box.middle.x, box.middle.y, -0.03 * r - thick / 2);
     scene.add(floor);
 
-    const points = new Float32Array(toss.path.position), line = new THREE.BufferGeometry();
-    line.setAttribute("position", new THREE.BufferAttribute(points, 3));
-    const trail = new THREE.Line(line, new THREE.LineBasicMaterial({ color: TRAIL, fog: false }));
-    trail.frustumCulled = false;
-    scene.add(trail);
-    return { scene, coin, body, shadow, floor, checks, trail, tile, reach, toss, box, r, camera: new THREE.PerspectiveCamera(35, 1, r / 2, 3 * reach) };
+    const path = new THREE.BufferAttribute(new Float32Array(toss.path.position), 3);
+    const [trail] = [1, FAINT].map((opacity) => {
+      const line = new THREE.Line(new THREE.BufferGeometry().setAttribute("position", path), new THREE.LineBasicMaterial({ color: TRAIL, transparent: true, opacity }));
+      line.frustumCulled = false;
+      scene.add(line);
+      return line;
+    });
+    const camera = new THREE.PerspectiveCamera(35, 1, r / 2, 8 * (box.size + wide));
+    return { scene, coin, body, shadow, checks, edge, trail, toss, box, r, camera, highest: highestAfter(toss.path) };
   }
 
   function recolor() {
@@ -76,7 +85,7 @@ export function makeScene(canvas) {
       }
       panel.checks.needsUpdate = true;
       panel.shadow.material.color = colors[2];
-      panel.scene.fog = new THREE.Fog(style("--sky"));
+      panel.edge.color = colors[2];
     }
   }
 
@@ -108,26 +117,17 @@ export function makeScene(canvas) {
     panel.coin.updateMatrixWorld(true);
     panel.shadow.matrix.makeScale(1, 1, 0).multiply(panel.body.matrixWorld);
     panel.trail.geometry.setDrawRange(0, at + 1);
-    panel.trail.visible = looks === "whole";
-    // The floor follows by whole tiles.
-    const tiles = 2 * panel.tile;
-    panel.floor.position.x = Math.round(panel.coin.position.x / tiles) * tiles;
-    panel.floor.position.y = Math.round(panel.coin.position.y / tiles) * tiles;
+    panel.still = panel.highest[at] + part * (panel.highest[next] - panel.highest[at]);
   }
 
   function aim(panel, aspect) {
-    const { camera, box, r } = panel, narrow = Math.max(1, 1 / aspect);
-    const follows = looks === "follow", target = follows ? panel.coin.position : box.middle;
-    const far = follows ? 6.5 * r * narrow : 1.75 * Math.max(box.high + r, box.wide / aspect) + box.wide / 2;
-    const up = follows ? 0.6 : 0.16;
+    const { camera } = panel, { target, far, up, down } = looks === "whole" ? wholeView(panel, aspect) : closeView(panel, aspect);
     camera.aspect = aspect;
     camera.up.set(0, 0, 1);
     camera.position.set(
       target.x + far * Math.cos(up) * Math.sin(turn), target.y - far * Math.cos(up) * Math.cos(turn), target.z + far * Math.sin(up));
-    camera.lookAt(target);
-    // It hides the floor's end.
-    panel.scene.fog.near = far;
-    panel.scene.fog.far = far + 0.4 * panel.reach;
+    const ahead = new THREE.Vector3(-Math.cos(down) * Math.sin(turn), Math.cos(down) * Math.cos(turn), -Math.sin(down));
+    camera.lookAt(ahead.add(camera.position));
     camera.updateProjectionMatrix();
   }
 
@@ -141,6 +141,29 @@ export function makeScene(canvas) {
   for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => (drag = null));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", recolor);
   return { show, draw, look: (how) => (looks = how) };
+}
+
+function wholeView({ box, r }, aspect) {
+  const up = 0.26;
+  return { target: box.middle, far: 1.9 * Math.max(box.high + 3 * r, box.wide / aspect) + box.wide / 2, up, down: up };
+}
+
+// Coin and floor are both in sight. Near the floor the camera stands nearly still, so that the coin is seen to bounce;
+// from high above it looks down, past the coin, on the place where it will fall.
+function closeView({ coin, r, still }, aspect) {
+  const { x, y, z } = coin.position, lift = (z * z) / (z + LOW * r);
+  const up = DOWN[0] + (DOWN[1] * lift) / (lift + LOW * r);
+  const far = r * (NEAR + (BOUNCES - NEAR) * Math.min(still / (LOW * r), 1)) * Math.max(1, 1 / aspect);
+  const along = far * Math.cos(up), above = lift + far * Math.sin(up);
+  const [toCoin, toFloor] = [above - z, above].map((fall) => Math.atan2(fall, along));
+  return { target: new THREE.Vector3(x, y, lift), far, up, down: Math.min((toCoin + toFloor) / 2, toCoin + MOST) };
+}
+
+// How high the coin will still be, at each sample of a path.
+function highestAfter({ time, position }) {
+  const highest = new Float64Array(time.length);
+  for (let k = time.length - 1, most = 0; k >= 0; k--) highest[k] = most = Math.max(most, position[3 * k + 2]);
+  return highest;
 }
 
 // What both paths need together.
@@ -175,7 +198,7 @@ function faceMaterial(color, ink, letter) {
   for (const [x, y, wide, high] of bars) pen.fillRect((0.5 + x) * size, (0.5 + y) * size, wide * bar, high * bar);
   const texture = new THREE.CanvasTexture(image);
   texture.colorSpace = THREE.SRGBColorSpace;
-  return new THREE.MeshStandardMaterial({ map: texture, roughness: 0.5, metalness: 0.1, fog: false });
+  return new THREE.MeshStandardMaterial({ map: texture, roughness: 0.5, metalness: 0.1 });
 }
 
 function dispose(scene) {

@@ -3,6 +3,7 @@
 import { LABELS } from "./motion.js";
 import { makePlayer } from "./player.js";
 import { makeScene } from "./scene.js";
+import { makeSound } from "./sound.js";
 
 const MARKUP = `
 <div class="stage" id="stage">
@@ -11,15 +12,16 @@ const MARKUP = `
 </div>
 <div class="controls">
   <button id="play" type="button" disabled>Play</button>
-  <input id="time" type="range" min="0" max="1" step="any" value="0" aria-label="Time" disabled>
+  <span class="timeline"><input id="time" type="range" min="0" max="1" step="any" value="0" aria-label="Time" disabled><span id="marks" hidden></span></span>
   <output id="clock">0.000 s</output>
   <label>speed <select id="speed">
     <option value="1">real</option><option value="0.5">1/2</option><option value="0.25">1/4</option>
     <option value="0.125" selected>1/8</option><option value="0.03125">1/32</option>
   </select></label>
   <label>view <select id="camera">
-    <option value="follow" selected>close</option><option value="whole">whole path</option>
+    <option value="close" selected>close</option><option value="whole">whole path</option>
   </select></label>
+  <button id="sound" type="button" aria-pressed="false">Sound</button>
 </div>`;
 
 // Fills a box with the stage. `hint` stands in it until there are tosses; `without` says what works without WebGL.
@@ -48,8 +50,10 @@ export function makeStage(box, { hint = "", without, labels = LABELS, shown = "T
     byId("coins").hidden = byId("camera").disabled = true;
     byId("stage").classList.add("empty");
   }
-  const player = makePlayer((time) => {
+  const sound = makeSound(byId("sound"));
+  const player = makePlayer((time, before) => {
     scene?.draw(time);
+    if (before !== null) sound.play(before, time);
     onTime(time);
   });
   byId("camera").addEventListener("change", (event) => {
@@ -73,7 +77,8 @@ export function makeStage(box, { hint = "", without, labels = LABELS, shown = "T
         state.textContent = told[i] ?? "";
         state.parentElement.hidden = i >= tosses.length;
       });
-      player.load(Math.max(0, ...tosses.filter((one) => one?.path).map((one) => one.end_time)), fresh);
+      sound.load(tosses);
+      player.load(tosses, fresh);
     },
   };
 }
