@@ -153,7 +153,7 @@ function wholeView({ box, r }, aspect) {
 function closeView({ coin, r, still }, aspect) {
   const { x, y, z } = coin.position, lift = (z * z) / (z + LOW * r);
   const up = DOWN[0] + (DOWN[1] * lift) / (lift + LOW * r);
-  const far = r * (NEAR + (BOUNCES - NEAR) * Math.min(still / (LOW * r), 1)) * Math.max(1, 1 / aspect);
+  const far = r * (NEAR + (BOUNCES - NEAR) * Math.min(still / (LOW * r), 1)) * Math.max(1, 0.65 / aspect);
   const along = far * Math.cos(up), above = lift + far * Math.sin(up);
   const [toCoin, toFloor] = [above - z, above].map((fall) => Math.atan2(fall, along));
   return { target: new THREE.Vector3(x, y, lift), far, up, down: Math.min((toCoin + toFloor) / 2, toCoin + MOST) };
