@@ -8,7 +8,7 @@ import numpy as np
 from cointoss.compare.engines import label_of
 from cointoss.compare.output.style import Look, looks_of
 from cointoss.compare.report.compared_tosses import PARTED, Against, ComparedTosses
-from cointoss.compare.web.playable import coin_of, path_of, rounded
+from cointoss.compare.web.playable import path_of, playable, rounded
 from cointoss.models.records import Array, Toss
 
 SAMPLES = 2000
@@ -42,15 +42,11 @@ def motion_of(comparison: ComparedTosses) -> dict[str, Any]:
 
 
 def _played(toss: Toss, look: Look) -> dict[str, Any]:
-    impacts = toss.impacts
     return {
+        **playable(toss, 2, MOST_TOUCHES),
         "engine": look.kind,
         "label": label_of(toss.engine),
-        "outcome": str(toss.outcome),
-        "end_time": toss.end_time,
-        "times": rounded(impacts.time[:MOST_TOUCHES], 7),
-        "heights": rounded(impacts.position[:MOST_TOUCHES, 2], 5),
-        "coin": coin_of(toss.scenario),
+        "heights": rounded(toss.impacts.position[:MOST_TOUCHES, 2], 5),
         "path": path_of(toss, SAMPLES, with_spin=True),
     }
 

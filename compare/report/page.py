@@ -1,6 +1,7 @@
 """The report as one self-contained HTML page."""
 
 import platform
+import re
 from base64 import b64encode
 from importlib import resources
 from itertools import zip_longest
@@ -8,6 +9,7 @@ from typing import Any
 
 import jinja2
 import numpy as np
+from markupsafe import Markup, escape
 from pydantic import BaseModel
 
 from cointoss.compare.engines import is_own, label_of
@@ -32,6 +34,7 @@ from cointoss.models.units import printed_unit
 MOST_SHOWN = 200
 """Symbols of a sequence, and impacts, that the page shows."""
 _NUMBERS = ("no engine", "one engine", "two engines", "three engines", "four engines", "five engines")
+_POWER = re.compile(r"\^(?:\(([^)]*)\)|(-?\w+))")
 PACKAGES = ("cointoss", "mujoco", "numpy", "scipy", "matplotlib", "mediapy")
 
 
@@ -89,6 +92,7 @@ def render(
         map_picture=b64encode(maps.picture).decode("ascii") if maps else None,
         words=WORDS,
         printed_unit=printed_unit,
+        raised=_raised,
         safety=SAFETY,
         film_caption=film_caption(comparison.tosses, comparison.absent),
         versions=versions(),
@@ -166,8 +170,13 @@ def _impact(toss: Toss, i: int) -> dict[str, Any] | None:
         "rim": np.degrees(np.arctan2(point[1], point[0])),
         "impulse": ", ".join(_rounded(1e3 * part) for part in impacts.impulse[i]),
         "energy": 1e3 * impacts.energy[i],
-        "energy_change": 1e3 * impacts.energy_change[i],
+        "energy_lost": -1e3 * impacts.energy_change[i],
     }
+
+
+def _raised(text: str) -> Markup:
+    """Return a text whose powers, such as m^2 and m^(-2-b), stand raised."""
+    return Markup(_POWER.sub(lambda found: f"<sup>{found[1] or found[2]}</sup>", str(escape(text))))
 
 
 def _rounded(number: float) -> str:

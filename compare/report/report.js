@@ -36,6 +36,10 @@ for (const [name, about] of Object.entries(plots)) makePlot(byId(`plot-${name}`)
 const labels = Object.fromEntries(tosses.map(({ engine, label }) => [engine, label]));
 const stage = makeStage(byId("played"), { without: "The plots work without it.", labels, onTime: span.play });
 stage.show(tosses, tosses.map((toss) => toss.outcome), true);
+// Where motion is unwanted the coins stand as they are released: the end is beyond the horizon.
+if (matchMedia("(prefers-reduced-motion: reduce)").matches) stage.seek(0);
+const faces = document.querySelector(".faces"), bar = faces?.querySelector(".bars:last-of-type");
+if (bar) faces.scrollTop = Math.max(0, bar.offsetTop + bar.offsetHeight - faces.clientHeight);
 span.pick = (time) => {
   byId("played").scrollIntoView({ block: "nearest" });
   stage.seek(time);

@@ -121,10 +121,30 @@ def test_a_key_presents_verdict_coins_and_faces_in_large_type_and_another_return
     assert page.complaints() == []
 
 
-def test_the_coins_play_when_the_page_is_opened_and_stand_at_the_end_where_motion_is_unwanted(page, folder):
-    time, end = (f"Number(document.getElementById('time').{name})" for name in ("value", "max"))
+def test_the_first_screen_has_the_verdict_the_coins_their_play_and_their_faces(page, folder):
+    page.open((folder / "report.html").as_uri(), width=1280, height=800)
+    bottom = "document.querySelector('{}').getBoundingClientRect().bottom <= innerHeight"
+    for shown in (".verdict", "#coins", "#play", ".faces", ".onward"):
+        assert page.value(bottom.format(shown))
+    assert page.value("parseFloat(getComputedStyle(document.querySelector('.verdict')).fontSize)") > 20
+    page.value("document.querySelector('.onward a').click()")
+    page.wait_for("scrollY >= 700")
+
+
+def test_powers_stand_raised_and_an_impact_loses_energy(page, folder):
     page.open((folder / "report.html").as_uri())
-    assert page.value(f"{time} > 0.999 * {end}")
+    assert not any("^" in cell for cell in texts(page, "td"))
+    assert "-2-b" in texts(page, "sup")
+    place = texts(page, ".numbers th").index("lost [mJ]")
+    lost = texts(page, f".numbers td:nth-child({place + 1})")
+    assert [float(each) > 0 for each in lost] == [True] * 6
+
+
+def test_the_coins_play_when_the_page_is_opened_or_stand_as_released(page, folder):
+    """They stand where motion is unwanted."""
+    time = "Number(document.getElementById('time').value)"
+    page.open((folder / "report.html").as_uri())
+    assert page.value(time) == 0
     page.open((folder / "report.html").as_uri(), moving=True)
     page.wait_for(f"{time} > 0.01")
 
