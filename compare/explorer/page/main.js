@@ -25,13 +25,13 @@ async function begin() {
   map.trusted = map.arrays.trusted_impacts ? new Int32Array(bytes(map.arrays.trusted_impacts)) : null;
   describe();
   stage = makeStage(byId("played"), {
-    hint: "Click a pixel of the map: both engines toss its coin.",
     without: "The map, the sequences and the energies work without it.",
     onTime(time) {
       markTouch(byId("sequences"), tosses, time);
       moveEnergy(time);
     },
   });
+  byId("map").style.setProperty("--shape", String(clamp(map.axes.x.count / map.axes.y.count, 0.6, 2)));
   const whole = map.axes.x.field !== "ending.max_impacts" && map.axes.y.field !== "ending.max_impacts";
   view = makeMap({
     canvas: byId("map"), map, grid, anywhere, tile: isStatic || !whole ? null : tile,
@@ -42,7 +42,7 @@ async function begin() {
   byId("zoom-in").addEventListener("click", () => view.zoom(0.5));
   byId("zoom-out").addEventListener("click", () => view.zoom(2));
   byId("whole").addEventListener("click", () => view.showWhole());
-  fromAddress();
+  if (!fromAddress()) view.chooseMiddle();
   document.body.dataset.ready = "true";
 }
 
@@ -51,10 +51,10 @@ function describe() {
   document.title = `${map.title}: cointoss explore`;
   const parts = [
     `${map.name}: ${map.axes.x.count} by ${map.axes.y.count} tosses by the ${LABELS[map.engine]} engine: ` +
-      (map.after === null ? "the final outcome." : `the face at touch ${map.after + 1}, or the outcome of a toss that ended before.`)];
+      (map.after === null ? "the final outcome." : `the face at touch ${map.after + 1}, or the final face of a toss that ended before.`)];
   if (map.stride > 1) parts.push(`One pixel of every ${map.stride} along each axis is shown.`);
   if (map.tossed < 1) parts.push(`The map is not finished: ${(100 * map.tossed).toFixed(1)} % is tossed${isStatic ? "" : "; reload to see more"}.`);
-  if (isStatic) parts.push(anywhere ? "Any pixel can be tossed; dots mark those that MuJoCo has tossed, too." : "Dots mark the pixels whose tosses are in this page.");
+  if (isStatic) parts.push(anywhere ? "Any pixel can be tossed by the analytic engine; MuJoCo has tossed those with a dot, and a click near a dot takes it." : "Both engines have tossed the pixels with a dot; a click takes the nearest.");
   byId("about").textContent = parts.join(" ");
   byId("fields").textContent = `Across: ${fieldText(map.axes.x)}. Up: ${fieldText(map.axes.y)}.`;
   const present = new Set(Int8Array.from(bytesOf(map.arrays.outcome)));
@@ -79,7 +79,7 @@ function releaseText(place) {
 
 function placeText(place) {
   const parts = [releaseText(place)];
-  if (place.code !== null) parts.push(place.code < 0 ? "not tossed" : map.outcomes[place.code].label);
+  if (place.code !== null) parts.push(place.code < 0 ? "not tossed" : `${map.after === null ? "" : `face at touch ${map.after + 1}: `}${map.outcomes[place.code].label}`);
   if (place.index !== null && map.impacts[place.index] >= 0) parts.push(`${counted(map.impacts[place.index], "impact")}${trustText(place)}`);
   return `${parts.join("; ")}${marginText(place)}`;
 }
@@ -100,12 +100,27 @@ function choose(place) {
   chosen = place;
   // A page in the frame of a notebook has no address of its own.
   if (location.protocol !== "about:") history.replaceState(null, "", `#x=${place.x}&y=${place.y}`);
-  byId("pixel").textContent = place.code === null || place.code < 0 ? "The toss of this pixel" : `The toss of this pixel: ${map.outcomes[place.code].label} on the map`;
+  tellFaces([]);
   byId("release").textContent = `${releaseText(place)}${marginText(place)}`;
   stage.clear();
   byId("outcome").textContent = "Tossing …";
   wanted = place;
   if (!busy) answer();
+}
+
+// What the map shows of the toss, and how the toss ended, which may be another face.
+function tellFaces(there) {
+  const color = chosen.code === null || chosen.code < 0 ? null : map.outcomes[chosen.code].label, same = there.every((one) => one.outcome === there[0].outcome);
+  const ends = same ? there.slice(0, 1).map((one) => one.outcome) : there.map((one) => `${one.outcome} (${LABELS[one.engine]})`);
+  const rows = [
+    ...(color && map.after !== null ? [[`Face at touch ${map.after + 1}, the map's colour:`, color]] : []),
+    [map.after === null && color ? "Final face, the map's colour:" : "Final face:", ends.join(", ") || "…"]];
+  byId("faces").replaceChildren(...rows.map((row) => {
+    const made = document.createElement("div"), [term, told] = ["dt", "dd"].map((tag) => document.createElement(tag));
+    [term.textContent, told.textContent] = row;
+    made.append(term, told);
+    return made;
+  }));
 }
 
 // Tosses the pixel that was chosen last; those between are passed over.
@@ -139,18 +154,20 @@ function show(found, fresh) {
   byId("horizon").textContent = horizonText(tosses, before, map.after);
   moveEnergy = showEnergy(byId("energy"), tosses);
   byId("outcome").replaceChildren(...ENGINES.map((engine, i) => outcomeLine(tosses[i] ?? { engine })));
-  stage.show(tosses, tosses.map((one) => one?.outcome ?? (one ? "no toss" : "…")), fresh);
+  tellFaces(there);
+  stage.show(tosses, tosses.map((one) => (one?.outcome ? `${map.after === null ? "" : "final: "}${one.outcome}` : one ? "no toss" : "…")), fresh);
 }
 
-// The pixel that the address names after its #.
+// Chooses the pixel that the address names after its #, and returns whether it names one.
 function fromAddress() {
   const given = new URLSearchParams(location.hash.slice(1)), x = Number(given.get("x") ?? NaN), y = Number(given.get("y") ?? NaN);
-  if (!Number.isFinite(x) || !Number.isFinite(y)) return;
+  if (!Number.isFinite(x) || !Number.isFinite(y)) return false;
   const near = (axis, value) => {
     const at = clamp(indexOf(axis, value), 0, axis.count - 1), whole = Math.round(at);
     return valueAt(axis, whole) === value || Math.abs(at - whole) < 1e-6 ? whole : at;
   };
   view.choose(near(map.axes.x, x), near(map.axes.y, y), true);
+  return true;
 }
 
 function bytesOf(text) {

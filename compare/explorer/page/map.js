@@ -8,6 +8,7 @@ const SIDE = 32; // of a tile, in its own pixels
 const FINEST = 30;
 const COARSE = 9; // a pixel larger than so many on the screen is cut finer
 const KEPT = 400; // tiles
+const AROUND = 10; // a click so near to a dot takes it [px]
 
 export function makeMap({ canvas, map, grid, anywhere, tile, onHover, onChoose, onProblem }) {
   const { x, y } = map.axes, nx = x.count, ny = y.count;
@@ -45,13 +46,19 @@ export function makeMap({ canvas, map, grid, anywhere, tile, onHover, onChoose, 
     return now <= Math.max(COARSE, 1.5 * size(whole())) ? 0 : clamp(Math.ceil(Math.log2(now / stride / COARSE)), 1, FINEST);
   }
 
-  // The nearest pixel, of the finer map where it is shown, or that can be tossed.
+  // The nearest pixel, of the finer map where it is shown, or that both engines have tossed.
   function snapped(u, v) {
-    if (!anywhere) return { u: nearest(grid.columns, u), v: nearest(grid.rows, v) };
+    const dot = grid && { u: nearest(grid.columns, u), v: nearest(grid.rows, v) };
+    if (dot && (!anywhere || isNear(dot, u, v))) return dot;
     const cells = 2 ** level();
     const cell = (at, count) => clamp((Math.floor((at + 0.5) * cells) + 0.5) / cells - 0.5, 0, count - 1);
     const coarse = (at, count) => clamp(Math.round(at / stride) * stride, 0, count - 1);
     return cells === 1 ? { u: coarse(u, nx), v: coarse(v, ny) } : { u: cell(u, nx), v: cell(v, ny) };
+  }
+
+  function isNear(dot, u, v) {
+    const box = view.frame(), { left, right, bottom, top } = view.window();
+    return Math.hypot(((dot.u - u) / (right - left)) * box.width, ((dot.v - v) / (top - bottom)) * box.height) <= AROUND;
   }
 
   function place(u, v, exactly = false) {
@@ -149,8 +156,6 @@ export function makeMap({ canvas, map, grid, anywhere, tile, onHover, onChoose, 
   }
 
   function step(dx, dy) {
-    const { left, right, bottom, top } = view.window();
-    if (!chosen) return choose((left + right) / 2, (bottom + top) / 2);
     if (!anywhere) {
       const next = (list, at, by) => list[clamp(list.indexOf(at) + by, 0, list.length - 1)];
       return choose(next(grid.columns, chosen.u, dx), next(grid.rows, chosen.v, dy));
@@ -159,7 +164,14 @@ export function makeMap({ canvas, map, grid, anywhere, tile, onHover, onChoose, 
     choose(clamp(chosen.u + dx * size, 0, nx - 1), clamp(chosen.v + dy * size, 0, ny - 1));
   }
 
-  return { zoom: view.zoom, showWhole: view.showWhole, choose };
+  // The middle, or what both engines have tossed that is nearest to it.
+  function chooseMiddle() {
+    const [u, v] = [(nx - 1) / 2, (ny - 1) / 2];
+    if (grid) choose(nearest(grid.columns, u), nearest(grid.rows, v), true);
+    else choose(u, v);
+  }
+
+  return { zoom: view.zoom, showWhole: view.showWhole, choose, chooseMiddle };
 }
 
 function clearOutside(image, values) {

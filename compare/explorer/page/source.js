@@ -35,7 +35,7 @@ export async function toss(engine, place) {
   if (data) {
     const held = data.tosses[`${place.u},${place.v}`]?.find((one) => one.engine === engine);
     if (held) return held;
-    return engine === "analytic" ? tossedHere(place) : { engine, problem: "tossed only where there is a dot." };
+    return engine === "analytic" ? tossedHere(place) : { engine, problem: "tossed only where there is a dot. The analytic engine tosses any pixel here." };
   }
   const query = new URLSearchParams({ x: String(place.x), y: String(place.y), engine });
   return (await (await asked(`toss?${query}`)).json())[0];

@@ -72,7 +72,9 @@ export function horizonText(tosses, before, after) {
   const own = (toss) => (toss.trusted >= toss.count ? `all ${toss.count}` : `the first ${toss.trusted}`);
   if (a || b) {
     const horizons = [a, b].filter(Boolean).map((toss) => `${nameOf(toss)}: ${own(toss)}`).join(", ");
-    parts.push(`The bar is the horizon of trust (${horizons}): the touch after which the computer's own rounding could change a face.`);
+    parts.push([a, b].every((toss) => !toss || toss.trusted >= toss.count)
+      ? "The computer's own rounding could change none of these faces."
+      : `The bar is the horizon of trust (${horizons}): the touch after which the computer's own rounding could change a face.`);
   }
   if (a && b) {
     const shared = commonPrefix(a.sequence, b.sequence);
