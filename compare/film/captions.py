@@ -113,7 +113,7 @@ def written(frame: np.ndarray, captions: Sequence[Caption], below: str) -> np.nd
     image = Image.fromarray(frame)
     draw = ImageDraw.Draw(image)
     size = max(image.height / 22, 6)
-    font, large = _font(size), _font(1.5 * size)
+    large = _font(1.5 * size)
     for number, caption in enumerate(captions):
         left = number * image.width / len(captions) + size / 2
         name = _fitting(draw, caption.title.text, size, WIDEST_NAME * image.width / len(captions))
@@ -123,17 +123,23 @@ def written(frame: np.ndarray, captions: Sequence[Caption], below: str) -> np.nd
         draw.rounded_rectangle((start, 0.4 * size, end, 2.6 * size), size / 3, fill=caption.ground)
         draw.text((start + size / 2, 1.5 * size), caption.label, font=large, fill=caption.ink, anchor="lm")
         for i, line in enumerate(caption.lines):
+            font = _fitting(draw, line.text, size, image.width / len(captions) - size)
             draw.text((left, (3.5 + 1.3 * i) * size), line.text, line.color, font, "lm")
         if number > 0:
             x = number * image.width // len(captions)
             draw.line((x, 0, x, image.height), fill=WHITE, width=max(2, image.width // 400))
-    draw.text((image.width / 2, image.height - size), below, INK, font, "mm")
+    if below:
+        # On a ground of its own, over what divides the panels and over shadows.
+        x, half = image.width / 2, draw.textlength(below, font=_font(size)) / 2 + size / 2
+        ground = (x - half, image.height - 1.8 * size, x + half, image.height - 0.2 * size)
+        draw.rounded_rectangle(ground, size / 3, fill=WHITE)
+        draw.text((x, image.height - size), below, INK, _font(size), "mm")
     return np.asarray(image)
 
 
 def _fitting(draw: ImageDraw.ImageDraw, text: str, size: float, most: float) -> Font:
     """Return the font in which a text is at most so wide, and no larger than `size` [pixels]."""
-    return _font(size * min(1.0, most / draw.textlength(text, font=_font(size))))
+    return _font(size * min(1.0, most / max(draw.textlength(text, font=_font(size)), 1.0)))
 
 
 @cache

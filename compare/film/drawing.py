@@ -20,8 +20,12 @@ from cointoss.models.records import Array, Ending
 IMPULSE_COLOR, FORCE_COLOR = (0.72, 0.10, 0.44), (0.00, 0.45, 0.32)
 """Colours of the arrows: red, green and blue, from 0 to 1."""
 LONGEST_NEAR, LONGEST_FAR = 0.23, 0.15
-"""Length of the arrow of the toss's largest impulse, and of a force of twice the coin's weight or more, in
-heights of the picture: where the camera follows the coin, and where it is at rest."""
+"""Length of the arrow of the toss's largest impulse, in heights of the picture: where the camera follows the
+coin, and where it is at rest."""
+PUSHES = 0.6
+"""The arrow of a force of twice the coin's weight or more, in longest arrows: it is below the coin."""
+FAINTEST = 0.6
+"""Opacity of a force's arrow where the force is small; it grows with the force."""
 THICKEST, THICKNESS = 0.04, 0.15
 """Thickness of an arrow: at most in longest arrows, and in its own length."""
 HAND_COLOR, HAND_SIZE = (0.88, 0.68, 0.55), (1.5, 0.1)
@@ -174,7 +178,10 @@ class Drawer:
             weight = play.toss.scenario.coin.mass * play.toss.scenario.gravity
             part = play.forces[i] / (2 * weight)
             part /= max(1.0, float(np.linalg.norm(part)))
-            self._add_arrow(play.lowest_point(i), part, FORCE_COLOR, 1.0)
+            size = float(np.linalg.norm(part))
+            # It pushes from below: it ends at the point where the floor supports the coin.
+            start = play.lowest_point(i) - PUSHES * self._longest * part
+            self._add_arrow(start, PUSHES * part, FORCE_COLOR, FAINTEST + (1 - FAINTEST) * size)
 
     def _add_arrow(self, start: Array, part: Array, color: Color, alpha: float) -> None:
         """Add an arrow that is `part` of the longest, (3,)."""

@@ -1,16 +1,18 @@
-"""How fast a film runs: slowly around the impacts, and on when the faces are settled."""
+"""How fast a film runs: slowly around the impacts, and on when no coin can turn over."""
 
 from collections.abc import Sequence
 
 import numpy as np
 
 from cointoss.compare.film.filmed import Filmed
+from cointoss.models.barriers import barrier
+from cointoss.models.certificate import energies
 from cointoss.models.records import Array, Ending
 
 FAST, SLOW, SETTLED = 1 / 4, 1 / 60, 1.0
 """Speed of the film far from an impact, at one, and when no face can change, relative to the clock."""
 SPEEDS_UP_FOR = 0.1
-"""How long after the last face is settled the film speeds up [s]."""
+"""How long after the last coin can turn over the film speeds up [s]."""
 SLOW_FOR = 0.02
 """How long before and after an impact the film is slowed down [s]."""
 WEAK = 0.1
@@ -35,7 +37,7 @@ def film_times(
         speeds: of the film at these times, relative to the clock, (n,).
     """
     end = max(each.motion.end_time for each in shown)
-    settled = max(each.toss.end_time for each in shown)
+    settled = max(_settled(each) for each in shown)
     slow = np.sort(np.concatenate([_slow_times(each) for each in shown]))
     # Film time is the integral of 1/speed, here on a grid that is fine where the speed changes.
     changes = np.append(slow[:, None] + _AROUND, settled + SPEEDS_UP_FOR * np.linspace(0, 1, 41))
@@ -53,6 +55,16 @@ def _smooth(part: Array) -> Array:
     """Return a step from 0 to 1 that begins and ends level."""
     part = np.clip(part, 0, 1)
     return part * part * (3 - 2 * part)
+
+
+def _settled(filmed: Filmed) -> float:
+    """Return from when on a coin has too little energy to turn over, at the latest its toss's end [s]."""
+    toss, body = filmed.toss, filmed.toss.scenario.body
+    if toss.ending == Ending.CAUGHT:
+        return toss.end_time
+    times = np.linspace(0, toss.end_time, 1001)
+    turns = energies(body, toss.sample(times)) > min(barrier(body, side) for side in (1.0, -1.0))
+    return float(times[np.flatnonzero(turns).max(initial=-1) + 1 :].min(initial=toss.end_time))
 
 
 def _slow_times(filmed: Filmed) -> Array:

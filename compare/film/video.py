@@ -18,7 +18,7 @@ from cointoss.compare.film.play import play_of
 from cointoss.compare.film.slow_motion import film_times
 from cointoss.compare.output.interruption import raise_interruption_behind
 
-HELD = 1.5
+HELD = 1.0
 """How long the last picture stays [s]."""
 
 
@@ -71,7 +71,7 @@ def write_video(
     mediapy.set_ffmpeg(imageio_ffmpeg.get_ffmpeg_exe())
     encoding = ENCODINGS[path.suffix.lower()]
     count, shape = frame_count(shown, form), (form.height, _width(shown, form))
-    chosen, poster = _poster_number(shown, form), np.zeros((*shape, 3), np.uint8)
+    chosen, poster = poster_number(shown, form), np.zeros((*shape, 3), np.uint8)
     writer = mediapy.VideoWriter(
         str(path),
         shape,
@@ -112,11 +112,18 @@ def _last_words(writer: mediapy.VideoWriter) -> str:
     return "" if encoder is None or encoder.stderr is None else encoder.stderr.read().decode(errors="replace")
 
 
-def _poster_number(shown: Sequence[Filmed], form: Format) -> int:
-    """Return the number of the frame that stands for a film: at the first impact, without one the last."""
+def poster_number(shown: Sequence[Filmed], form: Format) -> int:
+    """Return the number of the frame that stands for a film.
+
+    It shows the faces best of those in the second half of the first flight, or of all where nothing touches.
+    """
     times, _ = film_times(shown, form.frames_per_second, form.longest)
-    firsts = [np.append(each.motion.impacts.time, each.motion.end_time)[0] for each in shown]
-    return 1 + int(np.searchsorted(times, min(firsts)))
+    until = min(np.append(each.motion.impacts.time, each.motion.end_time)[0] for each in shown)
+    first, last = np.searchsorted(times, (until / 2, until))
+    flight = times[first : last + 1]
+    paths = (each.motion.sample(np.minimum(flight, each.motion.end_time)) for each in shown)
+    flat = [np.abs(path.normal[:, 2]) for path in paths]
+    return 1 + int(first + np.argmax(np.sum(flat, axis=0)))
 
 
 def _width(shown: Sequence[Filmed], form: Format) -> int:

@@ -80,3 +80,13 @@ def test_a_hand_catches_the_coin():
     assert palm[2][:, 0].mean() > 48
     caption = caption_of(play_of(shown(toss), np.array([0.38])), 0)
     assert caption.lines[1].text == "caught at 0.380 s"
+
+
+def test_a_coin_that_wobbles_too_low_to_turn_over_is_filmed_at_real_speed():
+    low, high = (
+        made(MadePath(position=(0, 0, z)), impacts=[(0.5, 1e-3)], ending=Ending.LYING) for z in (0.004, 0.1)
+    )
+    times, speeds = film_times([shown(low)], 60)
+    assert speeds[times > SPEEDS_UP_FOR] == pytest.approx(SETTLED, rel=1e-9)
+    _, speeds = film_times([shown(low), shown(high)], 60)
+    assert max(speeds) == pytest.approx(FAST, rel=1e-9)

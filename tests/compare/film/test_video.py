@@ -5,6 +5,7 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 
+from cointoss import analytic
 from cointoss.compare.film.drawing import (
     MARGIN,
     Camera,
@@ -12,7 +13,7 @@ from cointoss.compare.film.drawing import (
 )
 from cointoss.compare.film.encodings import Format
 from cointoss.compare.film.slow_motion import film_times
-from cointoss.compare.film.video import HELD, frame_count, frames
+from cointoss.compare.film.video import HELD, frame_count, frames, poster_number
 from tests.helpers.draws import ZLOTY
 from tests.helpers.films import (
     MadePath,
@@ -39,6 +40,15 @@ def test_two_tosses_stand_side_by_side_and_differ_where_their_paths_do():
         below = film[i][60:].astype(int)  # the captions
         left, right = center(golden(below[:, :126])), center(golden(below[:, 130:]))
         assert right - left == pytest.approx([0, part * scale - 2], abs=0.7)
+
+
+def test_the_frame_that_stands_for_a_film_shows_a_face_before_the_first_impact():
+    toss = analytic.toss("fig24a")
+    form, first = Format(64, 48, 24), toss.impacts.time[0]
+    times, _ = film_times([shown(toss)], form.frames_per_second, form.longest)
+    time = times[poster_number([shown(toss)], form) - 1]
+    assert first / 2 <= time <= first
+    assert abs(toss.sample(np.array([time])).normal[0, 2]) > 0.9
 
 
 def test_frames_are_drawn_one_at_a_time_and_the_last_one_stays():
