@@ -92,8 +92,8 @@ class Ending(Word):
     FLIGHT_STEPS = 12, "The toss stopped at `flight_steps`; raise it to go on."
     AT_REST = 13, "The coin rests on its edge, held by the floor's resistance to rolling.", _PROVED
     ROLLING = 14, "The coin still rolls on its edge; to go on raise [ending] max_time or `contact_steps`."
-    CAUGHT = 15, "A hand caught the coin at the height [ending] caught; the face up there counts.", _PROVED
-    NOT_CAUGHT = 16, "The coin never came down to the hand at the height [ending] caught."
+    CAUGHT = 15, "A hand caught the coin; the face that was up then counts.", _PROVED
+    NOT_CAUGHT = 16, "The coin never came down to the hand."
     PERIODIC = 17, "The coin's contact has gone through a whole period, and repeats it for ever.", _PROVED
     TRANSIENT = 18, "A long transient: after `contact_steps` its losses had neither settled it nor died away."
 

@@ -19,6 +19,7 @@ import { measure } from "./measure.js";
 import { copied, command, saveCsv, savePng, saveToml } from "./save.js";
 
 const SAMPLES = 800; // of the path that is played
+const FOLLOWED = 3; // seconds for which a coin is shown, whatever was proved before
 const PAUSE = 250; // milliseconds until the address follows, which browsers allow some times a second
 const NAMES = { analytic: "this toss", before: "the toss before" };
 const byId = (id) => document.getElementById(id);
@@ -46,7 +47,7 @@ async function begin() {
     },
   });
   map = makeLiveMap({
-    canvas: byId("map"), workers, fields, outcomes,
+    canvas: byId("map"), workers, fields, outcomes, marks: () => throws?.marks() ?? [],
     told: {
       place: (place) => (byId("readout").textContent = placeText(place)),
       choose: ({ x, y }) => choose(x, y),
@@ -159,7 +160,7 @@ async function toss(fresh) {
     wanted = null;
     try {
       if (key !== tossed) {
-        const [one, before] = await Promise.all(scenarios.map((each) => each && workers.toss(each, SAMPLES)));
+        const [one, before] = await Promise.all(scenarios.map((each) => each && workers.toss(followed(each), SAMPLES)));
         await hundred.toss(scenarios[0], hair);
         tosses = [{ ...one, label: NAMES.analytic }, before && { ...before, engine: "before", label: "before" }];
         tossed = key;
@@ -171,6 +172,9 @@ async function toss(fresh) {
   }
   isTossing = false;
 }
+
+// What a hand has caught it holds.
+const followed = (scenario) => ("ending.caught" in scenario || "ending.until" in scenario ? scenario : { ...scenario, "ending.until": FOLLOWED });
 
 const areBoth = () => byId("both").getAttribute("aria-pressed") === "true";
 

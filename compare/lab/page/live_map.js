@@ -12,7 +12,8 @@ const FRAME = 80; // [ms] between two pictures of one map
 // `fields` has the word and the unit of each field, `outcomes` { color } by code. `told` has what is called: place
 // and choose, with { x, y, code, trusted }; moved, with both windows; end; progress, with the part that is tossed and
 // whether coarse pixels cover the map; problem, with a message; and, where it is wanted, depth, with a text.
-export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
+// `marks` returns what is dotted on it, each with { values } by field and a color.
+export function makeLiveMap({ canvas, workers, fields, outcomes, marks, told }) {
   let state = null, behind = null, job = null, next = null, drawn = 0, isLast = false, depth = "";
   const identity = { start: 0, stop: 1, count: 2 }; // u and v are the values themselves
   const worded = (axis) => ({ ...identity, word: fields[axis?.field]?.word ?? "", unit: fields[axis?.field]?.unit ?? "" });
@@ -144,6 +145,7 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
     if (state.trust && hatch) drawHatch(pen, at, hatch, spread(last));
     const half = { u: (at.window.right - at.window.left) / at.box.width, v: (at.window.top - at.window.bottom) / at.box.height };
     if (state.hand !== null) drawHand(pen, at);
+    for (const mark of marks()) dot(pen, at, mark);
     if (state.before) outline(pen, at, state.before);
     drawCursor(pen, at, chosen(), half);
     drawDepth(pen, at.box);
@@ -179,6 +181,18 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
       pen.stroke();
     }
     pen.restore();
+  }
+
+  function dot(pen, { across, down }, { values, color }) {
+    const [u, v] = [values[state.x.field], values[state.y.field]];
+    if (u === undefined || v === undefined) return;
+    pen.beginPath();
+    pen.arc(across(u), down(v), 6, 0, 2 * Math.PI);
+    pen.fillStyle = color;
+    pen.fill();
+    pen.lineWidth = 2.5;
+    pen.strokeStyle = "#fff";
+    pen.stroke();
   }
 
   function outline(pen, { across, down }, [u, v]) {

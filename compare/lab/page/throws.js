@@ -7,6 +7,7 @@ import { counted } from "./words.js";
 
 const SPEED = "release.velocity.z", SPIN = "release.angular_velocity.eta";
 const MOST = 0.3; // the largest scatter of a hand in the lab
+const HEADS = "#f5ab1f", TAILS = "#0d5ca8";
 const SVG = "http://www.w3.org/2000/svg", WIDE = 320, HIGH = 120, LEFT = 44, FOOT = 26, TURNS = 1;
 
 // `parts` are elements. `lab` has change(more), again(), isCaught() and state().
@@ -57,8 +58,8 @@ export function makeThrows({ handle, box, told, curve, again }, lab) {
 
   return {
     landed, show,
-    // Where the throws lie on a map of spin and speed: [spin, speed, outcome].
-    places: () => throws.map(({ spin, speed, outcome }) => [spin, speed, outcome]),
+    // Where the throws lie on a map of spin and speed.
+    marks: () => (lab.isCaught() ? throws.map(({ spin, speed, outcome }) => ({ values: { [SPIN]: spin, [SPEED]: speed }, color: outcome === "heads" ? HEADS : TAILS })) : []),
   };
 }
 

@@ -42,6 +42,7 @@ export function makeScene(canvas) {
       place.position.z = -toss.coin.center[2];
       coin.add(place);
     }
+    coin.add(...turningAxis(r, half));
     scene.add(coin);
 
     // Light from straight above: the shadow is the coin, pressed flat.
@@ -178,6 +179,24 @@ function boxOf(tosses, r) {
   const wide = Math.hypot(high[0] - low[0], high[1] - low[1]) + 4 * r, tall = high[2] - low[2] + 2 * r;
   const middle = new THREE.Vector3(...low.map((value, k) => (value + high[k]) / 2));
   return { middle, wide, high: tall, size: Math.max(wide, tall) };
+}
+
+// The diameter η of the coin, about which it turns over, and its letter.
+function turningAxis(r, half) {
+  const rod = new THREE.Mesh(new THREE.CylinderGeometry(0.025 * r, 0.025 * r, 2.5 * r, 8), new THREE.MeshBasicMaterial({ color: TRAIL }));
+  const image = Object.assign(document.createElement("canvas"), { width: 64, height: 64 }), pen = image.getContext("2d");
+  pen.font = "bold 46px serif";
+  pen.textAlign = "center";
+  pen.textBaseline = "middle";
+  pen.lineWidth = 8;
+  pen.strokeStyle = "#fff";
+  pen.strokeText("η", 32, 30);
+  pen.fillStyle = "#2a333d";
+  pen.fillText("η", 32, 30);
+  const letter = new THREE.Sprite(new THREE.SpriteMaterial({ map: new THREE.CanvasTexture(image) }));
+  letter.scale.setScalar(0.5 * r);
+  letter.position.set(0, 1.45 * r, half);
+  return [rod, letter];
 }
 
 function faceMaterial(color, ink, letter) {
