@@ -23,7 +23,10 @@ told = echo "$(1)"; \
 
 .PHONY: report test check test-all bench docs pages paper results releasable release wheels lock lint sink emulated opengl chromium engines clean
 
-report: $(READY) opengl engines
+# The first line it prints at its end leads to the lab.
+report: $(READY) opengl engines $(ENGINE)
+	@mkdir -p out
+	@$(BIN)/cointoss lab --out out/lab.html
 	@for name in $(SCENARIOS); do $(BIN)/cointoss compare $$name --out out/$$name || exit; done
 
 # A worker that crashes ends the run: with another in its place a run was seen never to end.
@@ -93,6 +96,7 @@ wheels: $(READY) $(ENGINE)
 	  ($(call told,building the libraries of $$module,$(BIN)/python -m cointoss.models.kernel.build \
 	  cointoss.$$module.entries --out out/engines --carried $(SYSTEMS:%=--system %) \
 	  $$([ $$module = analytic ] && echo --system cuda))) || exit; done
+	cp $(ENGINE) out/engines
 	$(BIN)/python -m hatchling build -t sdist -d dist
 	@for system in $(SYSTEMS); do export COINTOSS_SYSTEM=$$system COINTOSS_ENGINES=$(CURDIR)/out/engines; \
 	  ($(call told,pip: making the wheel for $$system,$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation \
@@ -124,8 +128,10 @@ $(MADE)/pages/explorer.html: $(READY) $(CODE) $(ENGINE) docs/conf.py $(wildcard 
 emulated: $(READY)
 	$(BIN)/python -m tests.helpers.emulated
 
-$(ENGINE): $(CODE) | $(READY)
-	@$(call told,compiling the engine to WebAssembly,$(BIN)/python -m cointoss.compare.web.wasm.build $@)
+# Is built where the file is not of its sources, once the other engines are.
+$(ENGINE): FORCE | $(READY) engines
+	@$(BIN)/python -m cointoss.compare.web.wasm.build $@
+FORCE:
 
 lint: $(READY)
 	$(BIN)/ruff check .

@@ -92,3 +92,9 @@ def test_the_container_makes_all_results_and_pages_by_targets_that_there_are():
     (listed,) = re.findall(r"cointoss reproduce (.*) --out docs$", done.stdout, flags=re.MULTILINE)
     assert set(listed.split()) == {path.name for path in (MAKEFILE.parent / "docs/reproduction").iterdir()}
     assert set(listed.split()) <= {line.split()[0] for line in cointoss("reproduce").stdout.splitlines()}
+
+
+def test_what_is_reported_first_is_the_lab():
+    done = make(MAKEFILE.parent, "--dry-run", "report")
+    printed = re.findall(r"^\S*cointoss lab --out (.*)$|cointoss compare", done.stdout, flags=re.MULTILINE)
+    assert printed == ["out/lab.html", ""]

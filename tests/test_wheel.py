@@ -13,7 +13,8 @@ from zipfile import ZipFile
 
 import pytest
 
-from cointoss.models.kernel.build.wheel import MODULES
+from cointoss.compare.web.wasm import carried
+from cointoss.models.kernel.build.wheel import BROWSER, MODULES
 from cointoss.models.kernel.library import SYSTEM, library_file
 from tests.helpers.command_line import python
 
@@ -21,9 +22,9 @@ TOP = Path(__file__).parents[1]
 FOLDERS = ("models", "analytic", "coin_mj", "compare")
 
 
-def build(target, source, folder):
+def build(target, source, folder, **environment):
     """Build an sdist or a wheel from a folder of sources into another folder, and return its path."""
-    built = python("-m", "hatchling", "build", "-t", target, "-d", folder, folder=source)
+    built = python("-m", "hatchling", "build", "-t", target, "-d", folder, folder=source, **environment)
     assert built.returncode == 0, built.stderr
     (path,) = folder.glob("cointoss_dynamics-*")
     return path
@@ -45,11 +46,9 @@ def wheel(tmp_path_factory):
         named = engines / f"{module.split('.')[-2]}-{SYSTEM}.so"
         shutil.copy(file, named)
         shutil.copy(f"{file}.json", f"{named}.json")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("COINTOSS_ENGINES", str(engines))
-        return build(
-            "wheel", sources / archive.name.removesuffix(".tar.gz"), tmp_path_factory.mktemp("wheel")
-        )
+    (engines / "engine.wasm").write_text(f'cointoss{{"sources": "{carried.sources()}"}}')
+    unpacked = sources / archive.name.removesuffix(".tar.gz")
+    return build("wheel", unpacked, tmp_path_factory.mktemp("wheel"), COINTOSS_ENGINES=str(engines))
 
 
 @pytest.fixture(scope="module")
@@ -85,7 +84,8 @@ def test_a_wheel_has_every_file_under_one_name_and_no_other(wheel):
     }
     files = {name for name in ZipFile(wheel).namelist() if ".dist-info/" not in name}
     engines = {f"{module.split('.')[-2]}-{SYSTEM}.so{end}" for module in MODULES for end in ("", ".json")}
-    assert files == expected | {f"cointoss/models/kernel/engines/{name}" for name in engines}
+    engines = {f"cointoss/models/kernel/engines/{name}" for name in engines}
+    assert files == expected | engines | {f"cointoss/{BROWSER}"}
     kinds = {entry.external_attr >> 28 for entry in ZipFile(wheel).infolist()}
     assert kinds <= {0, stat.S_IFREG >> 12}, "Windows makes no links"
     assert {f"cointoss/{name}" for name in ("models/coin.xml", "compare/report/report.html.j2")} <= files
@@ -99,6 +99,12 @@ def test_the_installed_command_tosses_a_coin_beside_foreign_packages(installed, 
     assert (done.returncode, done.stderr) == (0, "")
     assert "sequence  H" in done.stdout
     assert not (foreign / "cache").exists(), "nothing is built or kept at a user's"
+
+
+def test_the_installed_command_has_the_lab(installed, foreign):
+    done = run(installed, foreign, str(installed / "bin" / "cointoss"), "lab", "--out", "lab.html")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "lab.html\n", "")
+    assert (foreign / "lab.html").stat().st_size > 1_000_000
 
 
 def test_a_toss_needs_nothing_that_compiles(installed, foreign):

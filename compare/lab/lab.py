@@ -25,7 +25,7 @@ def lab_page(scenario: Scenario, *, is_tour: bool = False, is_served: bool = Fal
     """
     data = engine_data(scenario)
     if data is None:
-        raise UnusableEngineError("engine.wasm: not built, or of other sources; make docs builds it")
+        raise UnusableEngineError("engine.wasm: not built, or of other sources; make report builds it")
     files = {**files_of("cointoss.compare.lab"), **engine_scripts()}
     policy = SERVED_POLICY if is_served else ENGINE_POLICY
     shown = {**data, "outcomes": shown_outcomes(), "tour": is_tour, "served": is_served}

@@ -1,15 +1,16 @@
-"""Builds engine.wasm: `python -m cointoss.compare.web.wasm.build FILE`."""
+"""Builds engine.wasm where a file is not of its sources: `python -m cointoss.compare.web.wasm.build FILE`."""
 
 import json
 import sys
 import tempfile
+import time
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
 
 from cointoss.compare.output.files import write_bytes
-from cointoss.compare.web.wasm.carried import SECTION, sources
-from cointoss.models.kernel.building import NEEDED
+from cointoss.compare.web.wasm.carried import SECTION, made_of, sources
+from cointoss.models.kernel.building import NEEDED, told
 from cointoss.models.kernel.digests import digest_of_parts
 
 ENTRIES = ("examine", "toss_each", "toss_one", "sample_path")
@@ -19,26 +20,27 @@ STACK = 1 << 20
 
 
 def build(out: Path) -> None:
-    """Compile the engine, link it, and write it.
+    """Compile the engine, link it, and write it, in a process that does nothing else.
 
     Raises:
         RuntimeError: where it can't be done, in one line.
     """
     if missing := [each for each in NEEDED if find_spec(each) is None]:
         raise RuntimeError(f"{', '.join(missing)} is missing, which makes it: pip install --group dev")
-    from cointoss.analytic import entries
-    from cointoss.models.kernel.build.__main__ import asked_of
+    from cointoss.models.kernel.build.__main__ import alone, asked_of
     from cointoss.models.kernel.build.linking import linked
     from cointoss.models.kernel.build.lowering import LlvmTarget, lowered, object_code
 
-    target, made_of = LlvmTarget("wasm32-unknown-unknown", "+bulk-memory"), sources()
-    code = object_code(lowered(asked_of(entries, ENTRIES), target), target, {})
+    target, before = LlvmTarget("wasm32-unknown-unknown", "+bulk-memory"), sources()
     exported = [f"-Wl,--export={name}" for name in (*ENTRIES, "malloc", "free")]
     options = ["-mexec-model=reactor", "-O3", *exported, "-Wl,--no-entry", "-Wl,--strip-all"]
-    with tempfile.TemporaryDirectory() as folder:
-        engine = linked([code], "wasm32-wasi", [*options, f"-Wl,-z,stack-size={STACK}"], Path(folder))
+    with told("building the engine for a browser, once", time.monotonic()):
+        asked = asked_of(alone("cointoss.analytic.entries"), ENTRIES)
+        code = object_code(lowered(asked, target), target, {})
+        with tempfile.TemporaryDirectory() as folder:
+            engine = linked([code], "wasm32-wasi", [*options, f"-Wl,-z,stack-size={STACK}"], Path(folder))
     digest_of_parts.cache_clear()
-    if sources() != made_of:
+    if sources() != before:
         raise RuntimeError("its sources have changed while they were compiled: build it again")
     write_bytes(out, engine + _section(_description()))
 
@@ -80,12 +82,14 @@ def _leb128(number: int) -> bytes:
 
 
 def main(arguments: list[str]) -> int:
-    """Build the file that is named, and return the exit status."""
+    """Build the file that is named, unless it is of these sources, and return the exit status."""
     if len(arguments) != 1:
         print("usage: python -m cointoss.compare.web.wasm.build FILE", file=sys.stderr)
         return 2
+    out = Path(arguments[0])
     try:
-        build(Path(arguments[0]))
+        if not out.is_file() or made_of(out.read_bytes()) != sources():
+            build(out)
     except (RuntimeError, OSError, ImportError) as problem:
         print(f"engine.wasm: {problem}", file=sys.stderr)
         return 2

@@ -6,6 +6,7 @@ from base64 import b64encode
 from importlib import resources
 from typing import Any
 
+from cointoss.models.distribution import versions_of
 from cointoss.models.kernel.digests import digest_of_parts
 from cointoss.models.rows import fields_of
 from cointoss.models.scenario import Scenario
@@ -13,7 +14,7 @@ from cointoss.models.scenario import Scenario
 SECTION = "cointoss"
 """Name of the last part of the file, which says what made it."""
 FILE = "engine.wasm"
-"""`make docs` builds it in this folder."""
+"""A wheel carries it in this folder, where `make report` builds it in a checkout."""
 
 
 def engine_scripts() -> dict[str, bytes]:
@@ -32,8 +33,9 @@ def engine_bytes() -> bytes | None:
 
 
 def sources() -> str:
-    """Return the digest of what the engine is made of: of all that is compiled, and of what compiles it."""
-    return digest_of_parts("models", "analytic")
+    """Return the version, and the digest of all that is compiled and of what compiles it."""
+    version, digest = versions_of(["cointoss"]), digest_of_parts("models", "analytic", "compare/web/wasm")
+    return f"{version['cointoss']} {digest}"
 
 
 def made_of(content: bytes) -> str:

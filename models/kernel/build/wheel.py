@@ -1,4 +1,4 @@
-"""Puts the engines' libraries into a wheel: hatchling runs it when it builds one."""
+"""Puts the engines into a wheel, as libraries and for a browser: hatchling runs it when it builds one."""
 
 import os
 import shutil
@@ -12,6 +12,8 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 MODULES = ("cointoss.models.entries", "cointoss.analytic.entries", "cointoss.coin_mj.entries")
 """The tables of entries, a library each."""
+BROWSER = "compare/web/wasm/engine.wasm"
+"""The place of the engine for a browser."""
 PLATFORMS = {
     "linux-x86_64": "manylinux_2_17_x86_64",
     "linux-aarch64": "manylinux_2_17_aarch64",
@@ -26,7 +28,7 @@ class Engines(BuildHookInterface[Any]):
     """Adds the libraries of one system, and names the wheel after it.
 
     `COINTOSS_SYSTEM` chooses the system, by default this one; `COINTOSS_ENGINES` is a folder that has its
-    libraries already, as `make wheels` builds them, and the library for NVIDIA's cards.
+    libraries already, as `make wheels` builds them, the one for NVIDIA's cards, and the engine for a browser.
     """
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
@@ -48,6 +50,9 @@ class Engines(BuildHookInterface[Any]):
         for part in ("models", "analytic", "coin_mj", "compare"):
             (home / part).unlink(missing_ok=True)
             (home / part).symlink_to(Path(self.root, part), target_is_directory=True)
+        about = self._made / f"cointoss_dynamics-{self.metadata.version}.dist-info"
+        about.mkdir()
+        (about / "METADATA").write_text(f"Name: cointoss-dynamics\nVersion: {self.metadata.version}\n")
         named = {"PYTHONPATH": str(self._made)}
         this = subprocess.run(
             [sys.executable, "-c", "from cointoss.models.kernel.library import SYSTEM; print(SYSTEM)"],
@@ -62,12 +67,14 @@ class Engines(BuildHookInterface[Any]):
                 f"cointoss-dynamics: there is no engine for {system}; there is: {', '.join(PLATFORMS)}"
             )
         folder = Path(os.environ.get("COINTOSS_ENGINES") or self._built(system, named))
-        for name in (
+        libraries = [
             f"{module.split('.')[-2]}-{system}.so{end}" for module in MODULES for end in ("", ".json")
-        ):
+        ]
+        places = {name: f"models/kernel/engines/{name}" for name in libraries}
+        for name, place in {**places, Path(BROWSER).name: BROWSER}.items():
             if not (folder / name).is_file():
                 raise SystemExit(f"cointoss-dynamics: {folder / name}: missing; make wheels builds it")
-            build_data["force_include"][str(folder / name)] = f"cointoss/models/kernel/engines/{name}"
+            build_data["force_include"][str(folder / name)] = f"cointoss/{place}"
         if not system.startswith("darwin"):
             for file in folder.glob("*-cuda.so*"):
                 build_data["force_include"][str(file)] = f"cointoss/models/kernel/engines/{file.name}"
@@ -82,11 +89,16 @@ class Engines(BuildHookInterface[Any]):
     def _built(self, system: str, named: dict[str, str]) -> Path:
         folder = self._made / "engines"
         folder.mkdir()
-        for module in MODULES:
-            command = [sys.executable, "-m", "cointoss.models.kernel.build", module, "--out", str(folder)]
-            done = subprocess.run(
-                [*command, "--carried", "--system", system], env={**os.environ, **named}, check=False
-            )
-            if done.returncode:
-                raise SystemExit(f"cointoss-dynamics: the engine of {module} could not be built for {system}")
+        browser = folder / Path(BROWSER).name
+        if Path(self.root, BROWSER).is_file():
+            shutil.copyfile(Path(self.root, BROWSER), browser)  # is kept where it is of these sources
+        build = [sys.executable, "-m", "cointoss.models.kernel.build"]
+        commands = {
+            f"the engine of {module}": [*build, module, "--out", folder, "--carried", "--system", system]
+            for module in MODULES
+        }
+        commands["engine.wasm"] = [sys.executable, "-m", "cointoss.compare.web.wasm.build", browser]
+        for what, command in commands.items():
+            if subprocess.run(command, env={**os.environ, **named}, check=False).returncode:
+                raise SystemExit(f"cointoss-dynamics: {what} could not be built for {system}")
         return folder

@@ -52,5 +52,5 @@ def test_without_a_target_the_page_is_opened(monkeypatch, tmp_path, found):
 
 def test_an_engine_that_was_not_built_is_told_in_a_line(monkeypatch):
     monkeypatch.setattr(carried, "engine_bytes", lambda: None)
-    told = "cointoss: engine.wasm: not built, or of other sources; make docs builds it\n"
+    told = "cointoss: engine.wasm: not built, or of other sources; make report builds it\n"
     assert refused("lab") == told

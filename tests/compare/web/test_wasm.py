@@ -48,6 +48,16 @@ def test_without_what_makes_it_it_says_what_to_install(monkeypatch, capsys, tmp_
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_file_of_these_sources_is_not_built_again(monkeypatch, tmp_path):
+    file = tmp_path / "engine.wasm"
+    monkeypatch.setattr(building, "build", lambda out: out.write_bytes(b"new"))
+    kept = f'cointoss{{"sources": "{sources()}"}}'.encode()
+    for content, left in ((kept, kept), (b"old", b"new")):
+        file.write_bytes(content)
+        assert main([str(file)]) == 0
+        assert file.read_bytes() == left
+
+
 LEFT_OUT = (
     *("coin.inertia.", "release.angles.", "release.quaternion."),
     *("ending.max_impacts", "ending.caught", "ending.until"),
