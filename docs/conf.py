@@ -16,7 +16,7 @@ author = copyright = "The cointoss authors"
 version = release = cointoss.__version__
 root_doc = "index"
 extensions = ["myst_nb", "sphinx_design", "sphinx.ext.autodoc", "docstrings", "pages"]
-exclude_patterns = ["extensions", "paper", "**.ipynb"]
+exclude_patterns = ["extensions", "paper", "templates", "**.ipynb"]
 # Quotes stay as they are written.
 smartquotes_action = "D"
 nitpicky = True
@@ -24,6 +24,7 @@ nitpick_ignore_regex = [("py:.*", r"(numpy|collections\.abc)\..*")]
 
 html_theme = "furo"
 html_title = f"cointoss {release}"
+templates_path = ["templates"]
 html_static_path = ["static"]
 html_css_files = ["site.css"]
 html_extra_path = [str(MADE / "pages")]

@@ -7,8 +7,11 @@ from sphinx.application import Sphinx
 
 from cointoss_reproduction.frame import gallery, runner
 
-BACK = '<a href="{}index.html" style="display: block; padding: 0.5rem 1rem; color: inherit">← cointoss</a>'
-"""The first line of a page that the site takes as it is."""
+BACK = (
+    '<a href="{}index.html" style="display: block; padding: 0.5rem 1rem; color: inherit">← cointoss</a>'
+    "<script>if (self !== top) document.currentScript.previousSibling.remove()</script>"
+)
+"""The first line of a page that the site takes as it is, but for a page that shows it in a frame."""
 NOTEBOOK = re.compile(r"\[([^\]]+)\]\(([^)\s]+\.ipynb)\)")
 """A link that Sphinx would take for one to the page beside the notebook."""
 
