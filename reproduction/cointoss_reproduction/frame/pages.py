@@ -1,4 +1,4 @@
-"""Results as pages show them, in Markdown: each claim unfolds to its numbers, long tables fold."""
+"""Results as pages show them, in Markdown: claims and what was measured; long tables fold."""
 
 import re
 from collections import Counter
@@ -11,6 +11,10 @@ from cointoss_reproduction.frame.claim import VERDICTS, Claim
 from cointoss_reproduction.frame.files import PAGE, folder_of
 from cointoss_reproduction.frame.result import Reproduction, Result
 
+MOST_IN_TITLE = 100
+"""Letters of a claim that a title holds."""
+MOST_ROWS = 5
+"""Of a table of what was measured; a longer one is folded below a heading."""
 _PLURAL = {True: "hold", False: "do not hold", None: "cannot be tested"}
 
 
@@ -33,11 +37,11 @@ def page_of(name: str, found: Reproduction, result: Result, *, quick: bool = Fal
     """
     return "\n\n".join(
         [
-            f"# {found.paper}",
+            f"# {found.paper}: {_decided_first(result.claims) or found.title}",
             f"*{found.title[0].upper()}{found.title[1:]}.*",
             *(f"![{found.title}]({picture}.png)" for picture in found.draw),
             *([f"**Assumed.** {found.assumed}"] if found.assumed else []),
-            claims_of(result.claims),
+            claims_of(result.claims, are_apart=True),
             "One command computes this page again:",
             f"    cointoss reproduce {name} {'--quick ' if quick else ''}--out docs",
             "[All figures and claims](../../REPRODUCTION.md)\n",
@@ -48,7 +52,7 @@ def page_of(name: str, found: Reproduction, result: Result, *, quick: bool = Fal
 def block_of(name: str, result: Result) -> str:
     """Return what a page in the folder of all that is reproduced shows of a study."""
     tables = folded(result.tables, folder_of(name, Path()).as_posix())
-    return "\n\n".join([*filter(None, [tables]), claims_of(result.claims)])
+    return "\n\n".join([*filter(None, [tables]), claims_of(result.claims, are_apart=False)])
 
 
 def write_blocks(out: Path, name: str, result: Result) -> None:
@@ -66,12 +70,28 @@ def write_blocks(out: Path, name: str, result: Result) -> None:
             write_text(path, written)
 
 
-def claims_of(claims: Sequence[Claim]) -> str:
-    """Return the claims and their verdicts, each unfolding to what decides it."""
+def claims_of(claims: Sequence[Claim], *, are_apart: bool) -> str:
+    """Return the claims and their verdicts, with what decides them.
+
+    Args:
+        claims: of one figure or study.
+        are_apart: whether each has a heading, and what decides it below; else all that folds together.
+    """
     made, kept = ([claim for claim in claims if claim.regression is flag] for flag in (False, True))
-    counted = [f"**Claims:** {verdicts_of(made)}."] if made else []
-    named = ["**Regression tests:** written after their numbers, so that a change is seen."] if kept else []
-    return "\n\n".join([*counted, *map(_unfolding, made), *named, *map(_unfolding, kept)])
+    heads = {
+        f"**Claims:** {verdicts_of(made)}.": made,
+        "**Regression tests:** written after their numbers, so that a change is seen.": kept,
+    }
+    shown = {head: group for head, group in heads.items() if group}
+    parts = []
+    for head, group in shown.items():
+        if are_apart:
+            parts.append(head)
+            parts += [f"## {_sentence(one)}\n\n{_measured(one, is_folded=False)}" for one in group]
+        else:
+            parts += [head, "\n".join(f"- {_sentence(one)}" for one in group)]
+    measured = [f"**{_sentence(one)}**\n\n{_measured(one, is_folded=True)}" for one in (*made, *kept)]
+    return "\n\n".join(parts if are_apart else [*parts, unfolding("What was measured", *measured)])
 
 
 def verdicts_of(claims: Iterable[Claim]) -> str:
@@ -89,10 +109,27 @@ def _listed(who: str, what: str) -> str:
     return f"- {who}: {what}" if len(parts) == 1 else "\n  - ".join([f"- {who}:", *parts])
 
 
-def _unfolding(claim: Claim) -> str:
+def _decided_first(claims: Iterable[Claim]) -> str:
+    """Return the first claim that was decided and is short, as a title has it; empty where there is none."""
+    decided = (claim for claim in claims if claim.holds is not None and len(claim.claim) <= MOST_IN_TITLE)
+    first = next(decided, None)
+    return "" if first is None else "it does not hold that " * (not first.holds) + _escaped(first.claim)
+
+
+def _sentence(claim: Claim) -> str:
+    return f"{VERDICTS[claim.holds]}: {_escaped(claim.claim)}"
+
+
+def _escaped(text: str) -> str:
+    return escape(text, quote=False)
+
+
+def _measured(claim: Claim, *, is_folded: bool) -> str:
+    """Return what decides a claim, a long table being folded unless all of it `is_folded`."""
     told = {"Analytic": claim.analytic, "MuJoCo": claim.mujoco, "Open": claim.wanted or "-"}
     words = "\n".join(_listed(who, what) for who, what in told.items() if what != "-")
     rows = [[each.quantity, each.value, each.accepted, each.reason] for each in claim.criteria]
     criteria = table(["measured", "found", "threshold", "its reason"], rows, words=True) if rows else ""
-    summary = f"<b>{VERDICTS[claim.holds]}:</b> {escape(claim.claim, quote=False)}"
-    return unfolding(summary, *filter(None, [words, criteria]))
+    if len(rows) > MOST_ROWS and not is_folded:
+        criteria = unfolding(f"{len(rows)} measured quantities", criteria)
+    return "\n\n".join(filter(None, [words, criteria]))
