@@ -21,7 +21,7 @@ told = echo "$(1)"; \
   while sleep 10 >/dev/null 2>&1 && kill -0 $$$$; do s=$$(($$s + 10)); echo "$(1): $$s s"; done & \
   trap "kill $$!" EXIT; $(2)
 
-.PHONY: report test check test-all bench docs pages paper results releasable release wheels lock lint sink emulated opengl chromium engines clean
+.PHONY: report test check test-all bench docs pages paper results releasable release wheels lock lint sink emulated opengl chromium firefox engines clean
 
 # The first line it prints at its end leads to the lab.
 report: $(READY) opengl engines $(ENGINE)
@@ -50,7 +50,7 @@ bench: $(READY) $(if $(KEEP),,$(ENGINE) chromium)
 KEPT := -p tests.benchmarks.keeping --benchmark-timer=time.process_time --benchmark-json=/dev/null
 
 # The pages of docs/ as a site, out/site/index.html; its links and its pages in the browser are tested.
-docs: $(VENV)/.ready-docs chromium engines $(MADE)/pages/explorer.html
+docs: $(VENV)/.ready-docs chromium firefox engines $(MADE)/pages/explorer.html
 	rm -rf out/site
 	@$(call told,making the site of docs/,$(BIN)/sphinx-build -q -W --keep-going -d $(MADE)/doctrees docs out/site)
 	$(BIN)/pytest tests/site
@@ -170,6 +170,14 @@ chromium: | opengl
 	  && [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
 	  apt-get update -q && apt-get install -y -q --no-install-recommends chromium \
 	  || echo "Chromium could not be installed; the tests of the explorer's page will fail." >&2; \
+	fi
+
+# The site's map is looked at in a headless Firefox, too.
+firefox: | chromium
+	@if [ "$$(uname)" = Linux ] && ! command -v firefox-esr >/dev/null && ! command -v firefox >/dev/null \
+	  && [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
+	  apt-get update -q && apt-get install -y -q --no-install-recommends firefox-esr \
+	  || echo "Firefox could not be installed; its test of the site will fail." >&2; \
 	fi
 
 # The libraries of the engines are built once for the sources that lie here, side by side.

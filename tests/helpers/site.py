@@ -3,8 +3,14 @@
 import re
 from dataclasses import dataclass, field
 from html.parser import HTMLParser
+from io import BytesIO
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
+
+import numpy as np
+from PIL import Image
+
+from cointoss.models.palette import HEADS, TAILS
 
 LOADED = {
     "audio": ("src",),
@@ -55,6 +61,14 @@ class Read(HTMLParser):
         """Note what a style sheet in the page names."""
         if self._in_style:
             self.loaded += ADDRESS_IN_STYLE.findall(data)
+
+
+def shows_a_map(picture: bytes) -> bool:
+    """Return whether a PNG has much of the color of heads and of that of tails."""
+    with Image.open(BytesIO(picture)) as opened:
+        pixels = np.asarray(opened.convert("RGB"), int)
+    faces = [np.array(list(bytes.fromhex(color[1:]))) for color in (HEADS, TAILS)]
+    return all((abs(pixels - face).max(axis=-1) < 8).mean() > 0.02 for face in faces)
 
 
 def read(page: Path) -> Read:
