@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from tests.helpers.coins_shown import box
-from tests.helpers.lab import TOSSED
+from tests.helpers.coins_shown import box, picture
+from tests.helpers.lab import TOSSED, WHOLE
 
 CAUGHT = "document.querySelectorAll('#tour a')[0].click()"
 THROWN = "document.getElementById('thrown').textContent"
@@ -20,6 +20,14 @@ def throws(page):
     page.wait_for(f"{THROWN} !== ''")
     faces, turns = re.search(r" ((?:[HT] ?)+): ([\d.]+) turns", page.value(THROWN)).groups()
     return faces.split(), float(turns)
+
+
+def given(page):
+    """Return speed upwards and spin of the coin."""
+    fields = ("release.velocity.z", "release.angular_velocity.eta")
+    return [
+        float(page.value(f"document.querySelector('[data-field=\"{field}\"]').value")) for field in fields
+    ]
 
 
 def middle(page):
@@ -47,15 +55,35 @@ def test_a_flick_throws_the_coin_and_its_face_is_kellers(caught):
         caught.wait_for(f"{THROWN} !== {json.dumps(before)}")
     faces, turns = throws(caught)
     assert len(faces) == 2
-    speed, spin = (
-        float(caught.value(f"document.querySelector('[data-field=\"{field}\"]').value"))
-        for field in ("release.velocity.z", "release.angular_velocity.eta")
-    )
+    speed, spin = given(caught)
     assert turns == pytest.approx(spin * speed / (np.pi * 9.81), abs=0.006)
     assert faces[-1] == ("H" if abs(turns - round(turns)) < 1 / 4 else "T")
     caught.value("document.getElementById('again').click()")
     caught.wait_for("document.getElementById('challenge').hidden")
     assert caught.complaints() == []
+
+
+def test_a_throw_stays_as_a_dot_on_the_map(caught):
+    caught.value("document.getElementById('flick').focus()")
+    places = []
+    for held in (0.5, 0.05):
+        before = caught.value(THROWN)
+        caught.call("Input.dispatchKeyEvent", type="keyDown", key=" ")
+        time.sleep(held)
+        caught.call("Input.dispatchKeyEvent", type="keyUp", key=" ")
+        caught.wait_for(f"{THROWN} !== {json.dumps(before)}")
+        places.append(given(caught))
+    caught.wait_for(WHOLE)
+    (speed, spin), last = places
+    assert abs(speed - last[0]) > 0.1
+    shown = picture(caught, "map")
+    height, width = shown.shape[:2]
+    # The margins are those of map_view.js; the stop's map is of 10 to 100 rad/s and 0.5 to 3 m/s.
+    x = round(74 + (spin - 10) / 90 * (width - 74 - 14))
+    y = round(10 + (3 - speed) / 2.5 * (height - 10 - 52))
+    ring = [shown[y, x - 6], shown[y, x + 6], shown[y - 6, x], shown[y + 6, x]]
+    assert np.min(ring) > 200
+    assert np.abs(shown[y, x].astype(int) - shown[y, x - 3]).max() < 10
 
 
 def test_a_key_that_is_held_longer_throws_harder(caught):
