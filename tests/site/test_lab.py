@@ -119,11 +119,12 @@ def test_a_click_tosses_a_pixel_and_arrows_step_to_the_next(page, lab_path):
     assert page.value("document.querySelector('#sequences .mapped').dataset.touch") == "1"
     page.value("document.getElementById('map').focus()")
     page.press("ArrowRight")
-    page.wait_for(f"!location.hash.includes('eta={x}&')")
+    page.wait_for(f"!location.hash.includes('eta={found[SPIN]}&')")
     stepped = state(page)
-    assert 0 < float(stepped[SPIN]) - x < 0.2
+    columns = round((box(page, "map")[2] - 74 - 14) / 2)  # a pixel of the map is two of the screen
+    assert float(stepped[SPIN]) - x == pytest.approx(40 / columns)
     assert float(stepped[HEIGHT]) == y
-    assert stepped["before"] == f"{x}:{y}"
+    assert stepped["before"] == f"{found[SPIN]}:{found[HEIGHT]}"
     page.wait_for("!document.getElementById('both').disabled")
     page.value("document.getElementById('both').click()")
     set_time(page, 0)
