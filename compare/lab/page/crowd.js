@@ -19,8 +19,11 @@ export function makeCrowd(canvas) {
   let tosses = [], parts = [], scene = null, camera = null, view = null;
 
   function show(found) {
-    for (const part of parts) part.geometry.dispose();
-    scene?.traverse(({ material }) => material?.dispose());
+    scene?.traverse(({ geometry, material }) => {
+      geometry?.dispose();
+      material?.dispose();
+    });
+    for (const part of parts) part.dispose();
     tosses = found;
     const { radius: r, thickness } = tosses[0].coin, count = tosses.length;
     const side = new THREE.CylinderGeometry(1.04 * r, 1.04 * r, Math.max(thickness, 0.2 * r), 32, 1, true).rotateX(Math.PI / 2);

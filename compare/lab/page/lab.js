@@ -20,13 +20,14 @@ import { copied, command, saveCsv, savePng, saveToml } from "./save.js";
 
 const SAMPLES = 800; // of the path that is played
 const FOLLOWED = 3; // seconds for which a coin is shown, whatever was proved before
+const REST = 120; // milliseconds for which a slider has rested when its coin is tossed: before, the map alone follows
 const PAUSE = 250; // milliseconds until the address follows, which browsers allow some times a second
 const NAMES = { analytic: "this toss", before: "the toss before" };
 const byId = (id) => document.getElementById(id);
 const data = JSON.parse(byId("data").textContent), { outcomes } = data;
 
 let bytes, engine, workers, fields, state, stage, map, controls, hundred, throws, showStop, moveEnergy = () => {}, stopGlide = () => {};
-let tosses = [null, null], tossed = null, wanted = null, isTossing = false, counting = null, pending = null;
+let tosses = [null, null], tossed = null, wanted = null, isTossing = false, counting = null, pending = null, resting = null;
 
 async function begin() {
   bytes = await unpacked(data.wasm);
@@ -132,11 +133,17 @@ function show(fresh, isOnTheWay = false) {
   map.update(state);
   showStop(state, isOnTheWay);
   throws.show();
-  toss(fresh);
+  clearTimeout(resting);
+  if (fresh) tossAndCount(true);
+  else resting = setTimeout(tossAndCount, REST);
   if (isOnTheWay) return;
-  count();
   clearTimeout(pending);
   pending = setTimeout(() => history.replaceState(null, "", address(state, fields)), PAUSE);
+}
+
+function tossAndCount(fresh = false) {
+  toss(fresh);
+  count();
 }
 
 function choose(x, y) {
