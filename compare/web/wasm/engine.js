@@ -382,7 +382,7 @@ export const startWorker = () => new Worker(import.meta.url, { type: "module", n
 export function played(toss, samples) {
   const { impacts, endTime, pathEnd, laterTimes } = toss, most = Math.floor(samples / 4), shown = impacts.slice(0, most), later = laterTimes.slice(0, most - shown.length);
   const even = Array.from({ length: samples }, (_, i) => (i * pathEnd) / (samples - 1)), hits = [...shown.map(({ time }) => time), ...later].flatMap((time) => [time * (1 - 2 ** -52), time]);
-  const times = [...new Set([...even, ...hits])].filter((time) => time <= pathEnd).sort((a, b) => a - b);
+  const times = [...new Set([...even, ...hits, pathEnd])].filter((time) => time <= pathEnd).sort((a, b) => a - b);
   const { states, energies } = toss.path(times), part = (first, count) => times.flatMap((_, i) => [...states.subarray(13 * i + first, 13 * i + first + count)]);
   return {
     engine: "analytic",
