@@ -84,7 +84,7 @@ export function makePlot(box, about, span) {
   function times() {
     const room = Math.min(6, wide / 100) / (span.high - span.low), isBent = span.low < axis.bend && axis.bend < span.high;
     const parts = isBent ? [[span.low, axis.bend], [axis.bend, span.high]] : [[span.low, span.high]];
-    const found = parts.flatMap(([low, high]) => ticks(axis.timeAt(low), axis.timeAt(high), Math.max(room * (high - low), 2)).values);
+    const found = parts.flatMap(([low, high]) => ticks(axis.timeAt(low), axis.timeAt(high), Math.max(room * (high - low), 3)).values);
     return found.filter((time, i) => !i || x(time) - x(found[i - 1]) > 45);
   }
 

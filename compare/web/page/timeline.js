@@ -1,7 +1,9 @@
 // The axis of time of tosses: flight and bounces have most of it, the wobble after them the rest.
 
+import { valueAt } from "./sampled.js";
+
 const BOUNCES = 0.8; // the part of the axis that flight and bounces have
-const APART = 1 / 10; // of the longest flight: after a shorter one, which is a hundredth as high, the coin wobbles
+const LOW = 1 / 100; // of the highest bounce: after a lower one the coin wobbles
 const LATER = 1e-6; // a path that is longer by so little ends with its toss
 
 const endOf = (toss) => Math.max(toss.end_time, toss.path.time.at(-1));
@@ -9,10 +11,16 @@ const endOf = (toss) => Math.max(toss.end_time, toss.path.time.at(-1));
 // The touches of a toss, those after its outcome was settled too.
 export const touchesOf = (toss) => [...toss.times, ...(toss.later_times ?? [])];
 
-// When the last bounce of a toss ends that is no wobble.
+// When the last bounce of a toss ends that is no wobble: how high the coin rises above where it touches says so.
 function bouncesEnd(toss) {
-  const times = touchesOf(toss), flights = times.map((time, i) => time - (i ? times[i - 1] : 0));
-  const longest = Math.max(0, ...flights), last = flights.findLastIndex((flight) => flight > APART * longest);
+  const times = touchesOf(toss), { time, position } = toss.path, top = times.map(() => 0);
+  for (let k = 0, i = 0; k < time.length; k++) {
+    while (i < times.length && times[i] < time[k]) i++;
+    if (i < times.length) top[i] = Math.max(top[i], position[3 * k + 2]);
+  }
+  const heights = time.map((_, k) => position[3 * k + 2]), low = times.map((each) => valueAt(time, heights, each) ?? 0);
+  const rises = top.map((high, i) => high - Math.max(low[i], i ? low[i - 1] : 0));
+  const last = rises.findLastIndex((rise) => rise > LOW * Math.max(...rises));
   return last < 0 ? endOf(toss) : times[last];
 }
 

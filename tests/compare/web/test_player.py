@@ -81,8 +81,16 @@ def test_flight_and_bounces_have_four_fifths_of_the_axis(page, played):
     assert all(a < b for a, b in pairwise(parts))
     assert back == pytest.approx(times)
     assert (parts[0], parts[-1]) == (0, 1)
-    longest = max(np.diff([0, *shown["times"]]))
-    last = max(b for a, b in pairwise([0, *shown["times"]]) if b - a > longest / 10)
+    # The last flight before which the coin rose by more than a hundredth of its fall.
+    time, height = np.array(shown["path"]["time"]), np.array(shown["path"]["position"])[2::3]
+    touches = [0, *shown["times"]]
+    rises = [
+        height[(time > a) & (time <= b)].max() - max(np.interp([a, b], time, height))
+        if a
+        else height[0] - np.interp(b, time, height)
+        for a, b in pairwise(touches)
+    ]
+    last = touches[1 + max(np.flatnonzero(np.array(rises) > max(rises) / 100))]
     assert places(page, [last])[0][0] == pytest.approx(0.8)
     assert last < shown["end_time"] < 0.3 * end
 
