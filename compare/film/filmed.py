@@ -4,7 +4,7 @@ import warnings
 from dataclasses import dataclass
 
 from cointoss.compare.engines import Engine, EngineSettings, is_own
-from cointoss.models.records import ApproximationWarning, Ending, Toss
+from cointoss.models.records import ApproximationWarning, Array, Ending, Toss
 from cointoss.models.stages import stage
 
 FOLLOWED_FOR = 2.0
@@ -20,6 +20,17 @@ class Filmed:
     """How it ended, and when."""
     motion: Toss
     """The same toss, which ends later where the coin goes on when its face is settled."""
+
+    @property
+    def longest(self) -> Toss:
+        """The one of both whose path goes on further."""
+        return self.motion if self.motion.end_time > self.toss.path_end else self.toss
+
+    @property
+    def later_times(self) -> Array:
+        """The times of the touches of its path after the toss, (n,) [s]."""
+        later = self.motion.impacts.time[len(self.toss.impacts) :]
+        return later if self.longest is self.motion else self.toss.later_times
 
 
 def goes_on(toss: Toss) -> bool:

@@ -153,6 +153,7 @@ class ComparedTosses:
             raise KeyError(f"{engine}; accepted: {', '.join([*pairs, *self.absent])}")
         return pairs[engine]
 
+    @cached_property
     def filmed(self) -> list[Filmed]:
-        """Return the tosses as films show them: on, beyond their endings, until the coin lies still."""
+        """The tosses as they are shown: on, beyond their endings, until the coin lies still."""
         return [followed(toss, self.settings.get(toss.engine)) for toss in self.tosses]

@@ -111,7 +111,7 @@ class Comparison(ComparedTosses):
         problem = drawing_problem()
         if problem is not None:
             raise BackEndError(problem)
-        filmed, form = self.filmed(), ENCODINGS[path.suffix.lower()].form
+        filmed, form = self.filmed, ENCODINGS[path.suffix.lower()].form
         with written_whole(path) as aside, stage("drawing the film", "frames") as progress:
             write_video(filmed, Camera.CLOSE_UP, form, aside, progress)
         return path

@@ -65,7 +65,7 @@ def write_report(
             from cointoss.compare.film.encodings import SMALL
             from cointoss.compare.film.video import write_video
 
-            filmed = comparison.filmed()
+            filmed = comparison.filmed
             with stage("drawing the film", "frames") as progress:
                 poster = write_video(filmed, Camera.CLOSE_UP, SMALL, aside / "toss.mp4", progress)
             film = (aside / "toss.mp4").read_bytes(), _jpeg(poster)

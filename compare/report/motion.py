@@ -6,10 +6,11 @@ from typing import Any
 import numpy as np
 
 from cointoss.compare.engines import label_of
+from cointoss.compare.film.filmed import Filmed
 from cointoss.compare.output.style import Look, looks_of
 from cointoss.compare.report.compared_tosses import PARTED, Against, ComparedTosses
 from cointoss.compare.web.playable import path_of, playable, rounded
-from cointoss.models.records import Array, Toss
+from cointoss.models.records import Array
 
 SAMPLES = 2000
 """Samples of a path."""
@@ -30,7 +31,7 @@ def motion_of(comparison: ComparedTosses) -> dict[str, Any]:
     looks = looks_of(toss.engine for toss in comparison.tosses)
     others = list(zip(comparison.against, looks[1:], strict=True))
     return {
-        "tosses": [_played(toss, look) for toss, look in zip(comparison.tosses, looks, strict=True)],
+        "tosses": [_played(each, look) for each, look in zip(comparison.filmed, looks, strict=True)],
         "apart": [_apart(pair, look) for pair, look in others],
         "parted": PARTED,
         "rounding": ROUNDING,
@@ -41,13 +42,15 @@ def motion_of(comparison: ComparedTosses) -> dict[str, Any]:
     }
 
 
-def _played(toss: Toss, look: Look) -> dict[str, Any]:
+def _played(filmed: Filmed, look: Look) -> dict[str, Any]:
+    toss = filmed.toss
     return {
         **playable(toss, 2, MOST_TOUCHES),
+        "later_times": rounded(filmed.later_times[:MOST_TOUCHES], 7),
         "engine": look.kind,
         "label": label_of(toss.engine),
         "heights": rounded(toss.impacts.position[:MOST_TOUCHES, 2], 5),
-        "path": path_of(toss, SAMPLES, with_spin=True),
+        "path": path_of(filmed.longest, SAMPLES, with_spin=True),
     }
 
 

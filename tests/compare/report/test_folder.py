@@ -59,7 +59,7 @@ def test_the_numbers_are_those_of_the_tosses(found, folder):
 
 def test_the_film_has_its_frames(found, folder):
     written = film_written(folder / "toss.mp4")
-    assert written.frames == frame_count(found.filmed(), SMALL)
+    assert written.frames == frame_count(found.filmed, SMALL)
     assert written.rate == SMALL.frames_per_second
 
 
@@ -116,7 +116,7 @@ def test_a_comparison_in_python_writes_the_report_and_the_film_of_the_commands(t
     assert source.read_text().strip().splitlines()[-1] in html
     assert {path.name for path in (tmp_path / "report").iterdir()} == set(FILES)
     assert found.film(str(tmp_path / "mine.mp4")) == tmp_path / "mine.mp4"
-    assert film_written(tmp_path / "mine.mp4").frames == frame_count(found.filmed(), stamp)
+    assert film_written(tmp_path / "mine.mp4").frames == frame_count(found.filmed, stamp)
 
 
 def test_a_report_replaces_an_earlier_one_as_a_whole_and_nothing_else(folder, tmp_path):

@@ -215,6 +215,26 @@ def test_the_page_of_one_engine_shows_one_coin(page, tmp_path):
     assert page.complaints() == []
 
 
+def test_the_coins_go_on_until_they_lie_and_their_proof_is_marked(page, tmp_path):
+    text = scenario_text("fig24a")
+    found = compared(parse(text, "made"), text, "made")
+    write_report(found, tmp_path, "none here")
+    page.open((tmp_path / "report.html").as_uri())
+    ends = [toss.end_time for toss in found.tosses]
+    last = max(each.motion.end_time for each in found.filmed)
+    assert last > max(ends) + 0.1
+    assert page.value("Number(document.getElementById('time').max)") == pytest.approx(last, abs=1e-5)
+    assert page.text("marks") == "from its mark on each can't turn over"
+    set_time(page, last)
+    assert page.text("clock") == f"{last:.3f} s"
+    held = json.loads(page.value("document.getElementById('data').textContent"))["tosses"]
+    for toss, each in zip(found.tosses, held, strict=True):
+        later = each["later_times"]
+        assert toss.end_time - 1e-6 <= min(later)
+        assert max(later) <= last + 1e-6
+        assert len(each["times"]) == len(toss.impacts)
+
+
 @pytest.mark.parametrize("width", [1280, 420])
 def test_the_page_of_three_engines_tells_them_apart(page, tmp_path, width):
     found = compared(parse(TEXT, "made"), TEXT, "made", ["mujoco", Off("Off 2.0, as documented")])
