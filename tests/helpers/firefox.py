@@ -21,7 +21,7 @@ def firefox(profile: Path) -> Iterator["Firefox"]:
     assert found, "the tests of the site need Firefox; on Debian: apt-get install firefox-esr"
     (profile / "user.js").write_text('user_pref("marionette.port", 0);\n')
     words = [found, "--headless", "--no-remote", "--marionette", "--profile", str(profile)]
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    quiet: dict[str, Any] = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     with subprocess.Popen([*words, "--width=1280", "--height=900"], **quiet) as process:
         try:
             port = profile / "MarionetteActivePort"
