@@ -21,7 +21,7 @@ told = echo "$(1)"; \
   while sleep 10 >/dev/null 2>&1 && kill -0 $$$$; do s=$$(($$s + 10)); echo "$(1): $$s s"; done & \
   trap "kill $$!" EXIT; $(2)
 
-.PHONY: report test check test-all bench docs pages paper results releasable release wheels lock lint sink emulated opengl chromium firefox engines clean
+.PHONY: report test check test-all bench docs pages screens paper results releasable release wheels lock lint sink emulated opengl chromium firefox engines clean
 
 # The first line it prints at its end leads to the lab.
 report: $(READY) opengl engines $(ENGINE)
@@ -58,6 +58,10 @@ docs: $(VENV)/.ready-docs chromium firefox engines $(MADE)/pages/explorer.html
 # What docs/ has that is made of other files there: nothing is computed.
 pages: $(VENV)/.ready-docs
 	$(BIN)/python docs/extensions/written.py
+
+# The pictures of the lab and of a report, in README and the pages.
+screens: report chromium
+	PYTHONPATH=. $(BIN)/python docs/extensions/screens.py
 
 # The article and the JOSS paper, with the numbers that docs/reproduction/ has now: out/paper/article.pdf, joss.pdf.
 paper: $(VENV)/.ready-docs
