@@ -110,8 +110,12 @@ def _listed(who: str, what: str) -> str:
 
 
 def _decided_first(claims: Iterable[Claim]) -> str:
-    """Return the first claim that was decided and is short, as a title has it; empty where there is none."""
-    decided = (claim for claim in claims if claim.holds is not None and len(claim.claim) <= MOST_IN_TITLE)
+    """Return the first claim that was decided and is short, as a title has it; empty where there is none.
+
+    Regression tests come last.
+    """
+    ordered = sorted(claims, key=lambda claim: claim.regression)
+    decided = (claim for claim in ordered if claim.holds is not None and len(claim.claim) <= MOST_IN_TITLE)
     first = next(decided, None)
     return "" if first is None else "it does not hold that " * (not first.holds) + _escaped(first.claim)
 
