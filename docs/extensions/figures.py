@@ -9,6 +9,8 @@ import numpy as np
 from PIL import Image
 from sphinx.application import Sphinx
 
+from cointoss.models.palette import HEADS
+
 GROUND, INK = 0.08, 0.92
 """Of dark figures: what stands for white, and what for black."""
 COLOURED = 0.35
@@ -55,7 +57,10 @@ def made_dark(source: Path, target: Path) -> bool:
     """Write the dark one of a figure, and return whether it has one."""
     target.parent.mkdir(parents=True, exist_ok=True)
     if source.suffix == ".svg":
-        target.write_text(dark_drawing(source.read_text(encoding="utf-8")), encoding="utf-8")
+        text = source.read_text(encoding="utf-8")
+        if HEADS.lower() in text:  # what is written on a coin is dark
+            return False
+        target.write_text(dark_drawing(text), encoding="utf-8")
         return True
     with Image.open(source) as picture:
         colours = np.asarray(picture.convert("RGB"), np.float32) / 255
