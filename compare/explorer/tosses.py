@@ -6,10 +6,11 @@ from typing import Any
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.film.back_end import BackEndError, require_mujoco
+from cointoss.compare.film.filmed import followed
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.pixels import pixel_scenario
-from cointoss.compare.web.playable import MOST_SYMBOLS, SAMPLES, playable
+from cointoss.compare.web.playable import MOST_SYMBOLS, SAMPLES, path_of, playable, rounded
 from cointoss.models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
 
 MOST_IMPACTS = {Engine.ANALYTIC: 20_000, Engine.MUJOCO: 500}
@@ -40,18 +41,23 @@ def toss_pixel(
     """
     scenario = pixel_scenario(replace(sweep, after=None), y, x)
     most = MOST_IMPACTS[engine]
-    followed = scenario.replace("ending.max_impacts", min(most, scenario.rules.max_impacts))
+    limited = scenario.replace("ending.max_impacts", min(most, scenario.rules.max_impacts))
     with warnings.catch_warnings(record=True, action="always", category=ApproximationWarning) as raised:
         try:
             require_mujoco(engine)
-            toss = engine.package.toss(followed, settings=_settings(sweep, engine))
-            played = playable(toss, samples, most_symbols)
+            toss = engine.package.toss(limited, settings=_settings(sweep, engine))
+            shown = followed(toss, _settings(sweep, engine))
+            played = playable(toss, 2, most_symbols)
         except (UnsupportedError, UnusableEngineError, BackEndError, FloatingPointError) as error:
             return {"engine": engine.value, "problem": str(error)}
     notes = [str(one.message) for one in raised if issubclass(one.category, ApproximationWarning)]
     cut = len(toss.impacts) == most < scenario.rules.max_impacts
     ending = {"ending": f"It is shown up to impact {most}."} if cut else {}
-    return {**played, **ending, "notes": notes}
+    later = {
+        "later_times": rounded(shown.later_times[:most_symbols], 7),
+        "path": path_of(shown.longest, samples),
+    }
+    return {**played, **later, **ending, "notes": notes}
 
 
 def _settings(sweep: Sweep, engine: Engine) -> Any:
