@@ -9,6 +9,7 @@ const LEFT = 66, RIGHT = 14, TOP = 26, BOTTOM = 48;
 const SHORTEST = 1e-6; // of the whole time
 const CLEAR_MARKS = 40; // more vertical lines than these fade
 const MOST_DOTS = 300;
+const APART = 45; // between two times at the axis [px]
 
 function element(tag, attributes = {}, text = "") {
   const made = document.createElementNS(SVG, tag);
@@ -85,7 +86,7 @@ export function makePlot(box, about, span) {
     const room = Math.min(6, wide / 100) / (span.high - span.low), isBent = span.low < axis.bend && axis.bend < span.high;
     const parts = isBent ? [[span.low, axis.bend], [axis.bend, span.high]] : [[span.low, span.high]];
     const found = parts.flatMap(([low, high]) => ticks(axis.timeAt(low), axis.timeAt(high), Math.max(room * (high - low), 3)).values);
-    return found.filter((time, i) => !i || x(time) - x(found[i - 1]) > 45);
+    return found.reduce((kept, time) => (kept.length && x(time) - x(kept.at(-1)) < APART ? kept : [...kept, time]), []);
   }
 
   // The part whose scale is another is shaded, and its begin is cut.
