@@ -4,7 +4,7 @@ import json
 
 SPIN, HEIGHT = "release.angular_velocity.eta", "release.position.z"
 WHOLE = "document.getElementById('map').ariaBusy === 'false'"
-TOSSED = "document.getElementById('outcome').textContent.includes(' impacts in ')"
+TOSSED = r"/ \d+\.\d{4} s\. /.test(document.getElementById('outcome').textContent)"
 COUNTED = "document.getElementById('share').dataset.whole === 'true'"
 ADDRESSED = "location.hash.length > 1"
 SAVED = """

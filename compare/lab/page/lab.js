@@ -193,7 +193,8 @@ function showTosses(fresh) {
   byId("horizon").textContent = one.count ? horizonText([one, null], before, state.after) : "";
   byId("sequences").hidden = one.count === 0;
   moveEnergy = showEnergy(byId("energy"), shown);
-  byId("outcome").textContent = `${one.outcome} after ${counted(one.count, "impact")} in ${one.end_time.toFixed(4)} s. ${one.ending}`;
+  const impacts = one.count ? ` after ${counted(one.count, "impact")} in` : " after";
+  byId("outcome").textContent = `${one.outcome}${impacts} ${one.end_time.toFixed(4)} s. ${one.ending}`;
   document.querySelector(".coin").classList.toggle("crowded", hundred.isShown());
   const played = hundred.longest() ?? null;
   stage.show(played ? [played] : shown, (played ? [played] : shown).map((each) => each.outcome), fresh);
