@@ -18,7 +18,7 @@ THROWN = "document.getElementById('thrown').textContent"
 def throws(page):
     """Return the faces of the throws as the challenge lists them, and the turns of the last one."""
     page.wait_for(f"{THROWN} !== ''")
-    faces, turns = re.search(r" ((?:[HT] ?)+): ([\d.]+) turns", page.value(THROWN)).groups()
+    ((faces, turns),) = re.findall(r" ((?:[HT] ?)+): ([\d.]+) turns", page.value(THROWN))
     return faces.split(), float(turns)
 
 
