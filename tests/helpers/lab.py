@@ -23,8 +23,8 @@ def saved(page, button):
 
 def go(page, address):
     """Show the state of an address, and wait until all of it is there."""
-    page.value(
-        f"document.getElementById('outcome').textContent = ''; location.hash = {json.dumps(address)}; 0"
-    )
+    wanted = json.dumps(address)
+    cleared = "document.getElementById('outcome').textContent = ''"
+    page.value(f"if (location.hash !== {wanted}) {{ {cleared}; location.hash = {wanted}; }} 0")
     page.wait_for(TOSSED)
     page.wait_for(WHOLE)
