@@ -201,6 +201,7 @@ def test_an_address_of_an_earlier_release_is_the_toss_it_was(page, lab_path, rel
         ("#coin.mass=NaN(", "coin.mass: NaN(; accepted: a number or a word"),
         (f"{WHOLE_COIN}&floor.restitution=1.5", "floor.restitution = 1.5: accepted: a number"),
         ("#coin.mass=0.002", "coin.radius"),
+        ("#coin.radius=0", "coin.mass"),
         ("#x=coin.colour:1:2", "x: coin.colour:1:2; accepted: FIELD:FROM:TO"),
         (f"#x={SPIN}:2:1", f"x: {SPIN}:2:1; accepted: FROM below TO"),
         (f"#x={HEIGHT}:0.2:0.3", f"y: {HEIGHT}; accepted: another field than that of x"),

@@ -82,7 +82,8 @@ def test_a_throw_stays_as_a_dot_on_the_map(caught):
     x = round(74 + (spin - 10) / 90 * (width - 74 - 14))
     y = round(10 + (3 - speed) / 2.5 * (height - 10 - 52))
     ring = [shown[y, x - 6], shown[y, x + 6], shown[y - 6, x], shown[y + 6, x]]
-    assert np.min(ring) > 200
+    # White, smoothed at its edge; gold has 31 of blue, blue 13 of red.
+    assert np.min(ring) > 150
     assert np.abs(shown[y, x].astype(int) - shown[y, x - 3]).max() < 10
 
 

@@ -12,7 +12,7 @@ const TOUCHES = 12; // that are offered
 const SLIDERS = {
   coin: [
     ["coin.radius", "mm", 1e3, 5, 20], ["coin.thickness", "mm", 1e3, 0, 20], ["coin.mass", "g", 1e3, 0.5, 50],
-    ["coin.center_of_mass.xi", "mm", 1e3, -3, 3], ["coin.center_of_mass.zeta", "mm", 1e3, -0.9, 0.9],
+    ["coin.center_of_mass.xi", "mm", 1e3, -3, 3], ["coin.center_of_mass.zeta", "mm", 1e3, -0.5, 0.5],
   ],
   floor: [["floor.restitution", "", 1, 0, 1], ["floor.friction", "", 1, 0, 1]],
   release: [
@@ -128,7 +128,7 @@ export function makeControls(boxes, fields, change) {
   const scatter = slider(boxes.hand, "of height, speed and spin", "%", 0.1, 20, () => 100 * (state.hand ?? 0.02), (percent) => change({ hand: percent / 100 }));
   shows.push(() => (scatter.disabled = state.hand === null));
   tick(boxes.hand, "a hundred coins, released a hair apart", () => state.hair !== null, (on) => change({ hair: on ? 1e-6 : null })).id = "hair";
-  const hair = slider(boxes.hand, "the hair, as a part of the spin", "", Math.log10(THINNEST), Math.log10(WIDEST), () => Math.log10(state.hair ?? 1e-6),
+  const hair = slider(boxes.hair, "the hair, as a part of the spin", "", Math.log10(THINNEST), Math.log10(WIDEST), () => Math.log10(state.hair ?? 1e-6),
     (power) => change({ hair: Math.min(Math.max(Number((10 ** power).toPrecision(2)), THINNEST), WIDEST) }), (power) => (10 ** power).toExponential(1).replace(".0e", "e"));
   hair.id = "thinness";
   shows.push(() => (hair.disabled = state.hair === null));

@@ -3,7 +3,8 @@
 const LAST = 120; // milliseconds of the drag that count
 const TAP = 8; // pixels: less is no throw
 const HOLD = 1200; // milliseconds in which a key that is held reaches the strongest throw
-export const SPEEDS = [0.3, 4], SPINS = [5, 150]; // the least and the most [m/s], [rad/s]
+// The least and the most [m/s], [rad/s]: the weakest throw turns once before it is caught.
+export const SPEEDS = [1, 3], SPINS = [32, 100];
 
 const within = (value, [low, high]) => Math.min(Math.max(value, low), high);
 
@@ -55,7 +56,7 @@ export function makeFlick(handle, onThrow, onTap) {
     if (held === null || (event.key !== " " && event.key !== "Enter")) return;
     const strong = strength(event.timeStamp);
     drop();
-    onThrow(thrown(0, 0.4 + 2.4 * strong));
+    onThrow(thrown(0, 0.8 + 1.7 * strong));
   });
   handle.addEventListener("blur", drop);
   const strength = (now) => Math.min(Math.max((now - held) / HOLD, 0), 1);

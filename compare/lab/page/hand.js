@@ -8,6 +8,9 @@ export const TOSSES = 2000;
 const GROUPS = [["release.position.z"], ["release.velocity.x", "release.velocity.y", "release.velocity.z"],
   ["release.angular_velocity.xi", "release.angular_velocity.eta", "release.angular_velocity.zeta"]];
 
+// A coin that is caught is caught at the height of its release.
+const isHeld = (scenario, group) => group === 0 && "ending.caught" in scenario;
+
 const groupOf = (field) => GROUPS.findIndex((group) => group.includes(field));
 
 // Wilson's interval at 99 %, as the package counts shares.
@@ -22,6 +25,7 @@ export function releases(scenario, scatter, count, seed = 0) {
   const normal = normals(seed), found = {};
   const factors = Array.from({ length: count }, () => GROUPS.map(() => 1 + scatter * normal()));
   GROUPS.forEach((group, i) => {
+    if (isHeld(scenario, i)) return;
     for (const field of group) if (scenario[field]) found[field] = Float64Array.from(factors, (factor) => scenario[field] * factor[i]);
   });
   return found;
@@ -29,7 +33,7 @@ export function releases(scenario, scatter, count, seed = 0) {
 
 // Points of the ellipse of `size` standard deviations about a release, over the fields of a map.
 export function ellipse({ x, y, scenario }, scatter, size = 2) {
-  const reach = (field) => (groupOf(field) < 0 ? 0 : size * scatter * scenario[field]);
+  const reach = (field) => (groupOf(field) < 0 || isHeld(scenario, groupOf(field)) ? 0 : size * scatter * scenario[field]);
   const isOne = groupOf(x.field) === groupOf(y.field);
   return Array.from({ length: 97 }, (_, i) => {
     const angle = (i * Math.PI) / 48;

@@ -22,6 +22,7 @@ export function makeHundred(parts, workers, told) {
     try {
       crowd ??= makeCrowd(parts.scene);
     } catch {
+      parts.scene.parentElement.hidden = true;
       told("The hundred coins are not shown: this browser has no WebGL. Their faces are.");
     }
     crowd?.show(tosses);

@@ -26,7 +26,7 @@ const NAMES = { analytic: "this toss", before: "the toss before" };
 const byId = (id) => document.getElementById(id);
 const data = JSON.parse(byId("data").textContent), { outcomes } = data;
 
-let bytes, engine, workers, fields, state, stage, map, controls, hundred, throws, showStop, moveEnergy = () => {}, stopGlide = () => {};
+let bytes, engine, workers, fields, state, stage, map, controls, hundred, throws, showStop, moveEnergy = () => {}, stopGlide = () => {}, ahead = null;
 let tosses = [null, null], tossed = null, wanted = null, isTossing = false, counting = null, pending = null, resting = null;
 
 async function begin() {
@@ -41,10 +41,12 @@ async function begin() {
   hundred = makeHundred({ box: byId("crowd"), scene: byId("hundred"), strip: byId("strip"), up: byId("up"), heads: byId("heads"), parting: byId("parting") }, workers, say);
   stage = makeStage(byId("played"), {
     without: "The map, the sequences and the energies work without it.", labels: NAMES, shown: "The coin that is tossed",
+    isBusy: () => byId("map").ariaBusy === "true",
     onTime(time) {
       markTouch(byId("sequences"), [tosses[0]], time);
       hundred.draw(time);
       moveEnergy(time);
+      if (throws.isInTheAir() && time >= tosses[0].end_time) land();
     },
   });
   map = makeLiveMap({
@@ -63,10 +65,10 @@ async function begin() {
     },
   });
   const box = (name) => byId(`of-${name}`);
-  controls = makeControls({ map: box("map"), release: box("release"), coin: box("coin"), floor: box("floor"), hand: box("hand") }, fields, change);
+  controls = makeControls({ map: box("map"), release: box("release"), coin: box("coin"), floor: box("floor"), hand: box("hand"), hair: box("hair") }, fields, change);
   showStop = makeTour({ list: byId("tour"), box: byId("stop"), back: byId("back"), next: byId("next") }, (stop) => address(stop, fields), visit);
   throws = makeThrows({ handle: byId("flick"), box: byId("challenge"), told: byId("thrown"), curve: byId("curve"), again: byId("again") },
-    { change: (more) => change(more, true), again: () => toss(true), isCaught: () => "ending.caught" in state.scenario, state: () => state });
+    { change: (more) => change(more, true), again: () => toss(true), isCaught: () => "ending.caught" in state.scenario, state: settled });
   listen();
   restore();
   document.body.dataset.ready = "true";
@@ -96,9 +98,10 @@ function restore() {
   let found = data.tour ? STOPS[0].state : { ...START, scenario: data.scenario };
   say("");
   stopGlide();
+  ahead = null;
   if (location.hash.length > 1) {
     try {
-      found = fromAddress(location.hash, fields, (scenario) => engine.fault(scenario));
+      found = fromAddress(location.hash, fields, (scenario) => engine.fault(scenario), data.scenario);
     } catch (problem) {
       say(`The address is no state of the lab: ${problem.message}. Shown is what the page begins with.`);
     }
@@ -110,7 +113,19 @@ function restore() {
 function visit(stop) {
   stopGlide();
   say("");
-  stopGlide = glide(state, stop, fields, (now, isThere) => take(now, isThere, !isThere));
+  ahead = stop;
+  stopGlide = glide(state, stop, fields, (now, isThere) => {
+    if (isThere) ahead = null;
+    take(now, isThere, !isThere);
+  });
+}
+
+// The state, at the stop where it was on the way to one.
+function settled() {
+  stopGlide();
+  if (ahead) take(ahead, false);
+  ahead = null;
+  return state;
 }
 
 function take(found, fresh, isOnTheWay = false) {
@@ -121,9 +136,11 @@ function take(found, fresh, isOnTheWay = false) {
 // Takes what is other in the state; what is no scenario is told, and nothing changes.
 function change(more, fresh = false) {
   stopGlide();
-  const wrong = more.scenario ? engine.fault(more.scenario) : null;
-  if (more.scenario) say(wrong ?? "");
+  ahead = null;
+  const wrong = more.scenario ? engine.fault(more.scenario) : null, isOtherMap = ["x", "y"].some((name) => more[name] && more[name].field !== state[name].field);
+  say(wrong ?? "");
   if (wrong === null) state = { ...state, ...more };
+  if (isOtherMap) state.home = { x: state.x, y: state.y };
   if (wrong === null) show(fresh);
   else controls.show(state);
 }
@@ -193,12 +210,23 @@ function showTosses(fresh) {
   byId("horizon").textContent = one.count ? horizonText([one, null], before, state.after) : "";
   byId("sequences").hidden = one.count === 0;
   moveEnergy = showEnergy(byId("energy"), shown);
-  const impacts = one.count ? ` after ${counted(one.count, "impact")} in` : " after";
-  byId("outcome").textContent = `${one.outcome}${impacts} ${one.end_time.toFixed(4)} s. ${one.ending}`;
+  byId("outcome").textContent = throws.isInTheAir() ? "The coin is in the air." : outcomeText(one);
   document.querySelector(".coin").classList.toggle("crowded", hundred.isShown());
   const played = hundred.longest() ?? null;
-  stage.show(played ? [played] : shown, (played ? [played] : shown).map((each) => each.outcome), fresh);
-  throws.landed(one.outcome);
+  stage.show(played ? [played] : shown, (played ? [played] : shown).map((each) => (throws.isInTheAir() ? "" : each.outcome)), fresh);
+  byId("energy").hidden = hundred.isShown();
+}
+
+function outcomeText({ outcome, count, end_time, ending }) {
+  return `${outcome}${count ? ` after ${counted(count, "impact")} in` : " after"} ${end_time.toFixed(4)} s. ${ending}`;
+}
+
+// What was thrown has come down: nobody knew its face before.
+function land() {
+  const [{ outcome }] = tosses;
+  byId("outcome").textContent = outcomeText(tosses[0]);
+  byId("state-analytic").textContent = outcome;
+  throws.landed(outcome);
 }
 
 // The share of heads of the hand, from its own tosses.

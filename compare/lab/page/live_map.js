@@ -7,6 +7,7 @@ import { ellipse } from "./hand.js";
 
 const PIXEL = 2; // of the map, in those of the screen
 const ULP = 2 ** -52;
+const WIDEST = 8; // times the whole map: the widest window
 const FRAME = 80; // [ms] between two pictures of one map
 
 // `fields` has the word and the unit of each field, `outcomes` { color } by code. `told` has what is called: place
@@ -51,7 +52,8 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, marks, told }) 
   function limits({ left, right, bottom, top }) {
     const { width, height } = view.frame();
     const least = (low, high, size) => (ULP * Math.max(Math.abs(low), Math.abs(high)) * (size / PIXEL)) / (high - low);
-    return { least: Math.max(least(left, right, width), least(bottom, top, height)), most: 1e3 };
+    const home = windowOf(state.home), part = Math.max((right - left) / (home.right - home.left), (top - bottom) / (home.top - home.bottom));
+    return { least: Math.max(least(left, right, width), least(bottom, top, height)), most: WIDEST / part };
   }
 
   // The pixel below a point, of what was tossed last.

@@ -1,7 +1,7 @@
 // The state of the lab, and the address that carries it whole.
 
 import { THINNEST, WIDEST } from "./hundred.js";
-import { NAMES, stopNamed } from "./tour.js";
+import { NAMES, STOPS, stopNamed } from "./tour.js";
 
 export const START = {
   x: { field: "release.angular_velocity.eta", from: 20, to: 60 },
@@ -31,25 +31,31 @@ export function address(state, fields) {
   return `#${found.toString().replaceAll("%3A", ":")}`;
 }
 
-// The state of an address; `fields` are those of a scenario, and `fault` says what is wrong with one, or null.
-export function fromAddress(hash, fields, fault) {
-  const given = new Map(new URLSearchParams(hash.replace(/^#/, ""))), state = { ...START, scenario: {} };
+// The state of an address; `fields` are those of a scenario, `fault` says what is wrong with one, or null, and `own` is
+// that of the page. An address that names a stop of the tour and nothing else is that stop.
+export function fromAddress(hash, fields, fault, own) {
+  const given = new Map(new URLSearchParams(hash.replace(/^#/, "")));
   const taken = (name) => {
     const text = given.get(name);
     given.delete(name);
     return text;
   };
+  const tour = taken("tour"), stop = tour === undefined ? null : STOPS.find(({ name }) => name === stopNamed(tour));
+  if (stop === undefined) throw new StateError(`tour: ${shortened(tour)}; accepted: ${NAMES.join(", ")}`);
+  if (stop && !given.size) return stop.state;
+  const state = { ...START, scenario: own, tour: stop && stop.name };
   for (const name of ["x", "y"]) {
     const text = taken(name);
     if (text !== undefined) state[name] = axisOf(name, text, fields);
   }
   if (state.x.field === state.y.field) throw new StateError(`y: ${state.y.field}; accepted: another field than that of x`);
-  const map = taken("map"), touch = map === undefined ? START.after + 1 : Number(map);
+  const map = taken("map"), touch = Number(map);
   if (map === "final") state.after = null;
+  else if (map === undefined) state.after = START.after;
   else if (Number.isInteger(touch) && touch >= 1 && touch <= MOST_TOUCH) state.after = touch - 1;
   else throw new StateError(`map: ${shortened(map)}; accepted: final, or the number of a touch from 1 to ${MOST_TOUCH}`);
   state.trust = taken("trust") === "1";
-  const hand = taken("hand"), hair = taken("hair"), before = taken("before"), tour = taken("tour");
+  const hand = taken("hand"), hair = taken("hair"), before = taken("before");
   if (hand !== undefined) state.hand = within("hand", hand, 0, 0.3);
   if (hair !== undefined) state.hair = within("hair", hair, THINNEST, WIDEST);
   if (before !== undefined) {
@@ -57,10 +63,7 @@ export function fromAddress(hash, fields, fault) {
     if (place.length !== 2) throw new StateError(`before: ${shortened(before)}; accepted: two numbers`);
     state.before = place.map((text) => within("before", text, -1e9, 1e9));
   }
-  if (tour !== undefined) {
-    state.tour = stopNamed(tour);
-    if (!NAMES.includes(state.tour)) throw new StateError(`tour: ${shortened(tour)}; accepted: ${NAMES.join(", ")}`);
-  }
+  if (given.size) state.scenario = {};
   for (const [field, text] of given) {
     if (!(field in fields)) throw new StateError(`${shortened(field)}: no field of a scenario`);
     if (!NUMBER.test(text) && !WORD.test(text)) throw new StateError(`${field}: ${shortened(text)}; accepted: a number or a word`);

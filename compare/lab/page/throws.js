@@ -18,7 +18,7 @@ export function makeThrows({ handle, box, told, curve, again }, lab) {
     const { scenario } = lab.state();
     waiting = thrown;
     lab.change({ scenario: changed(scenario, { [SPEED]: thrown.speed, [SPIN]: thrown.spin }), before: null });
-  }, lab.again);
+  }, () => lab.again());
   again.addEventListener("click", () => {
     throws = [];
     lab.change({ hand: null });
@@ -30,7 +30,9 @@ export function makeThrows({ handle, box, told, curve, again }, lab) {
     if (lab.isCaught()) throws = [...throws, { ...waiting, outcome }];
     waiting = null;
     show();
-    if (throws.length && longestRow(throws) >= ROW && throws.at(-1).outcome === "heads") lab.change({ hand: Math.min(handOf(throws).scatter, MOST) });
+    if (longestRow(throws) < ROW || throws.at(-1)?.outcome !== "heads") return;
+    const { speed, spin, scatter } = handOf(throws);
+    lab.change({ scenario: changed(lab.state().scenario, { [SPEED]: speed, [SPIN]: spin }), hand: Math.min(scatter, MOST) });
   }
 
   function show() {
@@ -49,7 +51,7 @@ export function makeThrows({ handle, box, told, curve, again }, lab) {
     const x = (turns) => LEFT + (Math.min(turns, TURNS) / TURNS) * (WIDE - LEFT - 10), y = (part) => 8 + (1 - part) * (HIGH - FOOT - 8);
     const points = Array.from({ length: 101 }, (_, i) => (i * TURNS) / 100).map((turns) => `${x(turns).toFixed(1)},${y(kellersCurve(turns)).toFixed(1)}`);
     const text = (words, at, place, anchor) => part("text", { x: at, y: place, "text-anchor": anchor }, words);
-    const texts = [text("100 %", LEFT - 4, y(1) + 14, "end"), text("50 %", LEFT - 4, y(0.5) + 4, "end"),
+    const texts = [text("100 %", LEFT - 4, y(1) + 4, "end"), text("50 %", LEFT - 4, y(0.5) + 4, "end"),
       text("scatter of the turns", (LEFT + WIDE) / 2, HIGH - 2, "middle"), text("0", LEFT, HIGH - 12, "middle"), text(String(TURNS), x(TURNS), HIGH - 12, "middle")];
     const axis = part("path", { d: `M${LEFT} 4V${y(0)}H${WIDE - 10}M${LEFT} ${y(0.5)}H${WIDE - 10}`, class: "axis" });
     curve.replaceChildren(axis, part("polyline", { points: points.join(" "), class: "line" }), ...texts,
@@ -58,6 +60,7 @@ export function makeThrows({ handle, box, told, curve, again }, lab) {
 
   return {
     landed, show,
+    isInTheAir: () => waiting !== null,
     // Where the throws lie on a map of spin and speed.
     marks: () => (lab.isCaught() ? throws.map(({ spin, speed, outcome }) => ({ values: { [SPIN]: spin, [SPEED]: speed }, color: outcome === "heads" ? HEADS : TAILS })) : []),
   };

@@ -12,26 +12,27 @@ const THROWN = { ...PLACE, "release.position.z": 1, "release.velocity.z": 2, "re
 // Name, title, sentences, axes across and up, impacts before the touch that is mapped, scenario, and what else is other.
 const TOLD = [
   ["caught", "Caught", "Not if you catch it. A coin that is caught where it was released shows the face that its turns decide: " +
-    "spin times speed upwards over π g, from a sixth of a turn at the lower left to 9.7 at the upper right. " +
+    "their number is spin times speed upwards over π times gravity, from a sixth of a turn at the lower left to 9.7 at the upper right. " +
     "So heads and tails lie in bands between hyperbolas, and the same throw always gives the same face. Throw it: can you land three heads in a row?",
     ["release.angular_velocity.eta", 10, 100], ["release.velocity.z", 0.5, 3], null, { ...COIN, "coin.thickness": 0, ...FLOOR, ...THROWN }],
   ["touch", "One touch", "Now it falls onto a floor. At the first touch the face changes 3 to 5 times along a row of the map. " +
     "The stripes are wide: who repeats spin and height within 2 % still repeats the face.", SPIN, HEIGHT, 0, { ...COIN, ...FLOOR, ...FALL }],
-  ["bounces", "A bounce", "At the second touch, after a single bounce, the face changes more than a hundred times along a row. " +
-    "A bounce turns a small difference into a large one. The stripes are still there, only thinner: zoom in, and see them apart.", SPIN, HEIGHT, 1, { ...COIN, ...FLOOR, ...FALL }],
-  ["hundred", "A hundred coins", "A hundred coins are released together. Their spins differ by a millionth at most. All show the same face up to touch 5, and part at touch 6. " +
+  ["bounces", "A bounce", "At the second touch, after a single bounce, the face changes hundreds of times along a row, more often than the map can draw. " +
+    "A bounce turns a small difference into a large one. The stripes are still there, only thinner: press + six times, and see them apart.",
+    SPIN, HEIGHT, 1, { ...COIN, ...FLOOR, ...FALL, "release.angular_velocity.eta": 50 }],
+  ["hundred", "A hundred coins", "A hundred coins are released together. Each spin is off by a millionth at most. All show the same face up to touch 5, and part at touch 6. " +
     "Make the hair a thousand times thinner: they part only one touch later, at a billionth of a millionth never, for there the numbers of the computer end.",
     SPIN, HEIGHT, 2, { ...COIN, ...FLOOR, ...FALL }, { hair: 1e-6 }],
   ["restitution", "A softer floor", "The final face, over the restitution χ of the floor: the part of its speed that a bounce gives back. On a floor that gives nothing back the face changes " +
-    "a dozen times or so along the row. At 0.3 it changes more than a hundred times, and at 0.6 more often than the map has columns.",
+    "a dozen times or so along the row. At 0.3 it changes more than a hundred times, more often than the map can draw.",
     SPIN, ["floor.restitution", 0, 0.9], null, { ...COIN, ...FLOOR, ...FALL, "floor.restitution": 0.3 }],
   ["air", "Air", "The face at the third touch, in air. Air slows the coin by little, and still a third of the tosses show another face than in vacuum. " +
     "Untick the air under Floor and air, and see the stripes move.", SPIN, HEIGHT, 2, { ...COIN, ...AIR, ...FLOOR, ...FALL }],
   ["imperfect", "An imperfect coin", "The mass centre of this coin lies 1.4 mm aside: the pink pin. At the first touch one toss in thirty shows another face " +
     "than that of the perfect coin, at the third touch, shown here, nearly a third of them.", SPIN, HEIGHT, 2, { ...COIN, ...ASIDE, ...AIR, ...FLOOR, ...FALL }],
-  ["hand", "A hand", "A hand repeats height and spin within 2 %: the dashed ellipse. It reaches over stripes of both faces, so heads come in about half of its tosses. " +
+  ["hand", "A hand", "A hand repeats height and spin within 2 %: the dashed ellipse. In the end it holds tosses of both faces side by side, so heads come in about half of its tosses. " +
     "Nothing here is random but the hand. Choose face at touch 1 under Map: there nearly all of its tosses still show heads.",
-    SPIN, HEIGHT, null, { ...COIN, ...AIR, ...FLOOR, ...FALL, "release.angular_velocity.eta": 27 }, { hand: 0.02 }],
+    ["release.angular_velocity.eta", 23.5, 30.5], ["release.position.z", 0.35, 0.45], null, { ...COIN, ...AIR, ...FLOOR, ...FALL, "release.angular_velocity.eta": 27 }, { hand: 0.02 }],
 ];
 
 // The stops that an address of an earlier release names by their numbers.

@@ -15,7 +15,7 @@ export function makePlayer(onTime) {
     time = Math.min(time + (Math.max(now - (last ?? now), 0) / 1000) * Number(speed.value), end);
     last = now;
     if (time >= end) stop();
-    told(before);
+    told(playing ? before : null);
     if (playing) requestAnimationFrame(tick);
   }
 

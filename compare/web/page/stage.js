@@ -5,6 +5,8 @@ import { makePlayer } from "./player.js";
 import { makeScene } from "./scene.js";
 import { makeSound } from "./sound.js";
 
+const SLOW = { gap: 34, rest: 200 }; // [ms] between two pictures: slow from here on, and then while the page is busy
+
 const MARKUP = `
 <div class="stage" id="stage">
   <canvas id="coins" role="img"></canvas>
@@ -25,8 +27,9 @@ const MARKUP = `
 </div>`;
 
 // Fills a box with the stage. `hint` stands in it until there are tosses; `without` says what works without WebGL.
-// `labels` names the coins by the engine of their tosses, and `shown` says what the picture shows.
-export function makeStage(box, { hint = "", without, labels = LABELS, shown = "The coin as tossed by each engine", onTime }) {
+// `labels` names the coins by the engine of their tosses, and `shown` says what the picture shows. While `isBusy` says that
+// the page computes something else, a browser that draws slowly, without a graphics card, draws few pictures.
+export function makeStage(box, { hint = "", without, labels = LABELS, shown = "The coin as tossed by each engine", isBusy = () => false, onTime }) {
   box.innerHTML = MARKUP;
   const byId = (id) => document.getElementById(id);
   byId("coins").setAttribute("aria-label", shown);
@@ -51,7 +54,13 @@ export function makeStage(box, { hint = "", without, labels = LABELS, shown = "T
     byId("stage").classList.add("empty");
   }
   const sound = makeSound(byId("sound"));
+  let drawn = 0, last = 0, gap = 0; // of a picture to the next frame
   const player = makePlayer((time, before) => {
+    const now = performance.now();
+    if (before !== null && drawn === last) gap = 0.8 * gap + 0.2 * Math.min(now - last, SLOW.rest);
+    last = now;
+    if (before !== null && gap > SLOW.gap && isBusy() && now - drawn < SLOW.rest) return;
+    drawn = now;
     scene?.draw(time);
     if (before !== null) sound.play(before, time);
     onTime(time);

@@ -65,7 +65,8 @@ export class Workers {
 
   /** A map, coarse pixels first; see engine.d.ts. */
   async map(scenario, x, y, { after = null, trust = false } = {}, onPart, signal) {
-    const row = this.engine.row(changed(scenario, { [x.field]: x.start, [y.field]: y.start }));
+    // Pixels that are no scenario are answered as such.
+    const own = ({ field, start }) => ({ [field]: scenario[field] ?? start }), row = this.engine.row(changed(scenario, { ...own(x), ...own(y) }));
     const asked = { row, x, y, after, trust }, kind = `${after} ${trust}`;
     return this.tossMap ? this.#mapThere(asked, kind, onPart, signal) : this.#mapHere(asked, kind, onPart, signal);
   }
