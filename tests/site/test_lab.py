@@ -238,6 +238,32 @@ def test_one_zooms_to_where_doubles_end(page, lab_path):
     assert page.complaints() == []
 
 
+def test_beyond_a_field_s_bounds_the_map_is_grey(page, lab_path):
+    page.open(f"{lab_path.as_uri()}#tour=restitution", width=420)
+    page.wait_for(WHOLE)
+    untossed = page.value("getComputedStyle(document.documentElement).getPropertyValue('--untossed').trim()")
+    grey = [int(untossed[at : at + 2], 16) for at in (1, 3, 5)]
+
+    def part():
+        # The depth of the zoom stands in the upper right corner.
+        return np.mean((picture(page, "map")[12:-54, 76:176] == grey).all(axis=2))
+
+    assert part() == 0
+    page.value("document.getElementById('zoom-out').click()")
+    page.wait_for("document.getElementById('map').ariaBusy === 'true'")
+    page.wait_for(WHOLE)
+    # About the coin at 0.3, from -0.3 to 1.5; 0 to 1 is tossed.
+    assert part() == pytest.approx(0.8 / 1.8, abs=0.05)
+    assert page.text("problem") == ""
+
+
+def test_an_address_of_a_stop_alone_is_that_stop(kept, lab_path):
+    kept.open(f"{lab_path.as_uri()}#tour=hand", width=420)
+    assert kept.text("stop").startswith("8. A hand.")
+    assert kept.text("problem") == ""
+    kept.wait_for(COUNTED)
+
+
 def test_two_fingers_zoom(page, lab_path):
     page.open(lab_path.as_uri(), width=420, height=1900)
     page.wait_for(WHOLE)

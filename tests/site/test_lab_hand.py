@@ -101,6 +101,27 @@ def test_a_key_that_is_held_longer_throws_harder(caught):
     assert caught.complaints() == []
 
 
+def test_the_face_of_a_throw_is_told_when_it_has_come_down(page, lab_path):
+    page.open(f"{lab_path.as_uri()}#tour=caught", moving=True)
+    page.wait_for(TOSSED)
+    page.value("document.getElementById('flick').focus()")
+    for kind in ("keyDown", "keyUp"):
+        page.call("Input.dispatchKeyEvent", type=kind, key=" ")
+    page.wait_for("document.getElementById('outcome').textContent === 'The coin is in the air.'")
+    assert page.text("state-analytic") == ""
+    page.wait_for(f"{THROWN} !== ''")
+    (face,), _ = throws(page)
+    assert page.text("state-analytic") == {"H": "heads", "T": "tails"}[face]
+    assert page.text("outcome").startswith(page.text("state-analytic"))
+
+
+def test_a_hand_that_catches_scatters_no_height(caught):
+    stop = "import('tour.js').then(({ STOPS }) => STOPS[0].state.scenario)"
+    asked = "([one, { releases }]) => Object.keys(releases(one, 0.02, 5))"
+    fields = caught.value(f"Promise.all([{stop}, import('hand.js')]).then({asked})")
+    assert set(fields) == {"release.velocity.z", "release.angular_velocity.eta"}
+
+
 def test_the_fastest_and_the_slowest_flick_are_scenarios(caught):
     limits = caught.value("import('flick.js').then(({ SPEEDS, SPINS }) => [SPEEDS, SPINS])")
     for flick in ("0, 0", "0, 1e9", "-1e9, -1e9", "1e9, 0"):

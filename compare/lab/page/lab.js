@@ -138,7 +138,7 @@ function change(more, fresh = false) {
   stopGlide();
   ahead = null;
   const wrong = more.scenario ? engine.fault(more.scenario) : null, isOtherMap = ["x", "y"].some((name) => more[name] && more[name].field !== state[name].field);
-  say(wrong ?? "");
+  if (more.scenario || isOtherMap) say(wrong ?? "");
   if (wrong === null) state = { ...state, ...more };
   if (isOtherMap) state.home = { x: state.x, y: state.y };
   if (wrong === null) show(fresh);
