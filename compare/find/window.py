@@ -19,9 +19,10 @@ from cointoss.models.scenario import Scenario
 FIELDS = {
     name: unit
     for name, unit in NUMBERS.items()
-    if name != "ending.max_impacts" and not name.startswith("release.quaternion.")
+    if name not in ("ending.max_impacts", "ending.until") and not name.startswith("release.quaternion.")
 }
-"""What may vary, and its unit: not a number of impacts, and no component of what has norm 1."""
+"""What may vary, and its unit: not a number of impacts, nothing after the toss, and no component of what has
+norm 1."""
 AT_FIRST = 4
 """Touches that are looked at of every toss; then of those that agree so far twice as many, and so on."""
 

@@ -48,6 +48,7 @@ WITHOUT_USE: list[tuple[str, Any]] = [
     ("air.exponent", 1.0),  # of no air
     ("floor.friction", 0.4),  # of another law
     ("release.angles", [0.0, 0.0, 0.0]),  # as by default
+    ("ending.until", 3.0),  # after the proof
 ]
 REFUSED: list[tuple[str, Any]] = [
     ("coin.thickness", 1e-6),
