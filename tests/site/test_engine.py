@@ -92,21 +92,35 @@ def test_memory_is_given_back(loaded):
         ("engine.toss(S).path([99])", "times: 99 at 0; accepted: increasing from 0 to "),
         ("workers.toss({ ...S, 'coin.radius': -1 }, 10)", "coin.radius = -1: accepted: a number >= 1e-09"),
         (
-            "workers.map(S, { field: 'coin.radius', start: -1, stop: 1, count: 5 }, Y, {}, () => {})",
+            "workers.map({ ...S, 'coin.radius': -1 }, X, Y, {}, () => {})",
             "coin.radius = -1: accepted: a number >= 1e-09",
         ),
         (
             "workers.map(S, Y, { ...Y, field: 'floor.contact' }, {}, () => {})",
-            "floor.contact = 0.2: accepted: one of",
+            "floor.contact: accepted: a field that is a number",
         ),
     ],
 )
 def test_what_cannot_be_is_told_in_a_line(loaded, asked, told):
     given = f"const S = {written(cointoss.load('fig24a'))};"
-    given += "const Y = { field: 'release.position.z', start: 0.2, stop: 0.6, count: 5 };"
+    given += (
+        f"const X = {RESTITUTIONS}, Y = {{ field: 'release.position.z', start: 0.2, stop: 0.6, count: 5 }};"
+    )
     found = loaded.value(f"(() => {{ {given} return message(async () => {asked}); }})()")
     assert found.startswith(told)
     assert "\n" not in found
+
+
+RESTITUTIONS = "{ field: 'floor.restitution', start: -0.5, stop: 1.5, count: 5 }"
+
+
+def test_pixels_beyond_a_field_s_bounds_are_no_scenario(loaded):
+    case = written(cointoss.load("fig24a").replace("ending.max_impacts", 3))
+    spins = "{ field: 'release.angular_velocity.eta', start: 20, stop: 60, count: 2 }"
+    take = "({ pixels, codes }) => pixels.forEach((pixel, i) => (found[pixel] = codes[i]))"
+    asked = f"await workers.map({case}, {RESTITUTIONS}, {spins}, {{}}, {take})"
+    found = loaded.value(f"(async () => {{ const found = []; {asked}; return found; }})()")
+    assert np.array_equal(np.reshape(found, (2, 5)) == -2, [[True, False, False, False, True]] * 2)
 
 
 @pytest.mark.parametrize(

@@ -49,6 +49,7 @@ export class Workers {
 
   /**
    * Toss a map: some pixels that are spread over it first, as many as take about 60 ms, then those between. Each pixel is tossed once, but by a server.
+   * A pixel beyond its field's bounds is answered as no scenario.
    * @param onPart is called with each part
    * @param signal ends it: no further part is tossed, and the promise is rejected with the signal's reason
    */
