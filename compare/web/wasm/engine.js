@@ -15,9 +15,8 @@ export class EngineError extends Error {}
 
 /** The bytes of engine.wasm from a page's data, where they stand by gzip and base64. */
 export async function unpacked(text) {
-  const packed = Uint8Array.from(atob(text), (sign) => sign.charCodeAt(0));
-  const bytes = new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip")));
-  return new Uint8Array(await bytes.arrayBuffer());
+  const packed = new Blob([Uint8Array.from(atob(text), (sign) => sign.charCodeAt(0))]).stream();
+  return new Uint8Array(await new Response(packed.pipeThrough(new DecompressionStream("gzip"))).arrayBuffer());
 }
 
 /** Load engine.wasm; `version` is that of the page, if it asks for its own. */
@@ -274,8 +273,7 @@ export function changed(scenario, values) {
 
 // The times after the end of a toss at which a flight follows a flight: the coin touches and bounces.
 function bouncesAfter(end, path, wide) {
-  const starts = Array.from({ length: path.length / wide }, (_, i) => ({ time: path[i * wide], flies: path[i * wide + 1] === 0 }));
-  return starts.filter(({ time, flies }, i) => time > end && flies && starts[i - 1].flies).map(({ time }) => time);
+  return Array.from({ length: path.length / wide }, (_, i) => ({ time: path[i * wide], flies: path[i * wide + 1] === 0 })).filter(({ time, flies }, i, starts) => time > end && flies && starts[i - 1].flies).map(({ time }) => time);
 }
 
 // An array of numbers as the engine takes it: its size, the bytes of a number, its place, shape and strides.
