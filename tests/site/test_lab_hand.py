@@ -30,6 +30,16 @@ def given(page):
     ]
 
 
+def throw_by_key(page, held):
+    """Hold the space bar for a time [s], and wait until the coin has come down."""
+    before = page.value(THROWN)
+    page.value("document.getElementById('flick').focus()")
+    page.call("Input.dispatchKeyEvent", type="keyDown", key=" ")
+    time.sleep(held)
+    page.call("Input.dispatchKeyEvent", type="keyUp", key=" ")
+    page.wait_for(f"{THROWN} !== {json.dumps(before)}")
+
+
 def middle(page):
     left, top, width, height = box(page, "flick")
     return left + width / 2, top + height / 2
@@ -64,14 +74,9 @@ def test_a_flick_throws_the_coin_and_its_face_is_kellers(caught):
 
 
 def test_a_throw_stays_as_a_dot_on_the_map(caught):
-    caught.value("document.getElementById('flick').focus()")
     places = []
     for held in (0.5, 0.05):
-        before = caught.value(THROWN)
-        caught.call("Input.dispatchKeyEvent", type="keyDown", key=" ")
-        time.sleep(held)
-        caught.call("Input.dispatchKeyEvent", type="keyUp", key=" ")
-        caught.wait_for(f"{THROWN} !== {json.dumps(before)}")
+        throw_by_key(caught, held)
         places.append(given(caught))
     caught.wait_for(WHOLE)
     (speed, spin), last = places
@@ -88,14 +93,9 @@ def test_a_throw_stays_as_a_dot_on_the_map(caught):
 
 
 def test_a_key_that_is_held_longer_throws_harder(caught):
-    caught.value("document.getElementById('flick').focus()")
     found = []
     for held in (0.05, 1.5):
-        before = caught.value(THROWN)
-        caught.call("Input.dispatchKeyEvent", type="keyDown", key=" ")
-        time.sleep(held)
-        caught.call("Input.dispatchKeyEvent", type="keyUp", key=" ")
-        caught.wait_for(f"{THROWN} !== {json.dumps(before)}")
+        throw_by_key(caught, held)
         found.append(throws(caught)[1])
     assert found[0] < found[1]
     assert caught.complaints() == []
