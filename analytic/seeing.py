@@ -47,7 +47,7 @@ def see_each(rows: Table, limits: ContactLimits, times: Table, found: Sightings)
     """Toss each of many scenarios, and write what it shows into what is found.
 
     Args:
-        rows: of their fields, each a scenario's, (n, 47).
+        rows: of their fields, each a scenario's, (n, 54).
         limits: of sustained contact.
         times: when states are asked for, rising, (n, m) [s]; before and after the toss its ends count.
         found: where it goes. Where no times are asked for, the scenarios end with its touches at the latest.

@@ -19,7 +19,7 @@ def sightings(
     """Return what tosses show, each as `toss` makes it.
 
     Args:
-        rows: of the scenarios, in the order of `models.rows.FIELDS`, (n, 47).
+        rows: of the scenarios, in the order of `models.rows.FIELDS`, (n, 54).
         times: when their states are asked for, rising, (n, m) [s]; before and after a toss its ends count.
         most: how many touches are told; where no times are asked for, no scenario has more impacts.
         settings: of the engine.

@@ -20,7 +20,7 @@ def toss_rows(coin: MujocoCoin, plastic: MujocoCoin, budgets: Budgets, rows: Tab
         coin: of the rows, which differ in release and ending alone.
         plastic: the same, for touches up to the threshold of restitution.
         budgets: the most steps in flight and in sustained contact.
-        rows: of the scenarios, (n, 47).
+        rows: of the scenarios, (n, 54).
         answers: where they go, (n, 7), see `cointoss.models.answers.ANSWER`; the last two are not written.
     """
     impacts, y = np.zeros(1, IMPACT_ROW), np.empty(13)

@@ -70,7 +70,7 @@ def toss_rows(
     one toss: docs/MUJOCO.md says what error they give.
 
     Args:
-        rows: of the scenarios, in the order of `models.fields.FIELDS`, (n, 47). Each must be a scenario's:
+        rows: of the scenarios, in the order of `models.fields.FIELDS`, (n, 54). Each must be a scenario's:
             `cointoss.models.batch.refused` finds those that are none.
         settings: how MuJoCo realises the floor, and how finely it steps.
         trust: this engine finds it for one `toss` alone: None.

@@ -30,7 +30,7 @@ _INERTIA = [PLACE[field] for field in FIELDS if field.startswith("coin.inertia."
 
 
 def rows_of(scenario: Scenario, n: int, changed: Mapping[str, ArrayLike] | None = None) -> Array:
-    """Return n copies of a scenario as rows, some of whose fields have other values, (n, 47).
+    """Return n copies of a scenario as rows, some of whose fields have other values, (n, 54).
 
     The angles and the quaternion of a release replace each other. Nothing is checked, see `refused`.
 
@@ -66,7 +66,7 @@ def checked_table(name: str, table: ArrayLike, columns: int) -> Array:
 
 
 def rows_from_states(scenario: Scenario, states: Array) -> Array:
-    """Return a scenario released in each of many states, as rows, (n, 47).
+    """Return a scenario released in each of many states, as rows, (n, 54).
 
     Args:
         scenario: coin, air, floor and ending.
@@ -126,7 +126,7 @@ def refused(rows: Array, changed: Collection[str]) -> NDArray[np.bool_]:
     """Return which rows are no scenario, (n,).
 
     Args:
-        rows: of a scenario, but for some fields, (n, 47).
+        rows: of a scenario, but for some fields, (n, 54).
         changed: these fields, whose numbers may be any.
     """
     wrong = np.zeros(len(rows), dtype=bool)

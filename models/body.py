@@ -43,6 +43,9 @@ class Body(NamedTuple):
     sliding_share: float
     """The share of `cointoss.models.drag.sliding_share`; it is used where `drag` is."""
     gravity: float
+    """The part of g along the floor's normal, downwards [m/s²]."""
+    downhill: float
+    """The part of g along x, 0 on a level floor [m/s²]."""
 
 
 class OwnCode(NamedTuple):
@@ -70,10 +73,17 @@ class Rules(NamedTuple):
     own: OwnCode
     restitution: float
     restitution_threshold: float
+    restitution_speed: float
+    restitution_exponent: float
+    restitution_viscous: float
     restitution_kind: Annotated[RestitutionKind, int]
     friction: float
     rolling_friction: float
     pivoting_friction: float
+    contour_friction: float
+    contour_viscosity: float
+    viscosity: float
+    """Of the air in the gap under a nearly flat coin [Pa s]."""
     test: Annotated[EndingTest, int]
     max_impacts: int
     max_time: float

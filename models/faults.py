@@ -49,6 +49,7 @@ class Fault(IntEnum):
     PIVOTING = 18
     CAUGHT = 19
     ROW = 20
+    CONTOUR_LAW = 21
 
 
 _RESISTANCE_LAW = (
@@ -89,6 +90,7 @@ ACCEPTED = {
     ),
     Fault.ROLLING_LAW: ("floor.rolling_friction", _RESISTANCE_LAW),
     Fault.PIVOTING_LAW: ("floor.pivoting_friction", _RESISTANCE_LAW),
+    Fault.CONTOUR_LAW: ("floor.contour_friction", _RESISTANCE_LAW),
     Fault.NORM: (
         "release.quaternion",
         "four numbers of norm 1 within 1e-3 (the norm here is {limit:.6g})",
@@ -159,14 +161,18 @@ def fault_of_inertia(cylinder: Cylinder, J: Matrix, is_given: bool) -> FoundFaul
 
 
 @compiled
-def fault_of_floor(law: ContactLaw, kind: RestitutionKind, rolling: float, pivoting: float) -> FoundFault:
-    """Return what is wrong with a floor's kind of restitution and its resistances [m]."""
+def fault_of_floor(
+    law: ContactLaw, kind: RestitutionKind, rolling: float, pivoting: float, contour: float
+) -> FoundFault:
+    """Return what is wrong with a floor's kind of restitution and its resistances."""
     if kind == RestitutionKind.ENERGETIC and not may_be_energetic(law):
         return FoundFault(Fault.KIND, 0.0)
     if rolling > 0 and not is_followed(law):
         return FoundFault(Fault.ROLLING_LAW, 0.0)
     if pivoting > 0 and not is_followed(law):
         return FoundFault(Fault.PIVOTING_LAW, 0.0)
+    if contour > 0 and not is_followed(law):
+        return FoundFault(Fault.CONTOUR_LAW, 0.0)
     return _NOTHING
 
 

@@ -1,5 +1,6 @@
 """Makes what a toss needs to know of a scenario's numbers."""
 
+import math
 from typing import NamedTuple
 
 from cointoss.models.body import AirLaw, Body
@@ -42,7 +43,9 @@ def moved_inertia(cylinder: Cylinder, center: Vector) -> Matrix:
 
 
 @compiled
-def make_body(cylinder: Cylinder, center: Vector, J: Matrix, air: AirLaw, gravity: float) -> Body:
+def make_body(
+    cylinder: Cylinder, center: Vector, J: Matrix, air: AirLaw, gravity: float, slope: float
+) -> Body:
     """Return the coin in its air and gravity.
 
     Args:
@@ -51,6 +54,7 @@ def make_body(cylinder: Cylinder, center: Vector, J: Matrix, air: AirLaw, gravit
         J: inertia about C, body frame [kg m²].
         air: its resistance.
         gravity: g [m/s²].
+        slope: the floor's angle to the horizontal [rad].
     """
     low, _, high = principal_moments(J)
     drag = linear_drag(cylinder.radius, cylinder.thickness, air.normal, air.tangential)
@@ -66,7 +70,8 @@ def make_body(cylinder: Cylinder, center: Vector, J: Matrix, air: AirLaw, gravit
         air,
         drag,
         sliding_share(drag, norm(center)),
-        gravity,
+        gravity * math.cos(slope),
+        gravity * math.sin(slope),
     )
 
 

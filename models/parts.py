@@ -133,7 +133,7 @@ _AS_WORD = PlainSerializer(str, when_used="json")
 _ZERO = (0.0, 0.0, 0.0)
 BODY = ("xi", "eta", "zeta")
 """The names of the body axes."""
-RESISTANCES = ("rolling_friction", "pivoting_friction")
+RESISTANCES = ("rolling_friction", "pivoting_friction", "contour_friction", "contour_viscosity")
 """The fields of a floor that resist the motion of a coin in sustained contact."""
 
 
@@ -277,6 +277,8 @@ class Air(Part):
     """λ_n, of pressure [kg m^(-2-b) s^(b-1)]."""
     tangential: Annotated[float, _not_negative, Label("friction λ_τ of the air", unit=lambda_unit(0))] = 0.0
     """λ_τ, of friction [kg m^(-2-b) s^(b-1)]."""
+    viscosity: Annotated[float, _quantity("Pa*s"), _not_negative, Label("viscosity of the air")] = 0.0
+    """η, of the air that a nearly flat coin in sustained contact squeezes out of the gap [Pa s]."""
 
     @field_validator("normal", "tangential", mode="before")
     @classmethod
@@ -296,6 +298,14 @@ class Floor(Part):
         float, _quantity("m/s"), _not_negative, Label("restitution threshold")
     ] = 0.0
     """Normal speed of approach up to which a touch is plastic, χ = 0 [m/s]."""
+    restitution_speed: Annotated[float, _quantity("m/s"), _size, Label("speed v₀ of restitution")] = 1.0
+    """v₀, the normal speed of approach at which χ is `restitution` [m/s]."""
+    restitution_exponent: Annotated[Number, Field(ge=0, le=1), Label("exponent p of restitution")] = 0.0
+    """p: at the speed v of approach χ is min(1, χ (v/v₀)^-p); 1/4 of plastic, 0 of constant restitution."""
+    restitution_viscous: Annotated[
+        float, _quantity("s**0.2*m**-0.2"), _not_negative, Label("viscous loss a of restitution")
+    ] = 0.0
+    """a of a viscoelastic contact, whose χ is 1 - a v^(1/5) + O(v^(2/5)) [(s/m)^(1/5)]; both factors act."""
     contact: Annotated[ContactLaw, BeforeValidator(_named(ContactLaw)), _AS_WORD]
     """The contact law."""
     friction: Annotated[Number, _not_negative, Label("friction μ")] = 0.0
@@ -304,6 +314,14 @@ class Floor(Part):
     """δ: the moment against rolling in sustained contact, over the normal force [m]."""
     pivoting_friction: Annotated[float, _quantity("m"), _not_negative, Label("pivoting friction p")] = 0.0
     """p: the moment against pivoting about the vertical, over the normal force [m]."""
+    contour_friction: Annotated[float, _quantity("m"), _not_negative, Label("contour friction c")] = 0.0
+    """c: the power lost over the normal force, as the contact point runs round the rim at 1 rad/s [m]."""
+    contour_viscosity: Annotated[
+        float, _quantity("m*s"), _not_negative, Label("contour viscosity", unit="m*s")
+    ] = 0.0
+    """The power lost over the normal force and the square of that rate [m s]."""
+    slope: Annotated[float, _quantity("rad"), Field(ge=0, le=1.5), Label("slope of the floor")] = 0.0
+    """The floor's angle to the horizontal [rad]: x is downhill, and z the floor's normal."""
     restitution_kind: Annotated[RestitutionKind, BeforeValidator(_named(RestitutionKind)), _AS_WORD] = (
         RestitutionKind.KINEMATIC
     )
@@ -312,7 +330,11 @@ class Floor(Part):
     @model_validator(mode="after")
     def _of_its_law(self) -> Self:
         found = fault_of_floor(
-            self.contact, self.restitution_kind, self.rolling_friction, self.pivoting_friction
+            self.contact,
+            self.restitution_kind,
+            self.rolling_friction,
+            self.pivoting_friction,
+            max(self.contour_friction, self.contour_viscosity),
         )
         refuse(found, self, contact=str(self.contact))
         return self

@@ -150,7 +150,7 @@ def body_of(row: Array, exponent: float | None) -> Body:
     """
     air = AirLaw(exponent, row[AT.air_normal], row[AT.air_tangential])
     center = three(row, AT.coin_center_of_mass_xi)
-    return make_body(cylinder_of(row), center, inertia_of(row), air, row[AT.gravity])
+    return make_body(cylinder_of(row), center, inertia_of(row), air, row[AT.gravity], row[AT.floor_slope])
 
 
 @compiled
@@ -170,10 +170,16 @@ def rules_of(row):
         own=NO_CODE,
         restitution=chi,
         restitution_threshold=row[AT.floor_restitution_threshold],
+        restitution_speed=row[AT.floor_restitution_speed],
+        restitution_exponent=row[AT.floor_restitution_exponent],
+        restitution_viscous=row[AT.floor_restitution_viscous],
         restitution_kind=kind,
         friction=row[AT.floor_friction],
         rolling_friction=row[AT.floor_rolling_friction],
         pivoting_friction=row[AT.floor_pivoting_friction],
+        contour_friction=row[AT.floor_contour_friction],
+        contour_viscosity=row[AT.floor_contour_viscosity],
+        viscosity=row[AT.air_viscosity],
         test=int(row[AT.ending_test]),
         max_impacts=most_impacts(law, kind, chi) if math.isnan(most) else int(most),
         max_time=row[AT.ending_max_time],
@@ -222,6 +228,7 @@ def fault_of_parts(row):
             int(row[AT.floor_restitution_kind]),
             row[AT.floor_rolling_friction],
             row[AT.floor_pivoting_friction],
+            max(row[AT.floor_contour_friction], row[AT.floor_contour_viscosity]),
         )
     q = four(row, AT.release_quaternion_e0)
     if found.fault == Fault.NONE and not math.isnan(q[0]):
@@ -242,7 +249,7 @@ def bodies_alike(first: Array, second: Array) -> bool:
     for i in range(AT.floor_restitution):
         if not (first[i] == second[i] or (math.isnan(first[i]) and math.isnan(second[i]))):
             return False
-    return True
+    return first[AT.floor_slope] == second[AT.floor_slope]
 
 
 @compiled
@@ -250,7 +257,7 @@ def examine_each(rows: Table, faults: Codes) -> None:
     """Write the `Fault` of each row, 0 of a scenario's.
 
     Args:
-        rows: of numbers, each within its bounds where it is finite, (n, 47).
+        rows: of numbers, each within its bounds where it is finite, (n, 54).
         faults: where they go, (n,).
     """
     first = 0

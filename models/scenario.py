@@ -119,7 +119,9 @@ class Scenario(Part):
         coin, air = self.coin, self.air
         is_linear = air.exponent == 0 or air.normal == air.tangential == 0
         law = AirLaw(None if is_linear else air.exponent, normal=air.normal, tangential=air.tangential)
-        return make_body(coin.cylinder, coin.center_of_mass, coin.moments, law, self.gravity)
+        return make_body(
+            coin.cylinder, coin.center_of_mass, coin.moments, law, self.gravity, self.floor.slope
+        )
 
     @property
     def rules(self) -> Rules:
@@ -131,6 +133,7 @@ class Scenario(Part):
             **vars(ending),
             "law": floor.contact,
             "own": NO_CODE,
+            "viscosity": self.air.viscosity,
             "max_impacts": most,
             "caught": math.inf if ending.caught is None else ending.caught,
         }

@@ -28,7 +28,7 @@ def first_side(rows: Array, engine: Engine) -> FirstSide:
     """Toss coins, and see where the side is up that was at the release.
 
     Args:
-        rows: of the scenarios, whose attitude is a quaternion, (n, 47).
+        rows: of the scenarios, whose attitude is a quaternion, (n, 54).
         engine: that tosses.
     """
     several = np.tile(rows, (len(TOUCHES) + 1, 1, 1))
@@ -46,7 +46,7 @@ def caught_side(rows: Array, engine: Engine) -> NDArray[np.bool_]:
     """Toss coins to a hand, and see where the side is up in it that was at the release.
 
     Args:
-        rows: of the scenarios, with the height at which a hand catches the coin, (n, 47); their attitude is
+        rows: of the scenarios, with the height at which a hand catches the coin, (n, 54); their attitude is
             a quaternion.
         engine: that tosses.
 

@@ -56,7 +56,7 @@ class ReleaseQuantity:
     factor: float
     """Of the unit in one SI unit."""
     change: Callable[[Array, Array], Array]
-    """Returns rows, (n, 47), whose attitude is a quaternion, changed by numbers in SI units, (n,)."""
+    """Returns rows, (n, 54), whose attitude is a quaternion, changed by numbers in SI units, (n,)."""
     fields: tuple[str, ...]
     """What it changes of a row."""
 
@@ -153,7 +153,7 @@ def _turned(name: str, axis: int) -> ReleaseQuantity:
 
 
 def with_quaternions(rows: Array) -> Array:
-    """Return rows whose attitude is a quaternion of norm 1, (n, 47)."""
+    """Return rows whose attitude is a quaternion of norm 1, (n, 54)."""
     # NaN, which stands for what is left out, equals itself here.
     given = np.nan_to_num(rows[:, [*_A, *_Q]], nan=np.inf)
     _, first, which = np.unique(given, axis=0, return_index=True, return_inverse=True)
@@ -236,7 +236,7 @@ def smallest_changes(
     It is infinite where no change up to 1 does, or none before one that makes no scenario.
 
     Args:
-        rows: of the tosses, each a scenario's, (n, 47).
+        rows: of the tosses, each a scenario's, (n, 54).
         quantity: what changes.
         outcomes: returns the outcomes of rows, or what else of them is not to change.
         search: how closely.
