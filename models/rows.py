@@ -164,7 +164,10 @@ def rules_of(row):
     """Return the `Rules` of a row; words are integers there."""
     law, kind = int(row[AT.floor_contact]), int(row[AT.floor_restitution_kind])
     chi = row[AT.floor_restitution]
-    most, caught = row[AT.ending_max_impacts], row[AT.ending_caught]
+    max_impacts = most_impacts(law, kind, chi)
+    if not math.isnan(row[AT.ending_max_impacts]):
+        max_impacts = int(row[AT.ending_max_impacts])
+    caught = math.inf if math.isnan(row[AT.ending_caught]) else row[AT.ending_caught]
     return Rules(
         law=law,
         own=NO_CODE,
@@ -181,9 +184,9 @@ def rules_of(row):
         contour_viscosity=row[AT.floor_contour_viscosity],
         viscosity=row[AT.air_viscosity],
         test=int(row[AT.ending_test]),
-        max_impacts=most_impacts(law, kind, chi) if math.isnan(most) else int(most),
+        max_impacts=max_impacts,
         max_time=row[AT.ending_max_time],
-        caught=math.inf if math.isnan(caught) else caught,
+        caught=caught,
     )
 
 
