@@ -9,6 +9,11 @@ AIR = ("air.normal", "air.tangential")
 RESISTANCE = ("floor.rolling_friction", "floor.pivoting_friction")
 THRESHOLD = "floor.restitution_threshold"
 """Fields of a scenario that an engine may have no counterpart of."""
+OF_COINTOSS = (
+    *("floor.restitution_exponent", "floor.restitution_viscous", "floor.slope"),
+    *("floor.contour_friction", "floor.contour_viscosity", "air.viscosity"),
+)
+"""Fields that no adapter hands to its engine."""
 
 
 def friction_of(scenario: Any, *refused: str, rough: float = 1e3) -> float:
@@ -16,13 +21,13 @@ def friction_of(scenario: Any, *refused: str, rough: float = 1e3) -> float:
 
     Args:
         scenario: what is tossed.
-        refused: fields that must be 0.
+        refused: fields that must be 0, beside `OF_COINTOSS`.
         rough: the coefficient of a perfectly rough floor.
 
     Raises:
         NotImplementedError: naming the field, its value and what is accepted.
     """
-    for what in refused:
+    for what in (*OF_COINTOSS, *refused):
         if value := attrgetter(what)(scenario):
             raise NotImplementedError(f"{what}: {value}, accepted: 0")
     floor = scenario.floor

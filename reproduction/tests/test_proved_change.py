@@ -47,6 +47,7 @@ WITHOUT_USE: list[tuple[str, Any]] = [
     ("coin.mass", 5e-3),  # all that acts on the coin is in proportion to it
     ("air.exponent", 1.0),  # of no air
     ("floor.friction", 0.4),  # of another law
+    ("floor.restitution_speed", 2.0),  # of a restitution that does not fall with speed
     ("release.angles", [0.0, 0.0, 0.0]),  # as by default
     ("ending.until", 3.0),  # after the proof
 ]
@@ -63,6 +64,12 @@ REFUSED: list[tuple[str, Any]] = [
     ("floor.restitution_threshold", 1e-9),
     ("floor.rolling_friction", 1e-9),
     ("floor.pivoting_friction", 1e-9),
+    ("floor.contour_friction", 1e-9),
+    ("floor.contour_viscosity", 1e-9),
+    ("floor.restitution_exponent", 1e-9),
+    ("floor.restitution_viscous", 1e-9),
+    ("floor.slope", 1e-9),
+    ("air.viscosity", 1e-9),
     ("release.velocity", [0, 0, 1e-9]),
     ("release.angles", [0, 1e-9, 0]),
     ("release.quaternion", [1.0, 0.0, 0.0, 1e-9]),
@@ -123,7 +130,7 @@ def test_what_is_without_use_changes_no_proof(field, value):
 def test_what_is_refused_has_no_proof_and_says_so(field, value):
     case = changed(field, value)
     assert not any(proofs(case).values())
-    if field.startswith(("floor", "ending", "coin.inertia", "coin.center")):
+    if field.startswith(("floor", "ending", "coin.inertia", "coin.center", "air.viscosity")):
         said = "floor.contact" if field == "floor.restitution_kind" else field
         assert refusal(case).startswith(f"{said}: ")
         assert ", accepted: " in refusal(case)

@@ -50,6 +50,10 @@ class PlanarRelease(NamedTuple):
     """Within ±π/2 [rad]."""
 
 
+_REFUSED = ("restitution_threshold", "restitution_exponent", "restitution_viscous", "slope")
+"""Fields of a floor that this coin's mechanics leaves out."""
+
+
 def planar_coin(scenario: Scenario) -> PlanarCoin:
     """Return the coin of a scenario.
 
@@ -68,8 +72,9 @@ def planar_coin(scenario: Scenario) -> PlanarCoin:
         ),
         **{
             f"floor.{name}: {getattr(scenario.floor, name)}, accepted: 0": getattr(scenario.floor, name) > 0
-            for name in (*RESISTANCES, "restitution_threshold")
+            for name in (*RESISTANCES, *_REFUSED)
         },
+        f"air.viscosity: {air.viscosity}, accepted: 0": air.viscosity > 0,
     }
     for message, is_so in refused.items():
         if is_so:
