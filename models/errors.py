@@ -178,8 +178,9 @@ def _ends(rules: list[Any]) -> list[tuple[str, float]]:
 
 
 def _known(detail: ErrorDetails, model: type[BaseModel]) -> str:
-    known = list(_model_at(detail["loc"][:-1], model).model_fields)
-    near = difflib.get_close_matches(str(detail["loc"][-1]), known, n=1)
+    part = _model_at(detail["loc"][:-1], model)
+    known = list(part.model_fields)
+    near = difflib.get_close_matches(str(detail["loc"][-1]), [*known, *getattr(part, "instead", ())], n=1)
     hint = f" (did you mean {near[0]}?)" if near else ""
     return ", ".join(known) + hint
 

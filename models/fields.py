@@ -129,7 +129,8 @@ def split(field: str) -> tuple[str, str, int | None]:
 def put(data: dict[str, Any], field: str, value: Any) -> None:
     """Put a value in its place in the tables of a scenario, which are to be checked afterwards.
 
-    The angles and the quaternion of a release take the place of each other.
+    The angles and the quaternion of a release take the place of each other, and so do a drag coefficient of
+    the air and its pressure and exponent.
 
     Args:
         data: tables by name, as a scenario file gives them.
@@ -158,6 +159,9 @@ def put(data: dict[str, Any], field: str, value: Any) -> None:
         if not isinstance(whole, list | tuple | np.ndarray):
             return  # it is refused as a whole
         value = [value if i == index else entry for i, entry in enumerate(whole)]
+    elif field == "air.drag_coefficient":
+        part.pop("normal", None)
+        part.pop("exponent", None)
     elif field in _OTHER_ATTITUDE and value is not None:
         part[_OTHER_ATTITUDE[field]] = None
     part[key] = value.model_dump() if isinstance(value, BaseModel) else value

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,7 @@ from pydantic import (
 )
 
 from cointoss.models.attitude import Quaternion, normalized, quaternion_from_angles
-from cointoss.models.errors import FieldError, ScenarioError, describe
+from cointoss.models.errors import FieldError, ScenarioError, accepted, describe
 from cointoss.models.faults import (
     ACCEPTED,
     Fault,
@@ -155,6 +155,8 @@ class Part(BaseModel):
 
     # Parts of a scenario are checked with it, and not made one by one.
     __init__.__dict__["__pydantic_base_init__"] = True
+    instead: ClassVar[tuple[str, ...]] = ()
+    """Names that stand for fields as a file or an argument gives them."""
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
         """Return a copy.
@@ -268,8 +270,21 @@ def _cylinder(fields: Mapping[str, Any]) -> Cylinder | None:
     return Cylinder(*(fields[name] for name in Cylinder._fields)) if are_there else None
 
 
+class _QuadraticDrag(Part):
+    """Quadratic resistance as tables of drag coefficients have it."""
+
+    drag_coefficient: Annotated[Number, _not_negative]
+    """C_d of a disk that moves along its axis: the force is ρ C_d/2 π r² v²."""
+    density: Annotated[float, _quantity("kg/m**3"), _not_negative] = 1.2
+    """ρ, by default that of air at 20 °C and 1013 hPa [kg/m³]."""
+
+
 class Air(Part):
-    """The air's resistance: the force on a surface element is -λ |v|^b v dA."""
+    """The air's resistance: the force on a surface element is -λ |v|^b v dA.
+
+    A `drag_coefficient` C_d, with a `density` ρ of 1.2 kg/m³ if not given, stands for the exponent 1 and the
+    `normal` ρ C_d/2, with which a disk that moves along its axis meets the force ρ C_d/2 π r² v².
+    """
 
     exponent: Annotated[Number, Field(ge=0, le=1), Label("exponent b of the air")] = 0.0
     """b: 0 for linear, 1 for quadratic resistance."""
@@ -279,6 +294,7 @@ class Air(Part):
     """λ_τ, of friction [kg m^(-2-b) s^(b-1)]."""
     viscosity: Annotated[float, _quantity("Pa*s"), _not_negative, Label("viscosity of the air")] = 0.0
     """η, of the air that a nearly flat coin in sustained contact squeezes out of the gap [Pa s]."""
+    instead = tuple(_QuadraticDrag.model_fields)
 
     @field_validator("normal", "tangential", mode="before")
     @classmethod
@@ -287,6 +303,27 @@ class Air(Part):
             return value
         b = info.data.get("exponent", 0.0)
         return in_si(value, lambda_unit(b))
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_drag_coefficient(cls, fields: Any) -> Any:
+        """Return the fields with λ_n = ρ C_d/2 and b = 1 in place of a drag coefficient and a density."""
+        if not isinstance(fields, Mapping) or fields.keys().isdisjoint(cls.instead):
+            return fields
+        given = {name: fields[name] for name in cls.instead if name in fields}
+        rest = {name: value for name, value in fields.items() if name not in given}
+        if "drag_coefficient" not in given:
+            raise FieldError("density", given["density"], "a drag_coefficient beside it, or no such field")
+        if "normal" in rest:
+            raise FieldError("normal", rest["normal"], "either normal or drag_coefficient, not both")
+        if rest.get("exponent", 1) != 1:
+            raise FieldError("exponent", rest["exponent"], "1 with drag_coefficient, or no such field")
+        try:
+            drag = _QuadraticDrag.model_validate(given)
+        except ValidationError as error:
+            name = str(error.errors()[0]["loc"][0])
+            raise FieldError(name, given[name], accepted((name,), _QuadraticDrag, "missing")) from None
+        return {**rest, "exponent": 1.0, "normal": drag.density * drag.drag_coefficient / 2}
 
 
 class Floor(Part):

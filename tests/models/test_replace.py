@@ -48,6 +48,13 @@ def test_a_part_is_given_as_a_table_or_as_itself():
     assert HERE.replace("air", {"normal": 1}).air == Air(normal=1)
 
 
+def test_a_drag_coefficient_takes_the_place_of_pressure_and_exponent():
+    by_drag = HERE.replace("air.drag_coefficient", "110 %").air
+    assert by_drag == Air(exponent=1, normal=1.2 * 1.1 / 2, tangential=HERE.air.tangential)
+    thin = HERE.replace("air.drag_coefficient", 1.1, "air.density", "1 g/l").air
+    assert (thin.exponent, thin.normal) == (1, pytest.approx(0.55))
+
+
 def test_a_component_is_replaced_in_what_was_given_before_it():
     release = Release(position=(0.0, 0.0, 1.0))
     assert HERE.replace("release", release, "release.position.x", 2).release.position == (2, 0, 1)

@@ -159,6 +159,12 @@ def test_motions_in_one_direction_have_closed_forms(b):
     assert pull(body, (0, 0, 0), (0, 0, W)) == pytest.approx([0, 0, 0, 0, 0, spin], rel=1e-13, abs=1e-18)
 
 
+def test_a_drag_coefficient_is_that_of_the_broadside_disk():
+    body, v = scenario(air={"drag_coefficient": 1.1, "density": "1.3 kg/m^3"}).body, 0.7
+    expected = -1.3 * 1.1 / 2 * np.pi * R**2 * v**2
+    assert pull(body, (0, 0, v), (0, 0, 0)) == pytest.approx([0, 0, expected, 0, 0, 0], rel=1e-13, abs=1e-18)
+
+
 def test_pressure_of_a_turning_disc_at_b_1():
     """|W u| W u u over the chords 2 √(r² - u²) is 8/15 W² r^5, and W² r^5 8/15 + ... where it also moves."""
     body, W = coin(1.0, h=0.0, lt=0.0), 30.0
