@@ -22,12 +22,12 @@ if TYPE_CHECKING:
     from cointoss.coin_mj.bounces.bodies import BALL as BALL
     from cointoss.coin_mj.bounces.bodies import FlatBody as FlatBody
     from cointoss.coin_mj.bounces.contact import DEFAULT as DEFAULT
+    from cointoss.coin_mj.bounces.contact import GRAVITY as GRAVITY
     from cointoss.coin_mj.bounces.contact import HARDEST as HARDEST
     from cointoss.coin_mj.bounces.contact import INTEGRATORS as INTEGRATORS
     from cointoss.coin_mj.bounces.contact import ContactSettings as ContactSettings
     from cointoss.coin_mj.bounces.contact import one_step_solref as one_step_solref
     from cointoss.coin_mj.bounces.contact import spring_solref as spring_solref
-    from cointoss.coin_mj.bounces.drops import GRAVITY as GRAVITY
     from cointoss.coin_mj.bounces.drops import LONGEST as LONGEST
     from cointoss.coin_mj.bounces.drops import PHASES as PHASES
     from cointoss.coin_mj.bounces.drops import SPEED as SPEED

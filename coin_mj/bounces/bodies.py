@@ -17,7 +17,7 @@ MODEL = """<mujoco>
     <geom type="plane" size="0 0 1" condim="1"/>
     <body pos="0 0 {height!r}">
       <freejoint/>
-      <geom type="{kind}" size="{size}" mass="0.01" condim="1" priority="1"
+      <geom type="{kind}" size="{size}" mass="{mass!r}" condim="1" priority="1"
             {contact}/>
     </body>
   </worldbody>
@@ -38,6 +38,8 @@ class FlatBody:
     kind: str
     size: tuple[float, ...]
     """The size in MuJoCo's order: radius, or half sizes [m]."""
+    mass: float = 0.01
+    """[kg]."""
 
     @property
     def height(self) -> float:
@@ -55,6 +57,7 @@ class FlatBody:
             option=contact.option,
             height=height,
             kind=self.kind,
+            mass=float(self.mass),
             size=" ".join(f"{number!r}" for number in self.size),
             contact=contact.geom,
         )
@@ -71,8 +74,12 @@ class FlatBody:
 BALL = FlatBody("sphere", (0.01,))
 
 
-def body_of(text: str) -> FlatBody:
+def body_of(text: str, mass: float = BALL.mass) -> FlatBody:
     """Return the body that a text such as "box 0.1 0.1 0.002" describes.
+
+    Args:
+        text: type and size.
+        mass: [kg].
 
     Raises:
         FieldError: naming the text and what is accepted.
@@ -85,4 +92,4 @@ def body_of(text: str) -> FlatBody:
     fits = len(size) == SIZES.get(kind, -1) and all(isfinite(n) and 1e-6 <= n <= 1e3 for n in size)
     if not fits:
         raise FieldError("body", text, ACCEPTED)
-    return FlatBody(kind, size)
+    return FlatBody(kind, size, mass)

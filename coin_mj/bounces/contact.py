@@ -15,6 +15,8 @@ STIFFENED = 1e-3
 """k dt² of the stiffness beside the damping of a contact of one step, which lifts what would sink."""
 CARRIED = 0.1 * math.pi
 """(1 - d) n (1 - e) of a spring of n steps that lets a body come to rest, d its impedance; found by trial."""
+GRAVITY = 9.81
+"""The acceleration of weight, by default [m/s²]."""
 SOFTEST = 0.1
 """The largest 1 - d of a spring."""
 
@@ -32,11 +34,14 @@ class ContactSettings:
     solimp: str = HARDEST
     exact: bool = True
     """Whether the flag diagexact is set."""
+    gravity: float = GRAVITY
+    """Downward [m/s²]."""
 
     @property
     def option(self) -> str:
         """The element <option>."""
         opening = f'option timestep="{self.timestep!r}" integrator="{self.integrator}"'
+        opening += f' gravity="0 0 {-float(self.gravity)!r}"' if self.gravity != GRAVITY else ""
         return f'<{opening}><flag diagexact="enable"/></option>' if self.exact else f"<{opening}/>"
 
     @property

@@ -24,8 +24,6 @@ PHASES = 16
 """Heights of release, spread over the way of one step: a touch falls anywhere between two steps."""
 SPEED = 2.0
 """The speed of the body at the touch [m/s]."""
-GRAVITY = 9.81
-"""The acceleration of weight [m/s²]."""
 
 
 @dataclass(frozen=True)

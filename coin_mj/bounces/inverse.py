@@ -11,9 +11,9 @@ from numbers import Real
 import mujoco
 
 from cointoss.coin_mj.bounces.bodies import BALL
-from cointoss.coin_mj.bounces.contact import DEFAULT, INTEGRATORS, ContactSettings, text_of
-from cointoss.coin_mj.bounces.drops import GRAVITY, SPEED, drops_of
-from cointoss.coin_mj.bounces.recipe import require, require_numbers, require_timestep
+from cointoss.coin_mj.bounces.contact import DEFAULT, GRAVITY, INTEGRATORS, ContactSettings, text_of
+from cointoss.coin_mj.bounces.drops import SPEED, drops_of
+from cointoss.coin_mj.bounces.recipe import require, require_numbers, require_timestep, require_weight
 from cointoss.coin_mj.bounces.rest import Rest, rest_of
 from cointoss.coin_mj.model.settings import contact_duration, restitution_of
 
@@ -54,13 +54,17 @@ class Rebounds:
     timestep: float
     """The step of the simulation [s]."""
     integrator: str
+    mass: float
+    """The mass of the ball [kg]."""
+    gravity: float
+    """Downward [m/s²]."""
     restitution: float
     """Mean restitution of `PHASES` touches at `SPEED` without weight, anywhere between two steps."""
     lowest: float
     """The lowest restitution of these touches."""
     highest: float
     restitution_with_weight: float
-    """Mean restitution of a ball that touches at `SPEED` under `GRAVITY`."""
+    """Mean restitution of a ball that touches at `SPEED` under `gravity`."""
     duration: float
     """Mean duration of a contact without weight [s]."""
     depth: float
@@ -78,6 +82,8 @@ def solref_of(
     other: Sequence[float] | None = None,
     integrator: str = "Euler",
     solimp: str = DEFAULT,
+    mass: float = BALL.mass,
+    gravity: float = GRAVITY,
 ) -> Rebounds:
     """Return the restitution of given settings: measured on a ball over a plane, and by formula.
 
@@ -88,30 +94,40 @@ def solref_of(
             and `solimp` hold alone, as those of a geom with priority="1" do.
         integrator: of MuJoCo, by its name in a model; Euler is MuJoCo's own choice.
         solimp: of the geom with `solref`; by default MuJoCo's own.
+        mass: of the ball [kg].
+        gravity: downward, of what is measured with weight and at rest [m/s²].
 
     Raises:
         ValueError: naming the argument, its value and what is accepted.
     """
     require_numbers(timestep=timestep)
     require_timestep(timestep)
+    require_weight(mass, gravity, timestep)
     require("integrator", integrator, integrator in INTEGRATORS, ", ".join(INTEGRATORS))
     given = ContactSettings(
-        solref=_solref("solref", solref), timestep=timestep, integrator=integrator, solimp=_solimp(solimp)
+        solref=_solref("solref", solref),
+        timestep=timestep,
+        integrator=integrator,
+        solimp=_solimp(solimp),
+        gravity=gravity,
     )
+    ball = replace(BALL, mass=mass)
     contact = given if other is None else _mixed(given, _solref("other", other))
-    drops, weighing = drops_of(contact), drops_of(contact, gravity=GRAVITY)
+    drops, weighing = drops_of(contact, ball), drops_of(contact, ball, gravity)
     return Rebounds(
         solref=contact.solref,
         solimp=contact.solimp,
         timestep=timestep,
         integrator=integrator,
+        mass=mass,
+        gravity=gravity,
         restitution=float(drops.restitutions.mean()),
         lowest=float(drops.restitutions.min()),
         highest=float(drops.restitutions.max()),
         restitution_with_weight=float(weighing.restitutions.mean()),
         duration=float(drops.durations.mean()),
         depth=drops.depth / SPEED,
-        rest=rest_of(contact, BALL),
+        rest=rest_of(contact, ball),
         formula=formula_of(contact),
     )
 
@@ -162,7 +178,7 @@ def formula_of(contact: ContactSettings) -> Formula | None:
     """
     stiffness, damping = _spring_of(contact)
     dt = contact.timestep
-    rest = _depth_at_rest(contact.solimp, stiffness) if stiffness else math.inf
+    rest = _depth_at_rest(contact, stiffness) if stiffness else math.inf
     root = math.sqrt(stiffness)
     if damping * dt >= 1 or not stiffness:
         if contact.integrator in ("RK4", "discrete"):
@@ -176,13 +192,13 @@ def formula_of(contact: ContactSettings) -> Formula | None:
     )
 
 
-def _depth_at_rest(solimp: str, stiffness: float) -> float:
+def _depth_at_rest(contact: ContactSettings, stiffness: float) -> float:
     """Return x = (1 - d) g (D/d)²/k, d the impedance at the depth x and D that of a deep contact [m]."""
-    deep = _impedance(solimp, math.inf)
+    solimp, deep = contact.solimp, _impedance(contact.solimp, math.inf)
 
     def held(depth: float) -> float:
         d = _impedance(solimp, depth)
-        return (1 - d) * GRAVITY * (deep / d) ** 2 / stiffness
+        return (1 - d) * contact.gravity * (deep / d) ** 2 / stiffness
 
     low, high = 0.0, max(held(0.0), held(math.inf))
     for _ in range(HALVINGS):

@@ -10,6 +10,7 @@ import numpy as np
 from cointoss.coin_mj.bounces.backends import Backend
 from cointoss.coin_mj.bounces.bodies import BALL, FlatBody, body_of
 from cointoss.coin_mj.bounces.contact import (
+    GRAVITY,
     HARDEST,
     ContactSettings,
     one_step_solref,
@@ -17,7 +18,7 @@ from cointoss.coin_mj.bounces.contact import (
     spring_solimp,
     spring_solref,
 )
-from cointoss.coin_mj.bounces.drops import GRAVITY, LONGEST, SPEED, drops_of
+from cointoss.coin_mj.bounces.drops import LONGEST, SPEED, drops_of
 from cointoss.coin_mj.bounces.flight import energy_change
 from cointoss.coin_mj.bounces.rest import Rest, rest_of
 from cointoss.models.errors import FieldError
@@ -29,6 +30,10 @@ LEAST = 0.01
 """Restitution by a spring."""
 SHORTEST_STEP, LONGEST_STEP = 1e-7, 0.1
 """The bounds of a simulation's step [s]."""
+WEAKEST, STRONGEST = 1e-3, 1e3
+"""The bounds of gravity [m/s²]."""
+LIGHTEST, HEAVIEST = 1e-6, 1e6
+"""The bounds of the mass of a body that is measured [kg]."""
 STEP_ACCEPTED = "a number of seconds from 1e-7 to 0.1, such as 0.002"
 
 
@@ -48,10 +53,14 @@ class Bounce:
     """What steps the model; what follows was measured by MuJoCo itself."""
     body: str
     """The body that comes down flat on a plane: its type and size in a <geom>."""
+    mass: float
+    """The mass of the body [kg]."""
+    gravity: float
+    """Downward [m/s²]."""
     error: float
     """Largest |e' - e| over `PHASES` touches without weight, anywhere between two steps."""
     error_with_weight: float
-    """Largest error of a body which touches at `SPEED` under `GRAVITY`, as its heights have it; at others as
+    """Largest error of a body which touches at `SPEED` under `gravity`, as its heights have it; at others as
     1/v, see `weight_cost`."""
     depth: float
     """The depth to which a body goes into the floor at 1 m/s, at most, whatever its mass [m]."""
@@ -73,7 +82,7 @@ class Bounce:
     @property
     def model(self) -> str:
         """A whole model: the body falls from half a metre."""
-        body = body_of(self.body)
+        body = body_of(self.body, self.mass)
         return body.model(self.contact, body.height + 0.5)
 
     @property
@@ -103,7 +112,7 @@ class Bounce:
         rest.
         """
         damping = -self.solref[1]
-        return (1 - float(self.solimp.split()[0])) * GRAVITY / damping if damping else math.inf
+        return (1 - float(self.solimp.split()[0])) * self.gravity / damping if damping else math.inf
 
     @property
     def contact(self) -> ContactSettings:
@@ -114,6 +123,7 @@ class Bounce:
             integrator=self.integrator,
             solimp=self.solimp,
             exact=self.backend.takes_diagexact,
+            gravity=self.gravity,
         )
 
 
@@ -125,6 +135,8 @@ def solref(
     steps: int = SPRING_STEPS,
     body: str | None = None,
     backend: Backend | str = Backend.MUJOCO,
+    mass: float = BALL.mass,
+    gravity: float = GRAVITY,
 ) -> Bounce:
     """Return the settings with which MuJoCo's contacts have a restitution, and what they do, measured now.
 
@@ -141,6 +153,8 @@ def solref(
         body: that is measured, by its type and size in a <geom>, such as "box 0.1 0.1 0.002"; by default a
             ball of 1 cm.
         backend: what steps the model: mujoco, mjx or warp. The last two refuse the flag diagexact.
+        mass: of the body [kg].
+        gravity: downward, of what is measured with weight and at rest [m/s²].
 
     Raises:
         ValueError: naming the argument, its value and what is accepted.
@@ -159,14 +173,17 @@ def solref(
     require_timestep(timestep)
     whole = isinstance(steps, Integral) and 5 <= steps <= LONGEST // 4
     require("steps", steps, whole, f"a whole number from 5 to {LONGEST // 4}")
+    require_weight(mass, gravity, timestep)
     known = [item.value for item in Backend]
     require("backend", backend, backend in known, ", ".join(known))
     contact = replace(
-        recipe_of(restitution, timestep, steps if spring else None), exact=Backend(backend).takes_diagexact
+        recipe_of(restitution, timestep, steps if spring else None),
+        exact=Backend(backend).takes_diagexact,
+        gravity=gravity,
     )
-    chosen = BALL if body is None else body_of(body)
+    chosen = replace(BALL, mass=mass) if body is None else body_of(body, mass)
     drops = drops_of(contact, chosen)
-    weighing = drops_of(contact, chosen, GRAVITY)
+    weighing = drops_of(contact, chosen, gravity)
     if body is not None:
         _warn_if_deep(chosen, drops.depth / SPEED)
     return Bounce(
@@ -177,6 +194,8 @@ def solref(
         solimp=contact.solimp,
         backend=Backend(backend),
         body=str(chosen),
+        mass=mass,
+        gravity=gravity,
         error=float(np.abs(drops.restitutions - restitution).max()),
         error_with_weight=float(np.abs(weighing.restitutions - restitution).max()),
         depth=drops.depth / SPEED,
@@ -206,6 +225,7 @@ def exact_of(bounce: Bounce) -> ContactSettings:
         timestep=bounce.timestep,
         integrator=bounce.integrator,
         solimp=HARDEST,
+        gravity=bounce.gravity,
     )
 
 
@@ -228,6 +248,19 @@ def require_numbers(**numbers: object) -> None:
 def require_timestep(timestep: float) -> None:
     """Refuse a step that MuJoCo's own settings do not suit."""
     require("timestep", timestep, SHORTEST_STEP <= timestep <= LONGEST_STEP, STEP_ACCEPTED)
+
+
+def require_weight(mass: float, gravity: float, timestep: float) -> None:
+    """Refuse a mass or a gravity that no measurement bears.
+
+    In a step gravity may change the speed by half of that of a touch.
+    """
+    require_numbers(mass=mass, gravity=gravity)
+    strongest = min(STRONGEST, SPEED / 2 / timestep)
+    masses = f"from {LIGHTEST:g} to {HEAVIEST:g} kg"
+    gravities = f"from {WEAKEST:g} to {strongest:g} m/s^2 at this step"
+    require("mass", mass, LIGHTEST <= mass <= HEAVIEST, masses)
+    require("gravity", gravity, WEAKEST <= gravity <= strongest, gravities)
 
 
 def _warn_if_deep(body: FlatBody, depth: float) -> None:

@@ -12,7 +12,6 @@ import numpy as np
 
 from cointoss.coin_mj.bounces.bodies import BALL, FlatBody
 from cointoss.coin_mj.bounces.contact import ContactSettings
-from cointoss.coin_mj.bounces.drops import GRAVITY
 from cointoss.coin_mj.bounces.unlogged import unlogged
 
 STEPS = 20_000
@@ -25,7 +24,7 @@ STILL = 1e-3
 """A body that moves by less than this part of g dt² in the last quarter of the steps lies still."""
 
 
-def depth_at_rest(contact: ContactSettings, body: FlatBody = BALL, gravity: float = GRAVITY) -> float:
+def depth_at_rest(contact: ContactSettings, body: FlatBody = BALL) -> float:
     """Return how deep a body lies by theory, flat on a plane [m]: infinite where nothing holds it.
 
     A contact i carries the force k x m_i/(1 - d), m_i = 1/(J_i M⁻¹ J_iᵀ) the mass that it meets, so that
@@ -33,9 +32,8 @@ def depth_at_rest(contact: ContactSettings, body: FlatBody = BALL, gravity: floa
     box, 1/3 to 5/3 for an upright cylinder. Without the flag diagexact MuJoCo takes m for each m_i.
 
     Args:
-        contact: the settings, of a stiffness and a damping.
+        contact: the settings, of a stiffness and a damping, with the gravity.
         body: it lies flat.
-        gravity: downward [m/s²].
     """
     stiffness, impedance = -contact.solref[0], float(contact.solimp.split()[0])
     if stiffness == 0:
@@ -46,7 +44,7 @@ def depth_at_rest(contact: ContactSettings, body: FlatBody = BALL, gravity: floa
     masses = [model.body_mass[1]] * data.ncon
     if contact.exact:
         masses = [1 / _response(model, data, touch) for touch in data.contact]
-    return (1 - impedance) * gravity / stiffness * model.body_mass[1] / sum(masses)
+    return (1 - impedance) * contact.gravity / stiffness * model.body_mass[1] / sum(masses)
 
 
 def _response(model: mujoco.MjModel, data: mujoco.MjData, touch: Any) -> float:
@@ -70,20 +68,18 @@ class Rest:
     """The mean speed at which the body sinks [m/s]; 0 where it lies still."""
 
 
-def rest_of(contact: ContactSettings, body: FlatBody = BALL, gravity: float = GRAVITY) -> Rest:
+def rest_of(contact: ContactSettings, body: FlatBody = BALL) -> Rest:
     """Let a body fall on a plane, and measure what it does when its bounces have ended.
 
     The fall is 50 steps' worth of gravity fast and 20,000 steps are made, whatever the step, so that what is
     found scales with g dt².
 
     Args:
-        contact: the settings.
+        contact: the settings, with the gravity.
         body: it comes down flat.
-        gravity: downward [m/s²].
     """
-    dt = contact.timestep
+    dt, gravity = contact.timestep, contact.gravity
     model = body.compiled(contact, body.height)
-    model.opt.gravity[2] = -gravity
     data = mujoco.MjData(model)
     data.qvel[2] = -FALL * gravity * dt
     last, times = np.empty(LOOKED_AT), dt * np.arange(LOOKED_AT)

@@ -37,6 +37,10 @@ class Wanted:
     """That is measured, as in a <geom>, such as "box 0.1 0.1 0.002" (half sizes)."""
     backend: Literal["mujoco", "mjx", "warp"] | None = None
     """What steps the model; by default MuJoCo itself. Prints settings that it takes."""
+    gravity: Annotated[Given, quantity("m/s**2"), Form("G")] = Given("9.81", 9.81)
+    """Of what is measured with weight and at rest, such as "1.62 m/s^2"."""
+    mass: Annotated[Given, quantity("kg"), Form("M")] = Given("10 g", 0.01)
+    """Of the body that is measured, such as "5 g"."""
     model: bool = False
     """Print a whole model instead: the body over a plane."""
     with_: Annotated[str | None, Form("SOLREF")] = None
@@ -78,6 +82,8 @@ def solref(asked: Wanted) -> None:
             "other": ("--with", asked.with_),
             "integrator": ("--integrator", asked.integrator),
             "solimp": ("--solimp", asked.solimp),
+            "gravity": ("--gravity", asked.gravity),
+            "mass": ("--mass", asked.mass),
         }
         with naming_options(typed):
             if asked.of is not None:
@@ -86,6 +92,8 @@ def solref(asked: Wanted) -> None:
                     _numbers(asked.of),
                     asked.dt.value,
                     other=None if asked.with_ is None else _numbers(asked.with_),
+                    gravity=asked.gravity.value,
+                    mass=asked.mass.value,
                     **{name: value for name, value in chosen.items() if value is not None},
                 )
             else:
@@ -97,6 +105,8 @@ def solref(asked: Wanted) -> None:
                     steps=SPRING_STEPS if asked.steps is None else asked.steps,
                     body=asked.body,
                     backend=asked.backend or "mujoco",
+                    gravity=asked.gravity.value,
+                    mass=asked.mass.value,
                 )
         if asked.json:
             print_json(asdict(found), "mujoco")
@@ -125,7 +135,7 @@ def _settings(found: "Bounce") -> str:
     spring = found.integrator == "RK4"
     alone = 1e6 * depth_at_rest(found.contact)
     rest = [
-        _rest(found.rest),
+        _rest(found.rest, found.solimp),
         f"on several points 1/4 to 2 times (1 - d) g/k = {alone:.3g} um, by its shape: --body measures it",
     ]
     body = f"{'an' if found.body[0] in 'aeiou' else 'a'} {found.body}"
@@ -148,6 +158,7 @@ def _settings(found: "Bounce") -> str:
             f"error       {_at_most(found.error)} at worst, of {body} that touches at 16 phases",
             f"            {_at_most(found.error_with_weight)} with weight at {SPEED:g} m/s; {_slower(found)}",
             "            more if the impact turns it, in proportion to its speed and DT: cointoss bounce",
+            *_weight(found),
             f"depth       up to {1e3 * found.depth:.3g} mm into the floor for each m/s, whatever the mass",
             f"floor       {_floor(found)}",
             *_column("rest", rest),
@@ -180,11 +191,22 @@ def _rebounds(found: "Rebounds") -> str:
             f"restitution {found.restitution:.4f}, from {found.lowest:.4f} to {found.highest:.4f} "
             f"over 16 phases of a step{by[0]}",
             f"            {found.restitution_with_weight:.4f} with weight, at {SPEED:g} m/s",
+            *_weight(found),
             f"duration    {1e3 * found.duration:.3g} ms{by[1]}",
             f"depth       up to {1e3 * found.depth:.3g} mm for each m/s{by[2]}{_deep(found)}",
-            f"rest        {_rest(found.rest)}{by[3]}",
+            f"rest        {_rest(found.rest, found.solimp)}{by[3]}",
         ]
     )
+
+
+def _weight(found: "Bounce | Rebounds") -> list[str]:
+    """Return the line of the weight that was measured with, where it is not the default."""
+    from cointoss.coin_mj.bounces.bodies import BALL
+    from cointoss.coin_mj.bounces.contact import GRAVITY
+
+    if (found.mass, found.gravity) == (BALL.mass, GRAVITY):
+        return []
+    return [f"weight      that of {1e3 * found.mass:.6g} g under {found.gravity:.6g} m/s^2"]
 
 
 def _deep(found: "Rebounds") -> str:
@@ -251,10 +273,13 @@ def _change(part: float) -> str:
     return f"{'loses' if part < 0 else 'gains'} {amount}"
 
 
-def _rest(rest: "Rest") -> str:
+def _rest(rest: "Rest", solimp: str) -> str:
     """Return what a body does at rest, in words."""
+    shallow, deep = (float(number) for number in solimp.split()[:2])
+    # The impedance that grows with the depth carries more of a larger weight.
+    bound = "at most " if shallow < deep else "at least " if shallow > deep else ""
     if rest.hop:
         return f"never still: it hops on, by {1e6 * rest.hop:.3g} um"
     if rest.sinking:
         return f"sinks {1e6 * rest.sinking:.3g} um/s, n times as fast under n times its weight"
-    return f"lies still, {1e6 * rest.depth:.3g} um deep; n times as deep under n times its weight"
+    return f"lies still, {1e6 * rest.depth:.3g} um deep; {bound}n times as deep under n times its weight"

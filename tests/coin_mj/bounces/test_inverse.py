@@ -52,6 +52,24 @@ def test_the_depth_at_rest_is_that_of_the_weight_that_is_left(solref_given):
     assert found.rest.depth == pytest.approx(found.formula.rest, rel=1e-3)
 
 
+def test_on_the_moon_the_depth_at_rest_is_that_of_its_weight_for_every_mass():
+    solimp, moon = "0.9 0.9 0.001 0.5 2", 1.62
+    found = solref_of((-2000.0, -60.0), 1e-3, solimp=solimp, gravity=moon)
+    assert found.rest.depth == pytest.approx(0.1 * moon / 2000, rel=1e-3)
+    assert found.formula is not None
+    assert found.formula.rest == pytest.approx(0.1 * moon / 2000, rel=1e-9)
+    heavy = solref_of((-2000.0, -60.0), 1e-3, solimp=solimp, gravity=moon, mass=50.0)
+    assert heavy.rest.depth == pytest.approx(found.rest.depth, rel=1e-6)
+    less = [solref_of((-2000.0, -60.0), 1e-3, solimp=solimp, gravity=g) for g in (0.1, 0.2)]
+    taken = [each.restitution - each.restitution_with_weight for each in less]
+    assert taken[1] / taken[0] == pytest.approx(2, rel=0.05)
+
+
+def test_an_impedance_that_grows_carries_more_of_a_larger_weight():
+    depths = [solref_of((0.02, 1), 2e-3, gravity=g).rest.depth for g in (9.81, 98.1)]
+    assert 1 < depths[1] / depths[0] < 10
+
+
 @pytest.mark.parametrize(("e", "spring"), [(0.0, False), (0.8, False), (0.8, True)])
 def test_the_recipes_turned_round_give_what_was_asked_for(e, spring):
     bounce = solref(e, 1e-3, spring=spring)

@@ -81,6 +81,16 @@ def test_the_stiffness_beside_it_costs_half_of_its_part(restitution):
     assert -found.solref[1] * 2e-3 == pytest.approx(1 + restitution - part / 2, rel=1e-12)
 
 
+def test_what_is_told_of_weight_holds_for_another_gravity_and_mass():
+    found = solref(0.8, 2e-3, gravity=50.0, mass=2.0)
+    assert found.rest.depth == pytest.approx(1e-4 * 50 / 250, rel=1e-3)
+    assert found.creep == pytest.approx(50 / 9.81 * solref(0.8, 2e-3).creep)
+    assert found.error_with_weight < found.error + found.weight_cost * 50 * 2e-3 / 2
+    assert found.error_with_weight > solref(0.8, 2e-3).error_with_weight
+    model = mujoco.MjModel.from_xml_string(found.model)
+    assert (model.opt.gravity[2], model.body_mass[1]) == (-50, 2)
+
+
 def test_weight_takes_from_a_rebound_out_of_a_long_contact():
     def errors(restitution, dt, steps):
         contact = recipe_of(restitution, dt, steps)

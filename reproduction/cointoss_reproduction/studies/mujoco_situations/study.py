@@ -111,7 +111,7 @@ def bounced(bounced: ContactSettings) -> dict[str, float]:
 
 def lain(lying: ContactSettings, force: float) -> dict[str, float | None]:
     """Lay a ball down; its depth also over (1 - d) g/k."""
-    rest, stiffness = rest_of(lying, gravity=GRAVITY + force), -lying.solref[0]
+    rest, stiffness = rest_of(replace(lying, gravity=GRAVITY + force)), -lying.solref[0]
     soft = 1 - float(lying.solimp.split()[0])
     over = rest.depth / (soft * (GRAVITY + force) / stiffness) if stiffness else None
     return {**asdict(rest), "over": over}
