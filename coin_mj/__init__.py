@@ -2,6 +2,7 @@
 
 from cointoss.coin_mj.bounces.inverse import Rebounds, solref_of
 from cointoss.coin_mj.bounces.pair import PairBounce, bounce
+from cointoss.coin_mj.bounces.pair_rest import PairRest
 from cointoss.coin_mj.bounces.recipe import Bounce, solref
 from cointoss.coin_mj.many import require_rows, toss_rows
 from cointoss.coin_mj.model.settings import FINE, MANY, Friction, MujocoSettings, Realisation
@@ -15,6 +16,7 @@ __all__ = [
     "Friction",
     "MujocoSettings",
     "PairBounce",
+    "PairRest",
     "Realisation",
     "Rebounds",
     "bounce",

@@ -83,7 +83,7 @@ class Pair:
         mujoco.mj_forward(self.model, self.data)
         duration, margin = steps * self.model.opt.timestep, self.contact.includemargin
         approach = self._bring_to(margin + speed * duration)
-        forced, acceleration = self._acceleration(speed * approach)
+        forced, acceleration = self.acceleration(speed * approach)
         gained = duration * acceleration
         rk4 = self.model.opt.integrator == int(mujoco.mjtIntegrator.mjINT_RK4)
         # Integrators but RK4 have the velocity of half a step before.
@@ -138,7 +138,7 @@ class Pair:
             if abs(missing) < 1e-9 * self.size:
                 return approach
             move = -missing * approach
-            move *= min(1.0, TURN / np.abs(move).max()) if not self._free() else 1.0
+            move *= min(1.0, TURN / np.abs(move).max()) if not self.free() else 1.0
             mujoco.mj_integratePos(self.model, self.data.qpos, move, 1.0)
             mujoco.mj_forward(self.model, self.data)
             self._close()
@@ -211,7 +211,7 @@ class Pair:
     def _approach(self, normal: Array, point: Array) -> Array:
         """Return the generalised velocity by which the geoms come nearer at 1 m/s."""
         velocity, row = np.zeros(self.model.nv), self._row(normal, point)
-        free = self._free()
+        free = self.free()
         if free is not None:
             dof, sign = free
             velocity[dof : dof + 3] = -sign * normal
@@ -231,7 +231,7 @@ class Pair:
             velocity /= nearer
         return velocity
 
-    def _acceleration(self, velocity: Array) -> tuple[float, float]:
+    def acceleration(self, velocity: Array) -> tuple[float, float]:
         """Return by how much the speed at which the geoms come nearer grows at a velocity, (nv,) [m/s²].
 
         By what moves the joints, and with what the turning of bodies adds.
@@ -266,7 +266,7 @@ class Pair:
             *(f"tendon {self.model.tendon(number).name or number}" for number in tendons),
         )
 
-    def _free(self) -> tuple[int, float] | None:
+    def free(self) -> tuple[int, float] | None:
         """Return the first coordinate of the free joint that moves a geom, and that geom's side."""
         bodies = [int(self.model.body_rootid[self.model.geom_bodyid[geom]]) for geom in (self.one, self.two)]
         if bodies[0] == bodies[1]:

@@ -16,6 +16,7 @@ import numpy as np
 from cointoss.coin_mj.bounces.approach import Pair
 from cointoss.coin_mj.bounces.contact import INTEGRATORS
 from cointoss.coin_mj.bounces.inverse import TWO
+from cointoss.coin_mj.bounces.pair_rest import PairRest, rest_between
 from cointoss.coin_mj.bounces.unlogged import unlogged
 from cointoss.coin_mj.bounces.user_model import geom_of, load_model, require_measurable
 from cointoss.models.errors import FieldError
@@ -89,6 +90,10 @@ class PairBounce:
     """The time for which the geoms push, without gravity, (n, `PHASES`) [s]."""
     depths: Array
     """The greatest depths, without gravity, (n,) [m]."""
+    rest: PairRest | None
+    """What one geom does on the other when the bounces have ended, under the model's gravity."""
+    no_rest: str
+    """Why `rest` was not measured, in words."""
     notes: tuple[str, ...]
     """What else of the model the numbers depend on, in words."""
 
@@ -137,6 +142,7 @@ def bounce(
         free = _touches(pair)
         pair.model.opt.gravity[:] = gravity
         pulled = _touches(pair)
+        rest = rest_between(pair)
     return PairBounce(
         geoms=(str(one), str(two)),
         timestep=float(pair.model.opt.timestep),
@@ -153,6 +159,8 @@ def bounce(
         energy_kept=_column(free, "kept"),
         durations=_column(free, "duration"),
         depths=_column(free, "depth").max(axis=1),
+        rest=rest if isinstance(rest, PairRest) else None,
+        no_rest="" if isinstance(rest, PairRest) else rest,
         notes=_notes(pair),
     )
 

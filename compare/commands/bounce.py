@@ -18,8 +18,9 @@ def bounce(model: Path, one: str, two: str, png: Path | None, as_json: bool) -> 
     """Print how two geoms of your own MuJoCo model bounce off each other.
 
     GEOM is the name or the number of a geom. They come together at six speeds and eight phases of a step,
-    stepped by plain mj_step with the options of the model, without gravity and with it. Other geoms touch
-    nothing meanwhile. The model is read by MuJoCo's own loader and is not changed.
+    stepped by plain mj_step with the options of the model, without gravity and with it. Then one comes to
+    rest on the other. Other geoms touch nothing meanwhile. The model is read by MuJoCo's own loader and is
+    not changed.
     """
     with plain_errors(str(model)):
         from cointoss.compare.film.back_end import require_mujoco
@@ -37,6 +38,7 @@ def bounce(model: Path, one: str, two: str, png: Path | None, as_json: bool) -> 
             refuse(f"{model}:{field} accepted: {error.accepted}")
         from cointoss.compare.output.bounce_plot import bounce_table, draw_bounce
         from cointoss.compare.output.plots import picture_bytes
+        from cointoss.compare.output.rest_lines import rest_lines
 
         if png is not None:
             write_bytes(png, picture_bytes(draw_bounce(found)))
@@ -47,7 +49,8 @@ def bounce(model: Path, one: str, two: str, png: Path | None, as_json: bool) -> 
         friction = f' friction="{found.friction:g}"' if found.condim > 1 else ""
         click.echo(
             f'mixed       solref="{solref}" solimp="{found.solimp}" condim="{found.condim}"{friction}\n'
-            f"integrator  {found.integrator}, {1e3 * found.timestep:g} ms\n\n{bounce_table(found)}"
+            f"integrator  {found.integrator}, {1e3 * found.timestep:g} ms\n\n{bounce_table(found)}\n\n"
+            f"{rest_lines(found)}"
         )
         if png is not None:
             click.echo(f"\npicture     {png}")

@@ -1,0 +1,41 @@
+"""What one geom does at rest on another, in lines."""
+
+from cointoss.coin_mj.bounces.pair import PairBounce
+from cointoss.coin_mj.bounces.pair_rest import PairRest
+
+
+def rest_lines(found: PairBounce) -> str:
+    """Return whether a geom lies still on the other, creeps and rocks, or why that was not measured."""
+    rest = found.rest
+    if rest is None:
+        return f"rest        not measured: {found.no_rest}"
+    return "\n".join(
+        [
+            f"rest        {_rest(rest)}",
+            f"creep       {_creep(rest, found)}",
+            f"rocking     {f'leans to and fro by up to {rest.rocking:.2g} rad' if rest.rocking else 'none'}",
+        ]
+    )
+
+
+def _rest(rest: PairRest) -> str:
+    if rest.hop:
+        return f"never still: it hops on, by {1e6 * rest.hop:.3g} um"
+    if rest.sinking:
+        return f"sinks {1e6 * rest.sinking:.3g} um/s"
+    return f"lies still, {1e6 * rest.depth:.3g} um deep"
+
+
+def _creep(rest: PairRest, found: PairBounce) -> str:
+    if rest.drift:
+        return f"moves along the other geom at {1e6 * rest.drift:.3g} um/s"
+    if rest.slope:
+        slope = (
+            f"on a slope of {rest.slope:g} the points that touch slip at {1e6 * rest.slip:.2g} um/s, "
+            "in proportion to the slope"
+        )
+    elif found.condim == 1:
+        slope = "condim 1 has no friction: it slides down every slope"
+    else:
+        slope = "no slope was tried"
+    return f"none under the model's gravity; {slope}"

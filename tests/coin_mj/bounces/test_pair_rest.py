@@ -1,0 +1,100 @@
+"""Whether a geom lies still on another: closed forms of its depth and its creep, and what cannot rest."""
+
+import numpy as np
+import pytest
+
+from cointoss.coin_mj.bounces.approach import Pair
+from cointoss.coin_mj.bounces.pair_rest import PairRest, rest_between
+from cointoss.coin_mj.bounces.recipe import recipe_of
+from cointoss.coin_mj.bounces.unlogged import unlogged
+from tests.helpers.two_geoms import DT, FLOOR, HARD, SET, ball, model
+
+ROUGH = f'{HARD.geom} condim="3" priority="1"'
+SPRING = recipe_of(0.8, DT, 40)
+BOX = '<body pos="0 0 1"><freejoint/><geom name="b" type="box" size="0.1 0.1 0.05" {}/></body>'
+STIFFNESS, DAMPING = (-number for number in HARD.solref)
+LEFT = 1e-4 * 9.81
+"""The part of its weight that the contact leaves to a body, over its mass [m/s²]."""
+MESH = '<asset><mesh name="m" vertex="-.1 -.1 0 .1 -.1 0 0 .1 0 0 0 .15"/></asset>'
+FIELD = '<asset><hfield name="h" nrow="6" ncol="6" size="1 1 0.1 0.1"/></asset>'
+
+
+def found(bodies, more="", cone="pyramidal", integrator="implicitfast"):
+    given = model(bodies, integrator, more)
+    given.opt.cone = ("pyramidal", "elliptic").index(cone)
+    return rest_between(Pair(given, 0, 1))
+
+
+def rest(*described, **options):
+    answer = found(*described, **options)
+    assert isinstance(answer, PairRest), answer
+    return answer
+
+
+@pytest.mark.parametrize(
+    ("body", "share", "points"), [(ball(ROUGH), 2 / 7, 1), (BOX.format(ROUGH), 1, 4)], ids=["ball", "box"]
+)
+def test_it_lies_still_and_creeps_as_the_damping_of_friction_says(body, share, points):
+    """A ball rolls down, and its friction carries 2/7 of the slope's pull; four points carry a box."""
+    lying = rest(FLOOR + body, cone="elliptic")
+    assert (lying.hop, lying.sinking, lying.drift, lying.rocking) == (0, 0, 0, 0)
+    assert lying.depth == pytest.approx(LEFT / STIFFNESS / points, rel=1e-3)
+    assert lying.slip == pytest.approx(share * LEFT * lying.slope / DAMPING / points, rel=2e-3)
+
+
+def test_it_creeps_down_a_plane_that_is_tilted():
+    tilted = FLOOR.replace("/>", ' euler="0 10 0"/>')
+    lying = rest(tilted + BOX.format(ROUGH), cone="elliptic")
+    assert lying.drift == pytest.approx(LEFT * np.sin(np.radians(10)) / DAMPING / 4, rel=2e-3)
+    assert lying.slope == 0
+
+
+def test_without_a_stiffness_it_sinks_and_on_the_hardest_spring_it_hops():
+    damped = 'solref="0 -900" solimp="0.9999 0.9999 0.001" condim="1" priority="1"'
+    sinking = rest(FLOOR + ball(damped))
+    assert sinking.sinking == pytest.approx(LEFT / 900, rel=1e-3)
+    assert (sinking.hop, sinking.slope) == (0, 0)
+    stiff, damping = SPRING.solref
+    hard = f'solref="{stiff} {damping}" solimp="0.9999 0.9999 0.001" condim="1" priority="1"'
+    assert rest(FLOOR + ball(hard), integrator="RK4").hop > 2e-5
+
+
+def test_a_mesh_lies_still_and_a_ball_wanders_over_the_prisms_of_a_flat_height_field():
+    mesh = f'<body pos="0 0 1"><freejoint/><geom name="b" type="mesh" mesh="m" {ROUGH}/></body>'
+    lying = rest(FLOOR + mesh, MESH)
+    assert (lying.hop, lying.drift, lying.rocking) == (0, 0, 0)
+    wandering = rest('<geom name="a" type="hfield" hfield="h"/>' + ball(ROUGH), FIELD)
+    assert wandering.depth == pytest.approx(LEFT / STIFFNESS, rel=1e-2)
+    assert wandering.drift > 1e-5
+    assert wandering.slope == 0
+
+
+def test_a_ball_whose_mass_centre_is_off_its_middle_rocks():
+    tumbler = ball(ROUGH).replace(
+        "<geom", '<inertial pos="0.02 0 -0.05" mass="1" diaginertia="0.004 0.004 0.004"/><geom'
+    )
+    rocking = rest(FLOOR + tumbler).rocking
+    assert np.arctan2(0.02, 0.05) < rocking < 1
+
+
+@pytest.mark.parametrize(
+    ("bodies", "why"),
+    [
+        (ball(SET, "0 0 2").replace('"b"', '"a"') + ball(SET), "both are on free bodies"),
+        ('<geom name="a" type="box" size="0.1 1 1" pos="1 0 1"/>' + ball(SET), "nothing presses"),
+    ],
+    ids=["two free bodies", "a wall"],
+)
+def test_what_nothing_presses_together_is_told(bodies, why):
+    assert why in str(found(bodies))
+
+
+def test_what_falls_off_is_told():
+    off = '<geom name="a" type="box" size="0.01 0.01 0.01" pos="0.05 0 0"/>' + ball(SET)
+    assert "do not touch any more" in str(found(off))
+
+
+def test_a_model_that_becomes_unstable_is_told():
+    wild = 'solref="-1e20 0" solimp="0.9999 0.9999 0.001" condim="1" priority="1"'
+    with unlogged():
+        assert "unstable" in str(found(FLOOR + ball(wild)))
