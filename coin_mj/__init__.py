@@ -3,6 +3,7 @@
 from cointoss.coin_mj.bounces.inverse import Rebounds, solref_of
 from cointoss.coin_mj.bounces.pair import PairBounce, bounce
 from cointoss.coin_mj.bounces.pair_rest import PairRest
+from cointoss.coin_mj.bounces.physx import PhysxBounce, physx_bounce
 from cointoss.coin_mj.bounces.recipe import Bounce, solref
 from cointoss.coin_mj.many import require_rows, toss_rows
 from cointoss.coin_mj.model.settings import FINE, MANY, Friction, MujocoSettings, Realisation
@@ -17,10 +18,12 @@ __all__ = [
     "MujocoSettings",
     "PairBounce",
     "PairRest",
+    "PhysxBounce",
     "Realisation",
     "Rebounds",
     "bounce",
     "impacts_of",
+    "physx_bounce",
     "release_fields",
     "require_rows",
     "require_supported",

@@ -1,4 +1,4 @@
-"""What steps a model on a GPU, and what of the settings for a bounce it takes."""
+"""What steps a model, and what of the settings for a bounce it takes."""
 
 from enum import StrEnum
 
@@ -12,17 +12,28 @@ class Backend(StrEnum):
     """mujoco-mjx, in JAX."""
     WARP = "warp"
     """mujoco-warp, in NVIDIA Warp."""
+    NEWTON = "newton"
+    """SolverMuJoCo of Newton, which is mujoco-warp with shapes of Newton."""
+    GENESIS = "genesis"
+    """The rigid solver of Genesis, whose contacts are MuJoCo's springs."""
 
     @property
     def takes_diagexact(self) -> bool:
-        """Whether it takes the flag diagexact, which it refuses otherwise (NotImplementedError)."""
+        """Whether it takes the flag diagexact, which mjx and warp refuse (NotImplementedError)."""
         return self is Backend.MUJOCO
 
     @property
+    def takes_xml(self) -> bool:
+        """Whether its settings are lines of a model of MuJoCo."""
+        return self in (Backend.MUJOCO, Backend.MJX, Backend.WARP)
+
+    @property
     def remark(self) -> str:
-        """What was found of it on a CPU, of mujoco-mjx 3.17 and mujoco-warp 4.0."""
+        """What was found of it on a CPU, of mujoco-mjx 3.17, mujoco-warp 4.0, Newton 1.8 and Genesis 1.4."""
         return {
             Backend.MUJOCO: "in double precision",
             Backend.MJX: "in float32 e errs by up to 3e-3, with jax_enable_x64 by no more than MuJoCo's",
             Backend.WARP: "in float32, e errs by 4e-7 more than MuJoCo's",
+            Backend.NEWTON: "not run",
+            Backend.GENESIS: "not run",
         }[self]

@@ -20,6 +20,7 @@ from cointoss.coin_mj.bounces.contact import (
 )
 from cointoss.coin_mj.bounces.drops import LONGEST, SPEED, drops_of
 from cointoss.coin_mj.bounces.flight import energy_change
+from cointoss.coin_mj.bounces.other_engines import FIRMEST, genesis_settings, newton_settings
 from cointoss.coin_mj.bounces.rest import Rest, rest_of
 from cointoss.models.errors import FieldError
 from cointoss.models.records import ApproximationWarning
@@ -43,6 +44,8 @@ class Bounce:
 
     restitution: float
     """The restitution asked for, e."""
+    spring: bool
+    """Whether a contact is a spring that lasts several steps."""
     timestep: float
     """The step of the simulation [s]."""
     integrator: str
@@ -68,6 +71,12 @@ class Bounce:
     """What the body does when its bounces have ended."""
     flight: float
     """Change of a tumbling brick's energy, over itself, in half a second at ten turns a second."""
+
+    @property
+    def settings(self) -> str:
+        """What to set, in the words of the backend."""
+        write = {Backend.NEWTON: newton_settings, Backend.GENESIS: genesis_settings}.get(self.backend)
+        return write(self.contact) if write else f"{self.option}\n<geom {self.geom}/>"
 
     @property
     def option(self) -> str:
@@ -138,7 +147,7 @@ def solref(
     mass: float = BALL.mass,
     gravity: float = GRAVITY,
 ) -> Bounce:
-    """Return the settings with which MuJoCo's contacts have a restitution, and what they do, measured now.
+    """Return the settings with which contacts have a restitution, and what they do, measured by MuJoCo now.
 
     By default a contact takes one step, v' = -e v, with a small stiffness that holds a body at rest; a spring
     takes `steps`, in which its force can be seen, and can be stepped by RK4, which keeps the energy of a body
@@ -152,7 +161,8 @@ def solref(
         steps: of the simulation in the contact of a spring.
         body: that is measured, by its type and size in a <geom>, such as "box 0.1 0.1 0.002"; by default a
             ball of 1 cm.
-        backend: what steps the model: mujoco, mjx or warp. The last two refuse the flag diagexact.
+        backend: what steps the model: mujoco, mjx, warp, newton or genesis. MuJoCo alone takes the flag
+            diagexact, and Genesis takes springs alone.
         mass: of the body [kg].
         gravity: downward, of what is measured with weight and at rest [m/s²].
 
@@ -162,25 +172,29 @@ def solref(
     Warns:
         ApproximationWarning: where a contact of `body` at `SPEED` is deeper than half of its thickness.
     """
-    require_numbers(restitution=restitution, timestep=timestep, steps=steps)
-    require("restitution", restitution, 0 <= restitution <= 1, "a number from 0 to 1")
+    require_numbers(steps=steps)
+    require_restitution(restitution)
+    require_timestep(timestep)
+    known = [item.value for item in Backend]
+    require("backend", backend, backend in known, ", ".join(known))
+    genesis = backend == Backend.GENESIS
+    spring = spring or genesis
     require(
         "restitution",
         restitution,
         restitution >= LEAST or not spring,
         f"a number from {LEAST} to 1 by a spring",
     )
-    require_timestep(timestep)
     whole = isinstance(steps, Integral) and 5 <= steps <= LONGEST // 4
     require("steps", steps, whole, f"a whole number from 5 to {LONGEST // 4}")
     require_weight(mass, gravity, timestep)
-    known = [item.value for item in Backend]
-    require("backend", backend, backend in known, ", ".join(known))
-    contact = replace(
-        recipe_of(restitution, timestep, steps if spring else None),
-        exact=Backend(backend).takes_diagexact,
-        gravity=gravity,
-    )
+    firmest = f"a number from {LEAST} to {FIRMEST} by genesis"
+    require("restitution", restitution, restitution <= FIRMEST or not genesis, firmest)
+    engine = Backend(backend)
+    recipe = recipe_of(restitution, timestep, steps if spring else None)
+    contact = replace(recipe, exact=engine.takes_diagexact, gravity=gravity)
+    if genesis:
+        contact = replace(contact, integrator="implicitfast")
     chosen = replace(BALL, mass=mass) if body is None else body_of(body, mass)
     drops = drops_of(contact, chosen)
     weighing = drops_of(contact, chosen, gravity)
@@ -188,11 +202,12 @@ def solref(
         _warn_if_deep(chosen, drops.depth / SPEED)
     return Bounce(
         restitution=restitution,
+        spring=spring,
         timestep=timestep,
         integrator=contact.integrator,
         solref=contact.solref,
         solimp=contact.solimp,
-        backend=Backend(backend),
+        backend=engine,
         body=str(chosen),
         mass=mass,
         gravity=gravity,
@@ -245,8 +260,15 @@ def require_numbers(**numbers: object) -> None:
         require(name, value, isinstance(value, Real) and not isinstance(value, bool), "a number")
 
 
+def require_restitution(restitution: float) -> None:
+    """Refuse a restitution that is none."""
+    require_numbers(restitution=restitution)
+    require("restitution", restitution, 0 <= restitution <= 1, "a number from 0 to 1")
+
+
 def require_timestep(timestep: float) -> None:
     """Refuse a step that MuJoCo's own settings do not suit."""
+    require_numbers(timestep=timestep)
     require("timestep", timestep, SHORTEST_STEP <= timestep <= LONGEST_STEP, STEP_ACCEPTED)
 
 

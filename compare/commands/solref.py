@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import click
 
 from cointoss.compare.commands.common import Given, naming_options, plain_errors, print_json, quantity
-from cointoss.compare.commands.options import one_of, only_with, options_of
+from cointoss.compare.commands.options import one_of, only_with, options_of, without
 from cointoss.compare.output.accepted import Form, Within
 
 if TYPE_CHECKING:
     from cointoss.coin_mj.bounces.inverse import Rebounds
+    from cointoss.coin_mj.bounces.physx import PhysxBounce
     from cointoss.coin_mj.bounces.recipe import Bounce
     from cointoss.coin_mj.bounces.rest import Rest
 
@@ -35,8 +36,8 @@ class Wanted:
     """Steps in the contact of a spring; by default 40."""
     body: Annotated[str | None, Form("BODY")] = None
     """That is measured, as in a <geom>, such as "box 0.1 0.1 0.002" (half sizes)."""
-    backend: Literal["mujoco", "mjx", "warp"] | None = None
-    """What steps the model; by default MuJoCo itself. Prints settings that it takes."""
+    backend: Literal["mujoco", "mjx", "warp", "newton", "genesis", "isaaclab"] | None = None
+    """What steps the model; by default MuJoCo itself. Prints settings that it takes, in its own words."""
     gravity: Annotated[Given, quantity("m/s**2"), Form("G")] = Given("9.81", 9.81)
     """Of what is measured with weight and at rest, such as "1.62 m/s^2"."""
     mass: Annotated[Given, quantity("kg"), Form("M")] = Given("10 g", 0.01)
@@ -59,11 +60,13 @@ class Wanted:
     one_of("restitution", "of", needed=True),
     *(only_with(name, "restitution") for name in ("spring", "steps", "body", "backend", "model")),
     *(only_with(name, "of") for name in ("with_", "integrator", "solimp")),
-    only_with("steps", "spring"),
+    only_with("steps", "spring", "backend=genesis"),
+    without("model", *(f"backend={name}" for name in ("newton", "genesis", "isaaclab"))),
+    *(without(name, "backend=isaaclab") for name in ("spring", "body", "mass")),
     one_of("model", "json"),
 )
 def solref(asked: Wanted) -> None:
-    """Print the settings with which a body bounces in MuJoCo, or how it bounces with given settings.
+    """Print the settings with which a body bounces in MuJoCo and others, or how it bounces with given ones.
 
     Everything is measured now, on a body that touches a plane at 16 phases of a step.
     """
@@ -96,6 +99,11 @@ def solref(asked: Wanted) -> None:
                     mass=asked.mass.value,
                     **{name: value for name, value in chosen.items() if value is not None},
                 )
+            elif asked.backend == "isaaclab":
+                assert asked.restitution is not None
+                found = coin_mj.physx_bounce(
+                    asked.restitution.value, asked.dt.value, gravity=asked.gravity.value
+                )
             else:
                 assert asked.restitution is not None
                 found = coin_mj.solref(
@@ -109,9 +117,12 @@ def solref(asked: Wanted) -> None:
                     mass=asked.mass.value,
                 )
         if asked.json:
-            print_json(asdict(found), "mujoco")
+            text = {} if isinstance(found, coin_mj.Rebounds) else {"settings": found.settings}
+            print_json(asdict(found) | text, "mujoco")
         elif isinstance(found, coin_mj.Rebounds):
             click.echo(_rebounds(found))
+        elif isinstance(found, coin_mj.PhysxBounce):
+            click.echo(_physx(found))
         else:
             click.echo(found.model if asked.model else _settings(found))
 
@@ -132,7 +143,7 @@ def _settings(found: "Bounce") -> str:
     from cointoss.coin_mj.bounces.recipe import exact_of
     from cointoss.coin_mj.bounces.rest import depth_at_rest, rest_of
 
-    spring = found.integrator == "RK4"
+    spring, own = found.spring, found.backend.takes_xml
     alone = 1e6 * depth_at_rest(found.contact)
     rest = [
         _rest(found.rest, found.solimp),
@@ -140,7 +151,7 @@ def _settings(found: "Bounce") -> str:
     ]
     body = f"{'an' if found.body[0] in 'aeiou' else 'a'} {found.body}"
     flight = f"a brick at 10 turns a second {_change(found.flight)} of its energy in half a second"
-    if not spring:
+    if not spring and own:
         exact = exact_of(found)
         sinking = rest_of(exact).sinking
         rest.append(
@@ -149,13 +160,12 @@ def _settings(found: "Bounce") -> str:
         flight += f"; by RK4 {energy_change('RK4', found.timestep):+.0e}: --spring"
     return "\n".join(
         [
-            found.option,
-            f"<geom {found.geom}/>",
+            found.settings,
             "",
-            f"integrator  {found.integrator}, "
-            + ("any but discrete, which errs more" if spring else "or Euler; not RK4, not discrete"),
+            f"integrator  {found.integrator}" + (_integrators(spring) if own else ""),
             f"backend     {found.backend}: {found.backend.remark}",
-            f"error       {_at_most(found.error)} at worst, of {body} that touches at 16 phases",
+            f"error       {_at_most(found.error)} at worst, of {body} that touches at 16 phases"
+            + ("" if own else ", by MuJoCo"),
             f"            {_at_most(found.error_with_weight)} with weight at {SPEED:g} m/s; {_slower(found)}",
             "            more if the impact turns it, in proportion to its speed and DT: cointoss bounce",
             *_weight(found),
@@ -163,10 +173,44 @@ def _settings(found: "Bounce") -> str:
             f"floor       {_floor(found)}",
             *_column("rest", rest),
             f"flight      {flight}",
-            'friction    none: a stack slides apart; condim="3" is MuJoCo\'s own, which lifts a body that',
-            "            slides, and lets what it holds "
-            + (f"slip at some {1e6 * found.creep:.2g} um/s:" if found.creep < 1e-3 else "slip out:"),
-            "            docs/MUJOCO.md has a way out of both",
+            *_column("friction", _friction(found)),
+        ]
+    )
+
+
+def _integrators(spring: bool) -> str:
+    return ", any but discrete, which errs more" if spring else ", or Euler; not RK4, not discrete"
+
+
+def _friction(found: "Bounce") -> list[str]:
+    """Return what friction the contact has, line by line."""
+    from cointoss.coin_mj.bounces.backends import Backend
+
+    slips = f"slip at some {1e6 * found.creep:.2g} um/s" if found.creep < 1e-3 else "slip out"
+    if found.backend is Backend.GENESIS:
+        return [
+            "at least 0.01, MuJoCo's own, which lifts a body that slides unless RigidOptions has",
+            f"contact_resolution=gs.contact_resolution.signorini, and lets what it holds {slips}",
+        ]
+    three = '"mujoco:condim": 3' if found.backend is Backend.NEWTON else 'condim="3"'
+    return [
+        f"none: a stack slides apart; {three} is MuJoCo's own, which lifts a body that",
+        f"slides, and lets what it holds {slips}:",
+        "docs/MUJOCO.md has a way out of both",
+    ]
+
+
+def _physx(found: "PhysxBounce") -> str:
+    """Return the settings of Isaac Lab for a restitution, and what they ask for, line by line."""
+    return "\n".join(
+        [
+            found.settings,
+            "",
+            "backend     isaaclab: names of Isaac Lab 2.3, not run",
+            'combine     "max" has priority over other modes: the larger restitution of both bodies holds',
+            f"threshold   a touch slower than {found.threshold:.3g} m/s, 2 g DT, does not bounce; "
+            "Isaac Lab has 0.5 m/s by default",
+            "spring      none: with a compliant_contact_stiffness above 0 there is no restitution",
         ]
     )
 
@@ -235,7 +279,7 @@ def _by_formula(theory: float, measured: float, text: str, found: "Rebounds") ->
 
 def _slower(found: "Bounce") -> str:
     """Return what weight costs at another speed, in words."""
-    if found.integrator == "RK4":
+    if found.spring:
         return "more if slower, about as 1/v"
     if not found.restitution:
         return "a ball stays on the floor"
