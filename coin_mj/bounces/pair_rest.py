@@ -18,6 +18,8 @@ FALL = 10.0
 """Speed at which the geoms come together, over what presses them together times dt."""
 SLOPE = 0.01
 """The slope on which the slip is measured, or half of the friction where that is less."""
+EVERY = 5
+"""Steps from one look at the geoms to the next: an odd number, as some hop every other step."""
 SLIDING, AVERAGED = 2000, 500
 """Steps on the slope, and the last of them, over which the slip is averaged."""
 
@@ -70,8 +72,8 @@ def rest_between(pair: Pair) -> PairRest | str:
     pair.set_apart(FALL * pressing * dt, 1.0)
     mujoco.mj_step(model, data, nstep=STEPS - LOOKED_AT)
     poses = []
-    for _ in range(LOOKED_AT):
-        mujoco.mj_step(model, data)
+    for _ in range(LOOKED_AT // EVERY):
+        mujoco.mj_step(model, data, nstep=EVERY)
         poses.append(_pose(pair))
     if any(warning.number for warning in data.warning):
         return "the model becomes unstable"
@@ -79,7 +81,7 @@ def rest_between(pair: Pair) -> PairRest | str:
         return f"the geoms do not touch any more after {STEPS} steps"
     still, normal = STILL * pressing * dt**2, _normal(pair)
     places = np.array([pose.place for pose in poses])
-    heights, times = places @ normal, dt * np.arange(LOOKED_AT)
+    heights, times = places @ normal, EVERY * dt * np.arange(len(poses))
     rise, start = np.polyfit(times, heights, 1)
     hop = float(np.ptp(heights - rise * times - start))
     along = places[-1] - places[0]
@@ -114,11 +116,10 @@ def _pose(pair: Pair) -> _Pose:
     data = pair.data
     moving, other = _moving_first(pair)
     frame = data.geom_xmat[other].reshape(3, 3)
-    depths = [-float(contact.dist) for contact in pair.touches().values()]
     return _Pose(
         frame.T @ (data.geom_xpos[moving] - data.geom_xpos[other]),
         frame.T @ data.geom_xmat[moving].reshape(3, 3),
-        max(depths, default=0.0),
+        max((-float(contact.dist) for contact in pair.touches().values()), default=0.0),
     )
 
 
@@ -154,8 +155,8 @@ def _slip(pair: Pair, slope: float) -> float:
     model.opt.gravity[:] = level + slope * abs(float(level @ frame[:3])) * frame[3:6]
     mujoco.mj_step(model, data, nstep=SLIDING - AVERAGED)
     slips = []
-    for _ in range(AVERAGED):
-        mujoco.mj_step(model, data)
+    for _ in range(AVERAGED // EVERY):
+        mujoco.mj_step(model, data, nstep=EVERY)
         slips.append(_slip_now(pair))
     model.opt.gravity[:] = level
     return float(np.mean(slips))
