@@ -34,6 +34,6 @@ class Backend(StrEnum):
             Backend.MUJOCO: "in double precision",
             Backend.MJX: "in float32 e errs by up to 3e-3, with jax_enable_x64 by no more than MuJoCo's",
             Backend.WARP: "in float32, e errs by 4e-7 more than MuJoCo's",
-            Backend.NEWTON: "not run",
+            Backend.NEWTON: "in float32, Newton 1.8 has 0.7996 to 0.8004 for 0.8 at 2 ms, as MuJoCo has",
             Backend.GENESIS: "not run",
         }[self]
