@@ -57,9 +57,11 @@ def described(source: str, settings: Sequence[str] = ()) -> "tuple[Scenario, str
     if settings:
         from cointoss.compare.sweep.axes import named
         from cointoss.compare.sweep.batch import KNOWN
+        from cointoss.models.parts import Air
 
         typed = [setting.partition("=") for setting in settings]
-        pairs = [word for name, _, value in typed for word in (named(name.strip(), KNOWN), _value(value))]
+        known = (*KNOWN, *(f"air.{name}" for name in Air.instead))
+        pairs = [word for name, _, value in typed for word in (named(name.strip(), known), _value(value))]
         try:
             scenario = scenario.replace(*pairs)
         except ScenarioError as error:
