@@ -179,7 +179,9 @@ def hold_on(setup: Setup, mode: int, y: Array, spent: Spent, last: float) -> Pas
                 return Passage(Event.LIES, spent, GOES_ON, NOT_FLOWN)
             is_held = has_resistance(friction) and rests(contact, y)
             if (is_held and horizontal_size(velocity_of(y)) < slow) or (
-                mode == Mode.UPRIGHT and fastest(body, y) < STILL * (body.gravity * body.radius) ** 0.5
+                mode == Mode.UPRIGHT
+                and body.downhill == 0
+                and fastest(body, y) < STILL * (body.gravity * body.radius) ** 0.5
             ):
                 return Passage(Event.RESTS, spent, GOES_ON, NOT_FLOWN)
             if comes_upright(contact, y):

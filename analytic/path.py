@@ -66,5 +66,5 @@ def force_in(body: Body, friction: FloorFriction, mode: int, y: Array) -> Vector
     if mode == Mode.FLIGHT or mode == Mode.ENDED:
         return 0.0, 0.0, 0.0
     if mode == Mode.RESTING:
-        return 0.0, 0.0, body.mass * body.gravity
+        return 0.0 - body.mass * body.downhill, 0.0, body.mass * body.gravity
     return floor_force(contact_at(body, friction, mode, y), y)

@@ -19,7 +19,7 @@ from cointoss.analytic.settings import FINE, AnalyticSettings
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.barriers import barrier, energy
 from cointoss.models.body import Body, Rules, in_vacuum, is_ideal, never_adds_energy
-from cointoss.models.certificate import InContact, energies, gaps, measurements
+from cointoss.models.certificate import InContact, conserved_energies, gaps, measurements
 from cointoss.models.errors import require_type
 from cointoss.models.interruptible import interruptible
 from cointoss.models.parts import Release
@@ -210,7 +210,7 @@ def _in_contact(body: Body, log: EventLog) -> InContact:
     def at_both_ends(values: Array) -> Array:
         return np.stack([values[:-1], values[1:]], axis=1)[stays]
 
-    return InContact(at_both_ends(energies(body, states)), at_both_ends(gaps(body, states)).ravel())
+    return InContact(at_both_ends(conserved_energies(body, states)), at_both_ends(gaps(body, states)).ravel())
 
 
 def _states(times: Array, rows: Array) -> States:

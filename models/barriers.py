@@ -19,6 +19,8 @@ BEYOND_ROUNDING = 1 + 1e-12
 def energy(body: Body, z: float, v: Vector, w: Vector) -> float:
     """Return the mechanical energy T + m g z_C [J], zero at rest with C on the floor.
 
+    On a slope g is its part along the floor's normal: this energy lifts the coin off the floor and turns it.
+
     Args:
         body: the coin.
         z: height of C [m].

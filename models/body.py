@@ -147,6 +147,32 @@ def resists(rules: Rules) -> bool:
 
 
 @compiled
+def whole_gravity(body: Body) -> float:
+    """Return g, of both parts [m/s²]."""
+    return body.gravity if body.downhill == 0 else math.hypot(body.gravity, body.downhill)
+
+
+@compiled
+def slope_feeds(body: Body, smooth: bool) -> bool:
+    """Return whether a slope may give energy to the motion that turns the coin over.
+
+    On a smooth floor in vacuum nothing but the slope acts along the floor: the motion of C there is that of a
+    stone, and all other motion is that over a level floor with the normal part of gravity.
+
+    Args:
+        body: the coin.
+        smooth: whether the floor acts on it by vertical forces alone.
+    """
+    return body.downhill > 0 and not (smooth and in_vacuum(body))
+
+
+@compiled
+def friction_can_hold(body: Body, mu: float) -> bool:
+    """Return whether friction μ can hold a coin at rest on the floor, which may slope: tan(slope) <= μ."""
+    return body.downhill <= mu * body.gravity
+
+
+@compiled
 def is_to_be_caught(rules: Rules) -> bool:
     """Return whether a hand catches the coin."""
     return rules.caught < math.inf

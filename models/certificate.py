@@ -178,10 +178,18 @@ def gaps(body: Body, states: States) -> Array:
 
 
 def energies(body: Body, states: States) -> Array:
-    """Return the mechanical energy of each of the states, (n,) [J]."""
+    """Return the mechanical energy of each of the states, of height over the floor alone, (n,) [J]."""
     v, w = states.velocity, states.angular_velocity
     turning = _dot(w, w @ np.array(body.inertia))
     return body.mass * (_dot(v, v) / 2 + body.gravity * states.position[:, 2]) + turning / 2
+
+
+def conserved_energies(body: Body, states: States) -> Array:
+    """Return the energy of each of the states with that of its place along a slope, (n,) [J].
+
+    It is zero at rest with C on the floor at x = 0. Nothing but the air and the floor's friction changes it.
+    """
+    return energies(body, states) - body.mass * body.downhill * states.position[:, 0]
 
 
 def air_power(body: Body, v: Array, w: Array, air: Air) -> Array:
@@ -236,6 +244,7 @@ def _flights(
         ),
     )
     change = impacts.energy - impacts.energy_change - np.concatenate([first, impacts.energy[:-1]])
+    change -= body.mass * body.downhill * np.diff(impacts.position[:, 0], prepend=release.position[0])
     before = np.searchsorted(contacts[:, 0], [starts, ends], side="left")
     free = np.flatnonzero(before[0] == before[1])
     vacuum = in_vacuum(body)

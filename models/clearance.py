@@ -45,7 +45,7 @@ def drag_bound(body: Body, v: Vector, w: Vector, window: float) -> tuple[float, 
     arm = norm(body.center) + math.hypot(r, h / 2)
     spin, ratio = _spin_bound(body, w), body.inertia_smallest / body.mass
     start = (dot(v, v) + ratio * spin * spin) ** 0.5
-    fastest = (start + body.gravity * window) * (1 + arm * arm / ratio) ** 0.5
+    fastest = (start + (body.gravity + body.downhill) * window) * (1 + arm * arm / ratio) ** 0.5
     k = math.pi * r * (r + h) * (air.normal + 2 * air.tangential) * _power(fastest, air.exponent)
     return k, arm, 0.0
 
@@ -79,7 +79,8 @@ def fastest_motion(
     spin = _spin_bound(body, w)
     speed = norm(v) + spin * arm
     if drag > 0:
-        speed = (speed + body.gravity * window) * math.exp(damping_rate(body, v, w, window) * window)
+        g = body.gravity + body.downhill
+        speed = (speed + g * window) * math.exp(damping_rate(body, v, w, window) * window)
         spin += drag * arm / body.inertia_smallest * window * speed
     return drag, arm, turn_drag, speed, spin
 

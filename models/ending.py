@@ -19,6 +19,7 @@ from cointoss.models.body import (
     is_to_be_caught,
     never_adds_energy,
     resists,
+    slope_feeds,
 )
 from cointoss.models.clearance import drag_bound
 from cointoss.models.contact_laws.table import is_followed, is_smooth, uses_friction
@@ -69,12 +70,14 @@ def classify_ending(
 def cannot_be_caught(body: Body, rules: Rules, state: State) -> bool:
     """Return whether the coin is to be caught at a height to which its energy can never lift it.
 
+    On a slope nothing bounds the energy, see `slope_feeds`.
+
     Args:
         body: the coin.
         rules: floor and ending.
         state: of the coin, a `State`.
     """
-    if not (is_to_be_caught(rules) and never_adds_energy(rules)):
+    if not (is_to_be_caught(rules) and never_adds_energy(rules)) or slope_feeds(body, is_smooth(rules.law)):
         return False
     E = energy(body, state.position[2], state.velocity, state.spin)
     return E < body.mass * body.gravity * rules.caught
@@ -202,6 +205,8 @@ def settled_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Endin
     linear air most of that of v_h, and of a balanced coin that of its spin. A thick coin may also be caught
     on its edge. docs/ENDINGS.md has the proofs.
 
+    On a slope neither the energy nor the spin is bounded, but on a smooth floor in vacuum: see `slope_feeds`.
+
     Only the smooth law, `coulomb` with energetic restitution, and a law of one's own that may not, never add
     energy; for every other the same test ends the toss as `Ending.PAPER`.
 
@@ -210,9 +215,11 @@ def settled_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Endin
         rules: floor and ending.
         state: of the coin, a `State`.
     """
+    smooth = is_smooth(rules.law)
+    if slope_feeds(body, smooth):
+        return Outcome.UNDECIDED, Ending.NONE
     v, w, up = state.velocity, state.spin, state.R[2]
     E, face = energy(body, state.position[2], v, w), face_outcome(state)
-    smooth = is_smooth(rules.law)
     ending = Ending.SETTLED if never_adds_energy(rules) else Ending.PAPER
     tilt_sine = tilt_sine_of(up)
     on_face = _is_on_face(body, up)
@@ -276,7 +283,8 @@ def lies(body: Body, rules: Rules, state: State, left: float) -> bool:
 
     What is left of its tilt, of its turning about diameters and of its vertical motion is nothing, and the
     floor can balance all moments that spin, drag and friction make about diameters by pressing inside the
-    rim. As sliding and spinning never grow, neither do these moments.
+    rim. As sliding and spinning never grow, neither do these moments. On a slope they may: see
+    `moments_may_grow`.
 
     Args:
         body: the coin.
@@ -295,10 +303,10 @@ def lies(body: Body, rules: Rules, state: State, left: float) -> bool:
     # Upright a coin as thick as wide is as high as flat.
     if wobble > left * weight * body.radius or not _is_on_face(body, up):
         return False
-    if not is_followed(rules.law):
-        return False
     # On a face no law without the floor's friction acts on the slip, and resistance to pivoting on the spin.
     mu = rules.friction if uses_friction(rules.law) else 0.0
+    if not is_followed(rules.law) or moments_may_grow(body, mu):
+        return False
     k, arm, turn_drag = drag_bound(body, v, w, 0.0)
     drag = k * (norm(v) + arm * norm(w))
     rubbing = mu * weight * body.radius + rules.pivoting_friction * weight
@@ -306,3 +314,20 @@ def lies(body: Body, rules: Rules, state: State, left: float) -> bool:
     moment = math.hypot(J[0][2], J[1][2]) * (w[2] * w[2] + slowing)
     moment += mu * weight * flat_z + drag * arm
     return moment < weight * (body.radius - math.hypot(c[0], c[1]))
+
+
+@compiled
+def moments_may_grow(body: Body, mu: float) -> bool:
+    """Return whether a slope may make the moments grow that tilt a coin which slides and spins on a face.
+
+    Of a balanced coin they depend on neither motion. Of any coin the energy of both motions never grows where
+    tan(slope) (1 + 3 |c|/(2 r)) <= μ: the slope gives at most m g_x (v + |c| Ω), v the speed of B and Ω the
+    rate of the spin, and friction takes μ N times the mean slip of the face, at least v and at least 2/3 r Ω.
+
+    Args:
+        body: the coin.
+        mu: friction μ that acts on a face.
+    """
+    if body.downhill == 0 or is_ideal(body):
+        return False
+    return body.downhill * (1 + 3 * norm(body.center) / (2 * body.radius)) > mu * body.gravity

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cointoss.models.barriers import barrier, energy, energy_without_spin, spin_barrier
-from cointoss.models.body import Body, Rules, in_vacuum, resists
+from cointoss.models.body import Body, Rules, in_vacuum, resists, slope_feeds
 from cointoss.models.contact_laws.table import is_smooth
 from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
@@ -64,7 +64,8 @@ def energy_loss_converges(
 ) -> bool:
     """Return whether a coin in vacuum keeps enough energy to turn over for ever, as its losses suggest.
 
-    Where the floor resists rolling or pivoting it never does: a small loss there goes on.
+    Where the floor resists rolling or pivoting it never does: a small loss there goes on. Where a slope feeds
+    it nothing is said.
 
     The energy is checked whenever the time since the first sustained contact has doubled, and `loss_to_come`
     must leave enough; on a smooth floor, where horizontal velocity and angular momentum about the vertical
@@ -78,6 +79,8 @@ def energy_loss_converges(
         history: kept up.
     """
     if time < history.next_check[0] or not in_vacuum(body) or resists(rules):
+        return False
+    if slope_feeds(body, is_smooth(rules.law)):
         return False
     E, needed = _energy_and_need(body, rules, state)
     start, energies = history.start[0], history.energies

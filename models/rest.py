@@ -2,7 +2,7 @@
 
 import math
 
-from cointoss.models.body import Body
+from cointoss.models.body import Body, friction_can_hold, slope_feeds
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector, apply, dot
 from cointoss.models.state import State
@@ -23,7 +23,9 @@ def is_held(body: Body, rolling: float, sliding: float, state: State, arm: Vecto
 
     At rest the weight's moment about the line of contact is m g a, a the horizontal distance of C from it:
     it stays while a <= δ. All motion is slower than `SLOW`, and its energy is a quarter of what resistance
-    takes from it before a can grow to δ, at most. On a smooth floor the coin may slide on.
+    takes from it before a can grow to δ, at most. On a smooth floor the coin may slide on. On a slope, which
+    friction must bear, a is the distance to where the weight through C meets the floor. There a coin on one
+    point may pivot: a is then the largest of all directions, and what the slope gives it counts as motion.
 
     Args:
         body: the coin.
@@ -34,17 +36,27 @@ def is_held(body: Body, rolling: float, sliding: float, state: State, arm: Vecto
         on_line: whether the coin stands on a line, both rims on the floor.
     """
     v, w = state.velocity, state.spin
-    slow = slow_spin(body)
+    slow, lever = slow_spin(body), lever_of(state.R, arm, on_line)
+    leaning, given = 0.0, 0.0
     if not rolling > 0 or dot(w, w) > slow * slow:
         return False
-    spare = rolling - lever_of(state.R, arm, on_line)
+    if slope_feeds(body, sliding == 0):
+        if not friction_can_hold(body, sliding):
+            return False
+        leaning = body.downhill / body.gravity
+        if on_line:
+            lever = lever_of(state.R, (arm[0] + leaning * arm[2], arm[1], arm[2]), True)
+        else:
+            given = 2 * body.mass * body.downhill * lever
+            lever += leaning * abs(arm[2])
+    spare = rolling - lever
     if not spare > 0 or (sliding > 0 and math.hypot(v[0], v[1]) > slow * body.radius):
         return False
-    energy = (body.mass * v[2] * v[2] + dot(w, apply(body.inertia, w))) / 2
+    energy = given + (body.mass * v[2] * v[2] + dot(w, apply(body.inertia, w))) / 2
     if sliding > 0:
         energy += body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
     # C and A move apart by less than twice the longest lever for each radian of turn.
-    longest = 2 * (dot(arm, arm) ** 0.5 + body.radius)
+    longest = 2 * (dot(arm, arm) ** 0.5 + body.radius) * (1 + leaning)
     return energy < body.mass * body.gravity * spare * spare / (4 * longest)
 
 

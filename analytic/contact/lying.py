@@ -23,7 +23,7 @@ from cointoss.analytic.flight.state_vector import (
 )
 from cointoss.analytic.numerics.elliptic import complete_elliptic
 from cointoss.models.attitude import rotation_matrix
-from cointoss.models.body import Body
+from cointoss.models.body import Body, friction_can_hold
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import apply, dot, scale
 from cointoss.models.records import Array
@@ -38,7 +38,7 @@ _SMALL, _LARGE = 1e-3, 30.0
 def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
     """Write the rate of change of the state y into dy, and return the margin; see `automaton.flow`.
 
-    The mode ends where the coin is at rest.
+    The mode ends where the coin is at rest, but on a slope too steep for friction.
     """
     body, friction = contact.body, contact.friction
     derivative(body, y, dy)
@@ -58,6 +58,8 @@ def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
     by_air = dot(body.inertia[2], spin_of(dy))
     set_velocity(dy, (air[0] + force[0] / body.mass, air[1] + force[1] / body.mass, 0.0))
     set_spin(dy, (0.0, 0.0, (by_air + side * moment) / body.inertia[2][2]))
+    if not friction_can_hold(body, friction.sliding):
+        return 1.0
     return max(speed, rim_speed) / (body.gravity * body.radius) ** 0.5 - STILL
 
 

@@ -9,7 +9,7 @@ from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.resistance import has_resistance
 from cointoss.analytic.flight.state_vector import attitude_of, spin_of
 from cointoss.models.attitude import rotation_matrix
-from cointoss.models.body import in_vacuum, is_ideal
+from cointoss.models.body import in_vacuum, is_ideal, slope_feeds
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import Array
 
@@ -37,11 +37,12 @@ def start_tilt_history(contact: SustainedContact) -> TiltHistory:
     An ideal coin in vacuum that slides without friction, or rolls without slip, has one degree of freedom,
     its tilt: L_z and L_ζ, or what takes their place in rolling, are functions of it (S. A. Chaplygin 1897;
     P. Appell and D. J. Korteweg 1900). Its energy is kept, so the tilt goes to and fro between two extremes
-    for ever, if the contact holds from the one to the other and back.
+    for ever, if the contact holds from the one to the other and back. So it does while it slides down a slope
+    without friction, but not where it rolls.
     """
     body, friction, mode = contact.body, contact.friction, contact.mode
     lossless = mode == Mode.STICKING or (mode == Mode.SLIDING and friction.sliding == 0)
-    lossless = lossless and not has_resistance(friction)
+    lossless = lossless and not (has_resistance(friction) or slope_feeds(body, friction.sliding == 0))
     periodic = lossless and is_ideal(body) and in_vacuum(body)
     slowest = _NOTICEABLE * (body.gravity / body.radius) ** 0.5
     return TiltHistory(periodic, slowest, np.zeros(1), np.zeros(1))

@@ -5,7 +5,9 @@ from cointoss.analytic.contact.contact import SustainedContact, lower_rim_of
 from cointoss.analytic.contact.edge.standing import on_edge, stands
 from cointoss.analytic.contact.resistance import has_resistance
 from cointoss.analytic.contact.rim_contact import rim_contact
+from cointoss.analytic.contact.upright import margin
 from cointoss.analytic.flight.state_vector import spin_of, state_of
+from cointoss.models.body import slope_feeds
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import norm
 from cointoss.models.records import Array
@@ -25,5 +27,8 @@ def rests(contact: SustainedContact, y: Array) -> bool:
 
 @compiled
 def rolls_upright(contact: SustainedContact, y: Array) -> bool:
-    """Return whether a coin rolls upright against resistance, and would be turned back on either rim."""
-    return has_resistance(contact.friction) and on_edge(contact.body, y) and stands(contact, y)
+    """Return whether a coin rolls upright against resistance or on a slope, and is held on both rims."""
+    body, friction = contact.body, contact.friction
+    if slope_feeds(body, friction.sliding == 0):
+        return contact.mode == Mode.UPRIGHT and margin(body, friction, y) > 0
+    return has_resistance(friction) and on_edge(body, y) and stands(contact, y)

@@ -148,6 +148,8 @@ def rim_motion(body: Body, friction: FloorFriction, flight: Flight, rim: float) 
     up, w = flight.state.R[2], flight.state.spin
     a, turn, turn_rate = rim_point(body, up, w, rim)
     by_air_and_weight = subtract(scale(1 / body.mass, flight.force), scale(body.gravity, up))
+    if body.downhill > 0:
+        by_air_and_weight = add(by_air_and_weight, scale(body.downhill, flight.state.R[0]))
     b = add(by_air_and_weight, add(cross(flight.spin_rate, a), turn_rate))
     turned = (0.0, 0.0, 0.0)
     if has_resistance(friction):

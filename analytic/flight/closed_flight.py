@@ -115,9 +115,10 @@ def bounds_in_air(body: Body, turning: Turning, piece: Piece, v: Vector) -> Boun
     rate = max(body.drag.force_tangential, body.drag.force_normal) / body.mass
     # The clock is slower than time: dt = ds/left.
     left = 1 - piece.slowing * piece.length
-    speed = norm(v) + body.gravity * time_of(piece.slowing, piece.length)
+    g = body.gravity + body.downhill
+    speed = norm(v) + g * time_of(piece.slowing, piece.length)
     drag = (rate + piece.slowing) * speed
-    jerk = (rate + 3 * piece.slowing) * (body.gravity + drag) + 2 * turning.rate * rate * speed
+    jerk = (rate + 3 * piece.slowing) * (g + drag) + 2 * turning.rate * rate * speed
     down, up = body.gravity + drag, max(drag - body.gravity, 0.0)
     return bounds_of(turning, down / left**2, up / left**2, jerk / left**3)
 

@@ -47,7 +47,7 @@ def write_rate(body: Body, flight: Flight, dy: Array) -> None:
     """Write the rate of change of a flying coin's state into dy, (13,); m a_C = f, eq. (21)."""
     state, f = flight.state, apply(flight.state.R, flight.force)
     set_position(dy, state.velocity)
-    set_velocity(dy, (f[0] / body.mass, f[1] / body.mass, f[2] / body.mass - body.gravity))
+    set_velocity(dy, (f[0] / body.mass + body.downhill, f[1] / body.mass, f[2] / body.mass - body.gravity))
     set_attitude(dy, quaternion_rate(state.attitude, state.spin))
     set_spin(dy, flight.spin_rate)
 

@@ -8,7 +8,8 @@ clock s of `turning`, dt = ds/(1 - δ s), both obey linear equations,
     (1 - δ s) dw/ds = -α w - β v - g ẑ_w + 2 rate (1 - δ s) a × w
 
 with α, β = (c_n ± c_t)/2m and ẑ_w the mirror image of ẑ, for which dẑ_w/ds = 2 rate a × ẑ_w. So the
-terms of their series follow one from the other; docs/FLIGHT.md derives them.
+terms of their series follow one from the other; docs/FLIGHT.md derives them. On a slope g ẑ is to be read as
+g times the unit vector against gravity.
 """
 
 import math
@@ -46,9 +47,10 @@ def fall_freely(body: Body, y: Array, t: float, y_new: Array) -> None:
         t: time [s].
         y_new: state, (13,).
     """
-    x, v = position_of(y), velocity_of(y)
-    set_position(y_new, (x[0] + t * v[0], x[1] + t * v[1], x[2] + t * (v[2] - t * body.gravity / 2)))
-    set_velocity(y_new, (v[0], v[1], v[2] - t * body.gravity))
+    x, v, along, down = position_of(y), velocity_of(y), body.downhill, body.gravity
+    moved = x[0] + t * (v[0] + t * along / 2)
+    set_position(y_new, (moved, x[1] + t * v[1], x[2] + t * (v[2] - t * down / 2)))
+    set_velocity(y_new, (v[0] + t * along, v[1], v[2] - t * down))
 
 
 class Piece(NamedTuple):
@@ -121,7 +123,10 @@ def expand(body: Body, turning: Turning, y: Array, longest: float, series: Array
     alpha, beta, whirl = (n + t) / 2, (n - t) / 2, 2 * turning.rate
     # Vectors have their parts along `first`, `second` and the axis from here on.
     up, V, x = (first[2], second[2], axis[2]), (dot(first, v), dot(second, v), dot(axis, v)), _NONE
-    W, W_before, weight = (V[0], -V[1], -V[2]), _NONE, scale(body.gravity, up)
+    weight = scale(body.gravity, up)
+    if body.downhill > 0:
+        weight = subtract(weight, scale(body.downhill, (first[0], second[0], axis[0])))
+    W, W_before = (V[0], -V[1], -V[2]), _NONE
     weight_mirrored = (weight[0], -weight[1], -weight[2])
     series[0, 0], series[1, 0], series[2, 0], series[3, 0] = 0.0, 0.0, 0.0, position_of(y)[2]
     # However short the piece, its velocity is that of the first term.

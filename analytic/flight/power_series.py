@@ -150,6 +150,8 @@ def _next_terms(body: Body, k: int, series: Array, scales: _Scales) -> float:
     )
     f, m_C = force_and_moment(body, (x[3], y[3], z[3]), _three(w))
     a = subtract(scale(1 / body.mass, f), scale(body.gravity, (x[2], y[2], z[2])))
+    if body.downhill > 0:
+        a = add(a, scale(body.downhill, (x[0], y[0], z[0])))
     position = times(part, read_four(series, k, _VELOCITY))
     _write_products(series, k)
     write_four(series, k + 1, _POSITION, position)
@@ -184,8 +186,8 @@ def _write_velocity(body: Body, series: Array, k: int) -> None:
     slowed = times(c_t / body.mass, minus(read_four(series, k, _POSITION), arm))
     along_normal = read_four(series, _WORK, _ALONG_NORMAL)
     slowed = add_product(slowed, along_normal, _INVERSE[k - 1] * (c_n - c_t) / body.mass)
-    fall = body.gravity if k == 1 else 0.0
-    write_four(series, k, _VELOCITY, (-slowed[0], -slowed[1], -slowed[2] - fall, -slowed[3]))
+    along, down = (body.downhill, body.gravity) if k == 1 else (0.0, 0.0)
+    write_four(series, k, _VELOCITY, (along - slowed[0], -slowed[1], -slowed[2] - down, -slowed[3]))
 
 
 @compiled

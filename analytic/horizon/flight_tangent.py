@@ -8,8 +8,8 @@ spin ω obeys
     dθ/dt = θ × ω + dω
     J dω/dt = dm_C + (J dω) × ω + (J ω) × dω
 
-with u the upward unit vector. Motion and changes are carried by one Runge-Kutta method of order 4: a growth
-needs far fewer digits than the flight.
+with u the unit vector against gravity, upward on a level floor. Motion and changes are carried by one
+Runge-Kutta method of order 4: a growth needs far fewer digits than the flight.
 """
 
 from typing import NamedTuple
@@ -18,7 +18,7 @@ import numpy as np
 
 from cointoss.analytic.air.force import force_and_moment, write_jacobian
 from cointoss.analytic.numerics.rotation import quaternion_rate, turn_of
-from cointoss.models.body import Body
+from cointoss.models.body import Body, whole_gravity
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import (
@@ -47,7 +47,7 @@ class Motion(NamedTuple):
     """A coin in flight, seen from itself."""
 
     up: Vector
-    """The upward unit vector u."""
+    """The unit vector u against gravity."""
     velocity: Vector
     """U, of C [m/s]."""
     spin: Vector
@@ -106,7 +106,7 @@ def flight_tangent(
     seen = np.empty((len(changes), 12))
     for i in range(len(changes)):
         _write_seen(start, changes[i], seen[i])
-    motion = Motion(start.R[2], apply_transposed(start.R, start.velocity), start.spin)
+    motion = Motion(_against_gravity(body, start), apply_transposed(start.R, start.velocity), start.spin)
     air, left = _air_at(body, motion), duration
     longest = longest_step(duration * fastest(body, motion, air), accuracy)
     while left > 0:
@@ -117,6 +117,16 @@ def flight_tangent(
             air = _air_at(body, motion)
     for i in range(len(changes)):
         _write_change(end, seen[i], changes[i])
+
+
+@compiled
+def _against_gravity(body: Body, state: State) -> Vector:
+    """Return the unit vector against gravity in a state, body frame, (3,)."""
+    up = state.R[2]
+    if body.downhill == 0:
+        return up
+    against = subtract(scale(body.gravity, up), scale(body.downhill, state.R[0]))
+    return scale(1 / whole_gravity(body), against)
 
 
 @compiled
@@ -160,7 +170,7 @@ def motion_rate(body: Body, motion: Motion) -> Motion:
     """Return the rate of change of a motion, each part by its own."""
     u, U, w = motion
     f, m_C = force_and_moment(body, U, w)
-    speeding = subtract(scale(1 / body.mass, f), scale(body.gravity, u))
+    speeding = subtract(scale(1 / body.mass, f), scale(whole_gravity(body), u))
     spinning = subtract(m_C, cross(w, apply(body.inertia, w)))
     return Motion(cross(u, w), add(cross(U, w), speeding), apply(body.inertia_inverse, spinning))
 
@@ -196,7 +206,7 @@ def _linear(body: Body, motion: Motion, air: AirDerivatives) -> Linear:
         _minus(air.velocity_by_spin, _crossing(scale(-1.0, U))),
         air.spin_by_velocity,
         _minus(air.spin_by_spin, multiply(body.inertia_inverse, gyroscopic)),
-        scale(body.gravity, u),
+        scale(whole_gravity(body), u),
     )
 
 

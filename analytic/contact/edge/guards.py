@@ -8,6 +8,7 @@ from cointoss.analytic.contact.edge.rocking import rocks_on_edge
 from cointoss.analytic.contact.edge.standing import on_edge, slows, stands
 from cointoss.analytic.contact.resets import stand_up
 from cointoss.analytic.contact.resistance import has_resistance
+from cointoss.models.body import slope_feeds
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import Array
 
@@ -19,7 +20,7 @@ _BETWEEN_TRIALS = 64
 def stands_for_good(contact: SustainedContact, steps: int, early: bool, y: Array) -> bool:
     """Return whether a coin in contact is proved to stand on its edge for good.
 
-    A coin without thickness is not.
+    A coin without thickness is not, nor one that a slope may give energy.
 
     Args:
         contact: the contact.
@@ -29,6 +30,8 @@ def stands_for_good(contact: SustainedContact, steps: int, early: bool, y: Array
         y: state, (13,).
     """
     body, friction = contact.body, contact.friction
+    if slope_feeds(body, friction.sliding == 0):
+        return False
     if contact.mode == Mode.UPRIGHT:
         return steps % _BETWEEN_TRIALS == 0 and not slows(body, friction, y) and stands(contact, y)
     if body.thickness == 0:

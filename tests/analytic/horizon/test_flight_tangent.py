@@ -61,10 +61,12 @@ def strayed(case: Scenario, start: np.ndarray, duration: float, accuracy: float)
 
 @pytest.mark.parametrize(("thickness", "offset"), THICKNESSES_AND_OFFSETS)
 @pytest.mark.parametrize("air", [{}, AIR])
-def test_a_flight_s_tangent_map_is_its_derivative(thickness, offset, air):
+@pytest.mark.parametrize("slope", [0.0, 0.4])
+def test_a_flight_s_tangent_map_is_its_derivative(thickness, offset, air, slope):
     """To what the differences err by, or as coarsely as the horizon wants it, or nearly so."""
     coin = {**ZLOTY, "thickness": thickness, "center_of_mass": offset}
-    case = scenario(coin=coin, air=air, release=draw_release(np.random.default_rng(41)))
+    floor = {"contact": "smooth", "slope": slope}
+    case = scenario(coin=coin, air=air, floor=floor, release=draw_release(np.random.default_rng(41)))
     start = state_at_release(case.release)
     assert max(strayed(case, start, 0.2, FINE)) < 1e-6
     assert max(strayed(case, start, 0.2, COARSE)) < 3 * COARSE
