@@ -18,7 +18,7 @@ from cointoss.coin_mj.model.settings import FINE, ROUGH, Friction, MujocoSetting
 from cointoss.coin_mj.path import Knots
 from cointoss.coin_mj.trust import lawful_impacts, shared_impacts
 from cointoss.models.body import Body, Rules
-from cointoss.models.certificate import InContact, energies, gaps, measurements
+from cointoss.models.certificate import InContact, conserved_energies, gaps, measurements
 from cointoss.models.contact_laws.table import is_rough, laws_that, quoted
 from cointoss.models.errors import require_type
 from cointoss.models.impact_row import FIRST_ROOM
@@ -252,7 +252,7 @@ def _contact_energies(body: Body, contacts: Array, path: Knots) -> Array:
     """Return the energies at start and end of parts of the longest contacts, (n, 2) [J]."""
     longest = contacts[np.argsort(contacts[:, 0] - contacts[:, 1], kind="stable")[:CONTACTS_MEASURED]]
     times = np.linspace(longest[:, 0], longest[:, 1], PARTS_MEASURED + 1, axis=1)
-    values = energies(body, path.sample(times.ravel())).reshape(times.shape)
+    values = conserved_energies(body, path.sample(times.ravel())).reshape(times.shape)
     return np.stack([values[:, :-1].ravel(), values[:, 1:].ravel()], axis=1)
 
 

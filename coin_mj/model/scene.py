@@ -95,7 +95,7 @@ def described(scenario: Scenario, thickness: float) -> mujoco.MjSpec:
     spec = mujoco.MjSpec.from_string(
         (resources.files("cointoss.models") / "coin.xml").read_text(encoding="utf-8")
     )
-    spec.option.gravity = (0.0, 0.0, -scenario.gravity)
+    spec.option.gravity = (scenario.body.downhill, 0.0, -scenario.body.gravity)
     coin, body = scenario.coin, spec.body("coin")
     J = coin.inertia_about_C
     J = J + INERTIA_WIDENED * np.trace(J) * np.eye(3)

@@ -11,7 +11,12 @@ from cointoss.models.kernel.vectors import Vector
 def other_force(coin: MujocoCoin) -> Vector:
     """Return weight and drag, space frame, (3,) [N], after `forward`."""
     f, g = joint_of(coin).qfrc_actuator, joint_of(coin).qfrc_passive
-    return f[0] + g[0], f[1] + g[1], f[2] + g[2] - coin.body.mass * coin.body.gravity
+    m = coin.body.mass
+    return (
+        f[0] + g[0] + m * coin.body.downhill,
+        f[1] + g[1],
+        f[2] + g[2] - m * coin.body.gravity,
+    )
 
 
 @compiled

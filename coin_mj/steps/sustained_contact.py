@@ -12,7 +12,7 @@ from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap, turning_rate
 from cointoss.coin_mj.steps.knots import RecordedPath, StepKind, add_knot
 from cointoss.coin_mj.steps.mujoco_step import set_margin, set_spring
 from cointoss.coin_mj.steps.resistance import shortest_stop
-from cointoss.models.body import Rules
+from cointoss.models.body import Rules, friction_can_hold, slope_feeds
 from cointoss.models.ending import classify_ending, out_of_steps
 from cointoss.models.geometry import lowest_point
 from cointoss.models.kernel.compiled import compiled
@@ -107,7 +107,7 @@ def follow_contact(
     """
     body = coin.body
     rate = (body.gravity / body.radius) ** 0.5
-    unloaded, upright = 0.0, 0.0
+    unloaded, upright, may_speed_up = 0.0, 0.0, slope_feeds(body, coin.friction == 0)
     while time < rules.max_time:
         x, v, e, w, R = state_of(coin)
         up = R[2]
@@ -118,13 +118,14 @@ def follow_contact(
         now = State((x[0], x[1], z), v, e, w, R)
         if still == NOT_DECIDED:
             outcome, ending = classify_ending(body, rules, now, time, history)
-            if ending == Ending.NONE and upright * rate > FIRST_CHECK and not slows(coin, R, w):
+            stands = upright * rate > FIRST_CHECK and not (may_speed_up or slows(coin, R, w))
+            if ending == Ending.NONE and stands:
                 outcome, ending = Outcome.EDGE, Ending.STANDING
             if ending == Ending.NONE and rests(coin, now, upright > 0):
                 outcome, ending = Outcome.EDGE, Ending.AT_REST
             if ending == Ending.NONE and steps_left <= 0:
                 outcome, ending = out_of_budget(coin, upright > 0, *out_of_steps(body, rules, now, history))
-        elif max(norm(v), body.radius * norm(w)) < still:
+        elif friction_can_hold(body, coin.friction) and max(norm(v), body.radius * norm(w)) < still:
             outcome, ending = Outcome.UNDECIDED, Ending.AT_REST
         else:
             outcome, ending = Outcome.UNDECIDED, Ending.CONTACT_STEPS if steps_left <= 0 else Ending.NONE
@@ -235,7 +236,7 @@ def out_of_budget(
         outcome: that of a coin which does not roll on its edge.
         ending: that of such a coin.
     """
-    if upright and coin.resists:
+    if upright and (coin.resists or slope_feeds(coin.body, coin.friction == 0)):
         return Outcome.EDGE, Ending.ROLLING
     return outcome, ending
 
