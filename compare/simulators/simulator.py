@@ -79,6 +79,8 @@ class Simulator:
             UnsupportedError: for what the engine can't do.
             EngineError: for an engine that fails; the message names it, the time and why.
         """
+        if slope := scenario.floor.slope:
+            raise UnsupportedError(f"floor.slope: {slope:g}, accepted of {self.name}: 0")
         step = dt or self.dt
         fine = step or SPACING
         spacing = fine * max(round((every or fine) / fine), 1)

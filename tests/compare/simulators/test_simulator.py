@@ -266,6 +266,8 @@ def test_an_engine_in_another_process_answers_as_in_this_one(tumbling):
     here, there = (each.observe(tumbling, 0.3) for each in (simulator_of(Newton()), asked))
     assert np.array_equal(here.states.position, there.states.position)
     assert (asked.name, asked.dt) == ("Newton's steps", 1e-3)
+    with pytest.raises(UnsupportedError, match=r"^floor\.slope: 0\.1, accepted of Newton's steps: 0$"):
+        asked.observe(tumbling.replace("floor.slope", 0.1), 0.3)
     with pytest.raises(UnsupportedError, match=r"floor\.contact = coulomb: accepted: smooth"):
         asked.observe(tumbling.replace("floor.contact", "coulomb"), 0.3)
     asked.answering.close()
