@@ -1,5 +1,6 @@
 """What stands below the film of a report: which tosses it shows, how fast it runs, and where it ends."""
 
+import math
 from collections.abc import Container, Sequence
 
 from cointoss.compare.film.filmed import FOLLOWED_FOR, goes_on
@@ -20,8 +21,16 @@ def film_caption(tosses: Sequence[Toss], absent: Container[str] = ()) -> str:
         absent: the engines that can't toss what the film shows.
     """
     touches = any(len(toss.impacts) or len(toss.contacts) or goes_on(toss) for toss in tosses)
+    slope = math.degrees(tosses[0].scenario.floor.slope)
     return " ".join(
-        [_shown(tosses, absent), COLORS, *_slows(tosses), _ends(tosses), *([ARROWS] if touches else [])]
+        [
+            _shown(tosses, absent),
+            *([f"It is drawn in the floor’s frame: x is downhill, by {slope:.3g}°."] if slope else []),
+            COLORS,
+            *_slows(tosses),
+            _ends(tosses),
+            *([ARROWS] if touches else []),
+        ]
     )
 
 

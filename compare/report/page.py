@@ -95,6 +95,7 @@ def render(
         raised=_raised,
         safety=SAFETY,
         film_caption=film_caption(comparison.tosses, comparison.absent),
+        slope=comparison.scenario.floor.slope,
         versions=versions(),
     )
 

@@ -43,3 +43,9 @@ def test_the_caption_says_what_the_film_shows(parts, ending, slows, ends):
         assert told.endswith(ARROWS) == (STRONG in slows)
     several = film_caption([*tosses, replace(tosses[0], engine="off")])
     assert several == film_caption(tosses).replace("Both", "All").replace("both", "all")
+
+
+def test_the_caption_says_that_a_slope_is_drawn_level():
+    shown = toss(Engine.ANALYTIC, scenario(floor={"slope": "5 deg"}, **CUT))
+    assert "It is drawn in the floor’s frame: x is downhill, by 5°." in film_caption([shown])
+    assert "downhill" not in film_caption([toss(Engine.ANALYTIC, scenario(**CUT))])
