@@ -18,6 +18,7 @@ from cointoss.models.contact_laws.table import LAWS
 from cointoss.models.kernel.vectors import Vector
 from cointoss.models.laws import RestitutionKind
 from cointoss.models.records import Array, Flag, Impacts, Path, Setting, States, raised_flags
+from cointoss.models.restitution import restitution_at_speed, varies
 from cointoss.models.scenario import Scenario
 
 LAW = "impacts: largest residual of the contact law, relative"
@@ -110,9 +111,9 @@ def measurements(
 def law_residuals(body: Body, rules: Rules, impacts: Impacts) -> Array:
     """Return by how much each impact misses its contact law, (n,).
 
-    Velocities relative to |v_A| before the impact, impulses relative to |S|. Newton's v_Az' = -χ v_Az, χ = 0
-    up to the threshold of restitution, or with energetic restitution that no energy is gained, and the law's
-    own constraint, see its record. A flat landing's impulse is vertical.
+    Velocities relative to |v_A| before the impact, impulses relative to |S|. Newton's v_Az' = -χ v_Az, χ by
+    the speed of approach, or with energetic restitution that no energy is gained, and the law's own
+    constraint, see its record. A flat landing's impulse is vertical.
 
     Args:
         body: the coin.
@@ -284,9 +285,11 @@ def _lands_flat(body: Body, impacts: Impacts) -> NDArray[np.bool_]:
 
 
 def _restitution(rules: Rules, impacts: Impacts) -> Array:
-    """Return χ of each impact: 0 up to the threshold of restitution, (n,)."""
-    fast = -impacts.contact_velocity_before[:, 2] > rules.restitution_threshold
-    return np.where(fast, rules.restitution, 0.0)
+    """Return χ of each impact by its speed of approach, (n,)."""
+    speeds = -impacts.contact_velocity_before[:, 2]
+    if varies(rules):
+        return np.array([restitution_at_speed(rules, float(speed)) for speed in speeds])
+    return np.where(speeds > rules.restitution_threshold, rules.restitution, 0.0)
 
 
 def _cross(a: Array, b: Array) -> Array:

@@ -3,13 +3,14 @@
 import math
 from typing import NamedTuple
 
-from cointoss.models.body import AirLaw, Body
+from cointoss.models.body import AirLaw, Body, Rules
 from cointoss.models.contact_laws.table import hardly_adds_energy, never_adds
 from cointoss.models.drag import linear_drag, sliding_share
 from cointoss.models.inertia import cylinder_inertia, inertia_about_mass_center, inverse, principal_moments
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector, norm
-from cointoss.models.laws import ContactLaw, RestitutionKind
+from cointoss.models.laws import RestitutionKind
+from cointoss.models.restitution import largest_restitution
 
 # More impacts than a coin needs that loses energy; and enough of one that may never lose any.
 MOST_IMPACTS, MOST_LOSSLESS = 30_000_000, 1_000_000
@@ -76,12 +77,13 @@ def make_body(
 
 
 @compiled
-def most_impacts(law: ContactLaw, kind: RestitutionKind, restitution: float) -> int:
+def most_impacts(rules: Rules) -> int:
     """Return after how many impacts a toss is given up by default: soon where they may take no energy.
 
     docs/CONTACT.md says which laws take energy, and add none or hardly any.
     """
-    takes_energy = hardly_adds_energy(law) and restitution <= _TAKING
-    if never_adds(law) or kind == RestitutionKind.ENERGETIC:
-        takes_energy = restitution < 1
+    largest = largest_restitution(rules)
+    takes_energy = hardly_adds_energy(rules.law) and largest <= _TAKING
+    if never_adds(rules.law) or rules.restitution_kind == RestitutionKind.ENERGETIC:
+        takes_energy = largest < 1
     return MOST_IMPACTS if takes_energy else MOST_LOSSLESS

@@ -11,7 +11,7 @@ import numpy as np
 
 from cointoss.models.attitude import Quaternion, normalized, quaternion_from_angles
 from cointoss.models.barriers import barrier
-from cointoss.models.body import NO_CODE, AirLaw, Body, Rules
+from cointoss.models.body import NO_CODE, AirLaw, Body, Rules, with_budgets
 from cointoss.models.faults import (
     Fault,
     fault_of_center,
@@ -24,7 +24,7 @@ from cointoss.models.fields import FIELDS, PLACES, TABLES, WORDED, Place
 from cointoss.models.kernel.arrays import Array, Codes, Row, Table
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector
-from cointoss.models.making import Cylinder, make_body, most_impacts, moved_inertia
+from cointoss.models.making import MOST_LOSSLESS, Cylinder, make_body, most_impacts, moved_inertia
 from cointoss.models.scenario import Scenario
 from cointoss.models.state import State, state
 from cointoss.models.words import Word
@@ -162,21 +162,16 @@ def has_linear_air(row: Array) -> bool:
 @compiled
 def rules_of(row):
     """Return the `Rules` of a row; words are integers there."""
-    law, kind = int(row[AT.floor_contact]), int(row[AT.floor_restitution_kind])
-    chi = row[AT.floor_restitution]
-    max_impacts = most_impacts(law, kind, chi)
-    if not math.isnan(row[AT.ending_max_impacts]):
-        max_impacts = int(row[AT.ending_max_impacts])
     caught = math.inf if math.isnan(row[AT.ending_caught]) else row[AT.ending_caught]
-    return Rules(
-        law=law,
+    rules = Rules(
+        law=int(row[AT.floor_contact]),
         own=NO_CODE,
-        restitution=chi,
+        restitution=row[AT.floor_restitution],
         restitution_threshold=row[AT.floor_restitution_threshold],
         restitution_speed=row[AT.floor_restitution_speed],
         restitution_exponent=row[AT.floor_restitution_exponent],
         restitution_viscous=row[AT.floor_restitution_viscous],
-        restitution_kind=kind,
+        restitution_kind=int(row[AT.floor_restitution_kind]),
         friction=row[AT.floor_friction],
         rolling_friction=row[AT.floor_rolling_friction],
         pivoting_friction=row[AT.floor_pivoting_friction],
@@ -184,10 +179,14 @@ def rules_of(row):
         contour_viscosity=row[AT.floor_contour_viscosity],
         viscosity=row[AT.air_viscosity],
         test=int(row[AT.ending_test]),
-        max_impacts=max_impacts,
+        max_impacts=MOST_LOSSLESS,
         max_time=row[AT.ending_max_time],
         caught=caught,
     )
+    max_impacts = most_impacts(rules)
+    if not math.isnan(row[AT.ending_max_impacts]):
+        max_impacts = int(row[AT.ending_max_impacts])
+    return with_budgets(rules, max_impacts, rules.max_time)
 
 
 @compiled

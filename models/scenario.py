@@ -127,17 +127,17 @@ class Scenario(Part):
     def rules(self) -> Rules:
         """The floor and the ending, for compiled code."""
         floor, ending = self.floor, self.ending
-        most = ending.max_impacts or most_impacts(floor.contact, floor.restitution_kind, floor.restitution)
         declared = {
             **vars(floor),
             **vars(ending),
             "law": floor.contact,
             "own": NO_CODE,
             "viscosity": self.air.viscosity,
-            "max_impacts": most,
+            "max_impacts": ending.max_impacts or MOST_LOSSLESS,
             "caught": math.inf if ending.caught is None else ending.caught,
         }
-        return Rules(**{name: declared[name] for name in Rules._fields})
+        rules = Rules(**{name: declared[name] for name in Rules._fields})
+        return rules if ending.max_impacts else rules._replace(max_impacts=most_impacts(rules))
 
 
 def keeping_all(rules: Rules, scenario: Scenario) -> Rules:

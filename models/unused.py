@@ -24,6 +24,8 @@ def unused_fields(floor: Floor, air: Air) -> list[str]:
         'give a number > 0, such as 0.3, or contact = "smooth"': floor.friction == 0 and has_friction,
         f"floor.restitution_threshold = {floor.restitution_threshold:g}: not used with restitution = 0; "
         "a restitution > 0 uses it": floor.restitution_threshold > 0 and floor.restitution == 0,
+        f"floor.restitution_speed = {floor.restitution_speed:g}: not used with restitution_exponent = 0; "
+        "an exponent > 0 uses it": floor.restitution_speed != 1 and floor.restitution_exponent == 0,
         f"air.exponent = {air.exponent:g}: not used without air; "
         "normal > 0 or tangential > 0 uses it": air.exponent > 0 and air.normal == air.tangential == 0,
     }

@@ -30,6 +30,7 @@ from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, add, apply, scale, subtract
 from cointoss.models.laws import RestitutionKind
 from cointoss.models.records import Array, Ending
+from cointoss.models.restitution import chatter_restitution, restitution_at_speed, varies
 from cointoss.models.state import State
 
 _TIP = 1e-12
@@ -90,24 +91,31 @@ def hit(body: Body, rules: Rules, chi: float, y: Array, row: Any) -> Ending:
 
 @compiled
 def restitution_at(body: Body, rules: Rules, y: Array) -> float:
-    """Return χ of the touch in the state y, (13,): 0 up to the floor's threshold of the speed of approach."""
-    threshold = rules.restitution_threshold
-    is_plastic = threshold > 0 and -evaluate_gap(body, state_of(y)).speed <= threshold
-    return 0.0 if is_plastic else rules.restitution
+    """Return χ of the touch in the state y, (13,), by its speed of approach."""
+    if rules.restitution_threshold == 0 and not varies(rules):
+        return rules.restitution
+    return restitution_at_speed(rules, -evaluate_gap(body, state_of(y)).speed)
 
 
 @compiled
 def rebound_at(body: Body, rules: Rules, y: Array) -> float:
-    """Return -v_Az'/v_Az of an impact in the state y, (13,): χ, or, at most 1, that of a law of one's own."""
+    """Return χ of a geometric chatter that outlasts the impacts to come of a coin in the state y, (13,).
+
+    By a law of one's own it is no less than -v_Az'/v_Az of the impact there, and at most 1.
+    """
     chi = restitution_at(body, rules, y)
+    longest = chi
+    if chi > 0 and varies(rules):
+        longest = chatter_restitution(rules, -evaluate_gap(body, state_of(y)).speed)
     if rules.own.address == 0:
-        return chi
+        return longest
     before = state_of(y)
     struck = impact_of(body, rules, chi, before)
     v, w, speed = struck.after.velocity, struck.after.spin, -struck.contact_velocity[2]
     if struck.ending != Ending.NONE or speed <= 0:
         return 1.0
-    return min(contact_velocity(body, before.R, v, w, struck.point)[2] / speed, 1.0)
+    rebound = min(contact_velocity(body, before.R, v, w, struck.point)[2] / speed, 1.0)
+    return max(rebound, longest) if varies(rules) else rebound
 
 
 @compiled

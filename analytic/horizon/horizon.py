@@ -36,6 +36,7 @@ from cointoss.models.kernel.arrays import Table, copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import norm
 from cointoss.models.records import Array
+from cointoss.models.restitution import elastic_speed
 
 STEP_ERROR = 1e-15
 """Error that one step adds to height, velocity and spin, relative to the scales of the coin: truncation and
@@ -318,11 +319,12 @@ def _holds(rules: Rules, row: Any, touch: TouchDerivatives, errors: Array) -> bo
     else:
         slips = jumps_without_slip(rules.law) and rules.friction > 0
         in_place = tilted <= LINEAR_RANGE * tilt_sine and not (slips and v_A[0] == 0 and v_A[1] == 0)
-    speed, threshold = abs(v_A[2]), rules.restitution_threshold
+    speed, threshold, elastic = abs(v_A[2]), rules.restitution_threshold, elastic_speed(rules)
     closing = _size_of(touch.contact_velocity[2:], errors)
     return (
         in_place
         and (threshold == 0 or closing < abs(speed - threshold))
+        and (elastic == 0 or closing < abs(speed - elastic))
         and _size(errors, _TIME, _TIME + 1) <= TIME_ERROR
         and _size_of(touch.up[2:], errors) < abs(up[2]) - NEAR_EDGE
         and closing <= LINEAR_RANGE * speed

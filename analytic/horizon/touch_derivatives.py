@@ -17,11 +17,19 @@ from cointoss.analytic.flight.state_vector import (
 from cointoss.analytic.numerics.rotation import quaternion_rate, turn_of
 from cointoss.models.body import Body, Rules
 from cointoss.models.contact_laws.table import uses_friction
-from cointoss.models.geometry import FLAT_SINE, contact_velocity, gap, lowest_point, tilt_sine_of
+from cointoss.models.geometry import (
+    FLAT_SINE,
+    contact_velocity,
+    evaluate_gap,
+    gap,
+    lowest_point,
+    tilt_sine_of,
+)
 from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, apply, cross, dot, norm, scale, subtract
 from cointoss.models.records import Array
+from cointoss.models.restitution import elastic_restitution, elastic_speed, varies
 
 STEP = 1e-5
 """The largest change of a component, relative to the coin's scales: 1 of Euler parameters,
@@ -102,7 +110,7 @@ def step_size(body: Body, rules: Rules, y: Array, v_A: Vector) -> float:
     """Return the change of the state with which differences are taken, relative to the coin's scales.
 
     The lowest point jumps where a face or the edge is level; with friction the impulse has a kink where the
-    point does not slip or does not close.
+    point does not slip or does not close; a restitution by the speed has one where it becomes 1.
 
     Args:
         body: the coin.
@@ -115,10 +123,13 @@ def step_size(body: Body, rules: Rules, y: Array, v_A: Vector) -> float:
     distance = abs(up[2])
     if tilt_sine > FLAT_SINE:
         distance *= tilt_sine
-    if uses_friction(rules.law) or rules.own.address != 0:
+    has_friction = uses_friction(rules.law) or rules.own.address != 0
+    if has_friction or varies(rules):
         distance *= abs(v_A[2]) / speed
-        if slip > 0:
-            distance *= slip / speed
+    if has_friction and slip > 0:
+        distance *= slip / speed
+    if elastic_speed(rules) > 0:
+        distance = min(distance, abs(-v_A[2] - elastic_speed(rules)) / speed)
     return max(min(STEP, TO_KINK * distance), LEAST_STEP)
 
 
@@ -160,7 +171,7 @@ def touch_differences(body: Body, rules: Rules, chi: float, y: Array, part: floa
     Args:
         body: the coin.
         rules: floor and ending.
-        chi: restitution of the touch, and of those beside it.
+        chi: restitution of the touch, and where it does not vary with the speed of those beside it.
         y: state at the touch, (13,).
         part: size of the changes, relative to the coin's scales.
     """
@@ -193,7 +204,7 @@ def _write_differences(
     Args:
         body: the coin.
         rules: floor and ending.
-        chi: restitution.
+        chi: restitution, see `touch_differences`.
         y: state at the touch, (13,).
         part: see `touch_differences`.
         by_velocity: where the one go, (13, 3).
@@ -225,6 +236,8 @@ def _write_differences(
 def _write_values(body: Body, rules: Rules, chi: float, y: Array, values: Array) -> None:
     """Write gap, upward unit vector, velocity of A, impulse and the spin gained into `values`, (13,)."""
     state = state_of(y)
+    if chi > 0 and varies(rules):
+        chi = elastic_restitution(rules, -evaluate_gap(body, state).speed)
     up, struck = state.R[2], impact_of(body, rules, chi, state)
     values[0] = gap(body, y[2], up)
     for i in range(3):

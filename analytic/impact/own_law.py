@@ -22,6 +22,7 @@ from cointoss.models.laws import ContactLaw
 from cointoss.models.making import MOST_LOSSLESS
 from cointoss.models.parts import Coin, Floor, Release
 from cointoss.models.records import Array, Impacts, UnsupportedError
+from cointoss.models.restitution import largest_restitution, restitution_at_speed
 from cointoss.models.scenario import Scenario, euler_parameters, vector
 
 FORM = "a function (K, v_A, tau, chi, mu) -> (S_x, S_y, S_z) of plain arithmetic"
@@ -181,7 +182,7 @@ def contact_in(body: Body, rules: Rules, R: Matrix, v: Array, w: Array) -> LawAr
     lowest, is_flat = lowest_point(body, R[2], vector(w))
     turn, point = np.array(R), np.array(lowest)
     v_A = v + turn @ np.cross(w, point - np.array(body.center))
-    chi = rules.restitution if -v_A[2] > rules.restitution_threshold else 0.0
+    chi = restitution_at_speed(rules, -v_A[2])
     return contact_of(body, turn, None if is_flat else point, v_A, chi, rules.friction)
 
 
@@ -205,9 +206,11 @@ def rules_by(law: OwnLaw | None, scenario: Scenario) -> Rules:
 def require_floor(law: OwnLaw, scenario: Scenario) -> None:
     """Refuse a floor that a law of one's own can't be used with; see `rules_by`."""
     floor = scenario.floor
-    if floor.restitution > law.max_restitution:
+    largest = largest_restitution(scenario.rules)
+    if largest > law.max_restitution:
+        by_speed = f" (restitution {largest:g} at a low speed)" if largest > floor.restitution else ""
         raise UnsupportedError(
-            f"floor.restitution = {floor.restitution:g}: accepted: up to max_restitution, "
+            f"floor.restitution = {floor.restitution:g}{by_speed}: accepted: up to max_restitution, "
             f"{law.max_restitution:g}, of the law {law.name}"
         )
     if resists(scenario.rules):

@@ -27,6 +27,13 @@ def scenario(**parts: Any) -> Scenario:
     return Scenario.model_validate(described)
 
 
+def on_floor(case: Scenario, floor: dict[str, Any]) -> Scenario:
+    """Return a scenario with other values of fields of its floor."""
+    for field, value in floor.items():
+        case = case.replace(f"floor.{field}", value)
+    return case
+
+
 def draw_quaternion(rng: np.random.Generator) -> list[float]:
     """Draw an attitude, uniformly."""
     e = rng.normal(size=4)

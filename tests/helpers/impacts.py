@@ -3,7 +3,7 @@
 import numpy as np
 
 from cointoss import analytic
-from cointoss.analytic.contact.resets import hit
+from cointoss.analytic.contact.resets import hit, restitution_at
 from cointoss.analytic.impact.laws import delassus
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.contact_laws.law import Impact
@@ -69,5 +69,5 @@ def draw_single_impact(rng, law="smooth", least=0.01, spin=40.0):
 def struck(case, y):
     row = np.zeros(1, IMPACT_ROW)
     after = y.copy()
-    ending = hit(case.body, case.rules, case.floor.restitution, after, row[0])
+    ending = hit(case.body, case.rules, restitution_at(case.body, case.rules, y), after, row[0])
     return row[0], after, ending

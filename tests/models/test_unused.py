@@ -23,6 +23,8 @@ SAID = [
         {},
         ["floor.restitution_threshold = 0.01: not used with restitution = 0; a restitution > 0 uses it"],
     ),
+    ({"restitution_speed": 2}, {}, ["floor.restitution_speed = 2: not used with restitution_exponent = 0"]),
+    ({"restitution_speed": 2, "restitution_exponent": 0.25}, {}, []),
     ({}, {"exponent": 1}, ["air.exponent = 1: not used without air; normal > 0 or"]),
     ({}, {"exponent": 1, "normal": 0.8}, []),
     ({}, {"exponent": 1, "tangential": 0.2}, []),

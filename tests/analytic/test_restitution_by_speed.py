@@ -1,0 +1,197 @@
+"""Restitution that varies with the speed of approach: impacts, their derivatives, chattering, and trust."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from cointoss import OwnLaw, analytic
+from cointoss.analytic.contact.resets import hit, rebound_at, restitution_at
+from cointoss.analytic.flight.flying import fly
+from cointoss.analytic.flight.state_vector import state_of
+from cointoss.analytic.flight.touch_search import is_chattering
+from cointoss.analytic.horizon.touch_derivatives import touch_derivatives
+from cointoss.analytic.impact.own_law import contact_in, rules_by
+from cointoss.analytic.numerics.tolerances import CHATTERING
+from cointoss.models.certificate import law_residuals
+from cointoss.models.geometry import evaluate_gap
+from cointoss.models.kernel.compiled import by_numba
+from cointoss.models.reading import load
+from cointoss.models.records import IMPACT_ROW, Ending, UnsupportedError
+from cointoss.models.restitution import elastic_restitution, elastic_speed, restitution_at_speed
+from cointoss.models.scenario import Scenario
+from tests.helpers.contacts import touching
+from tests.helpers.draws import PAPER_OFFSET, THIN, ZLOTY, on_floor, scenario
+from tests.helpers.impacts import struck
+from tests.helpers.own_laws import smooth
+
+fly = by_numba(fly)
+hit = by_numba(hit)
+
+G = 9.81
+POWER = {"restitution": 0.5, "restitution_exponent": 0.25}
+VISCOUS = {"restitution": 1.0, "restitution_viscous": 0.3}
+BOTH = {**POWER, "restitution_viscous": 0.1}
+
+
+def dropped(height: float, floor: dict[str, Any], **ending: Any) -> Scenario:
+    """Return a coin that falls flat from a height of its lower face [m]."""
+    position = [0, 0, height + ZLOTY["thickness"] / 2]
+    return scenario(coin=ZLOTY, floor=floor, release={"position": position}, ending=ending)
+
+
+def test_the_touches_of_a_coin_that_falls_flat_are_those_of_the_closed_form():
+    """v(n) = v_e (v(0)/v_e)^((1 - p)^n), and 2 v(n)/g lie between touches n and n + 1."""
+    case = dropped(1.0, POWER, test="lying", max_impacts=12)
+    slowest, fastest = elastic_speed(case.rules), (2 * G) ** 0.5
+    assert slowest == 0.5**4
+    speeds = slowest * (fastest / slowest) ** (0.75 ** np.arange(13))
+    times = fastest / G + 2 / G * np.concatenate([[0], np.cumsum(speeds[1:-1])])
+    tossed = analytic.toss(case)
+    assert tossed.impacts.time == pytest.approx(times, rel=1e-13)
+    assert -tossed.impacts.contact_velocity_before[:, 2] == pytest.approx(speeds[:-1], rel=1e-11)
+    assert tossed.ending == Ending.MAX_IMPACTS
+
+
+@pytest.mark.parametrize("floor", [POWER, VISCOUS, BOTH])
+@pytest.mark.parametrize("law", ["smooth", "coulomb", "perfectly_rough"])
+def test_each_impact_of_a_toss_rebounds_by_its_speed(floor, law):
+    case = on_floor(load("fig24a"), {"contact": law, "friction": 0.3, **floor})
+    found = analytic.toss(case.replace("ending.max_impacts", 200)).impacts
+    speeds, after = -found.contact_velocity_before[:, 2], found.contact_velocity_after[:, 2]
+    expected = [restitution_at_speed(case.rules, speed) for speed in speeds]
+    assert len(found) > 2
+    assert after / speeds == pytest.approx(expected, abs=1e-7)
+    assert np.ptp(expected) > 0.03
+    assert law_residuals(case.body, case.rules, found).max() < 1e-9
+
+
+def test_an_energetic_impact_gives_back_the_square_of_its_restitution_of_the_work():
+    """Without slip it is Newton's, as of a coin that lands on its edge with C above the lowest point."""
+    floor = {**POWER, "contact": "coulomb", "friction": 0.3, "restitution_kind": "energetic"}
+    case = scenario(coin=THIN, floor=floor)
+    y = np.array([0, 0, 0.01, 0, 0, -1.5, np.cos(np.pi / 4), np.sin(np.pi / 4), 0, 0, 0, 0, 0])
+    impact = struck(case, y)[0]
+    assert impact["contact_velocity_after"][2] == pytest.approx(1.5 * 0.5 * 1.5**-0.25, rel=1e-9)
+
+
+@pytest.mark.parametrize("tilt", [1e-3, 0.3, 1.2])
+@pytest.mark.parametrize("speed", [0.08, 1.5])
+def test_a_planar_smooth_impact_has_the_derivatives_of_its_closed_form(tilt, speed):
+    """S_z = (1 + χ(v)) v/K, v = -v_Az, so that dS_z/dv_z = -(1 + (1 - p) χ(v))/K by the power law."""
+    case = scenario(coin=ZLOTY, floor=POWER)
+    body, w = case.body, 7.0
+    x = body.thickness / 2 * np.sin(tilt) - body.radius * np.cos(tilt)
+    v_z = -speed - w * x
+    y = np.array([0, 0, 0.01, 0.3, 0.2, v_z, np.cos(tilt / 2), np.sin(tilt / 2), 0, 0, w, 0, 0])
+    touch = touch_derivatives(body, case.rules, y)
+    K, chi = 1 / body.mass + x * x / body.inertia[0][0], 0.5 * speed**-0.25
+    assert touch.closing == pytest.approx(-speed)
+    assert touch.impulse[2, 5] == pytest.approx(-(1 + 0.75 * chi) / K, rel=1e-6)
+    assert touch.impulse[2, 10] == pytest.approx(-(1 + 0.75 * chi) * x / K, rel=1e-6)
+
+
+@pytest.mark.parametrize("floor", [POWER, VISCOUS, BOTH])
+@pytest.mark.parametrize("contact", ["smooth", "coulomb", "knurled"])
+def test_the_derivatives_of_an_impact_are_its_differences(floor, contact):
+    """By velocities, along random directions, against the impacts beside it."""
+    rng = np.random.default_rng(7)
+    coin = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
+    case = scenario(coin=coin, floor={"contact": contact, "friction": 0.3, **floor})
+    y = np.array([0, 0, 0.01, 0.4, -0.3, -1.2, np.cos(0.3), np.sin(0.3), 0, 0, 3.0, -2.0, 5.0])
+    touch, part = touch_derivatives(case.body, case.rules, y), 1e-4
+    for _ in range(5):
+        change = np.zeros(13)
+        change[3:6], change[10:13] = rng.uniform(-1, 1, 3), rng.uniform(-50, 50, 3)
+        ahead, back = (struck(case, y + sign * part * change)[0]["impulse"] for sign in (1, -1))
+        expected = (ahead - back) / (2 * part)
+        assert touch.impulse @ change == pytest.approx(expected, abs=1e-6 * float(np.linalg.norm(expected)))
+
+
+def test_a_touch_at_the_elastic_speed_has_the_derivatives_of_its_own_side():
+    case = scenario(coin=ZLOTY, floor=POWER)
+    slowest, mass = elastic_speed(case.rules), ZLOTY["mass"]
+    for part, slope in ((1 + 1e-4, -1.75 * mass), (1 - 1e-4, -2 * mass)):
+        y = np.array([0, 0, 1e-3, 0, 0, -part * slowest, 1, 0, 0, 0, 0, 0, 0])
+        found = touch_derivatives(case.body, case.rules, y).impulse[2, 5]
+        assert found == pytest.approx(slope, rel=1e-3)
+
+
+def test_by_the_power_law_no_impacts_chatter_and_a_coin_hops_on():
+    case = scenario(coin=THIN, floor=POWER)
+    for speed in np.geomspace(1e-4, 1.0, 30):
+        y = touching(case.body, speed)
+        with np.errstate(divide="ignore"):
+            assert not is_chattering(case.body, rebound_at(case.body, case.rules, y), state_of(y))
+    assert rebound_at(case.body, case.rules, touching(case.body, 2.0)) == 1.0
+    tossed = analytic.toss(dropped(0.3, POWER, test="lying", max_impacts=300))
+    assert tossed.ending == Ending.MAX_IMPACTS
+    assert -tossed.impacts.contact_velocity_before[-1, 2] == pytest.approx(0.5**4, rel=1e-9)
+    assert len(tossed.contacts) == 0
+
+
+def test_a_threshold_above_the_elastic_speed_stops_the_coin():
+    threshold = 1.2 * 0.5**4
+    floor = {**POWER, "restitution_threshold": threshold}
+    tossed = analytic.toss(dropped(0.3, floor, test="lying"))
+    speeds = -tossed.impacts.contact_velocity_before[:, 2]
+    assert tossed.ending == Ending.LYING
+    assert (speeds[:-1] > threshold).all()
+    assert speeds[-1] <= threshold
+    # (v/v_e)^((1 - p)^n) = 1.2 at v = √(2 g 0.3 m).
+    ratio = np.log((2 * G * 0.3) ** 0.5 / 0.5**4) / np.log(1.2)
+    assert len(speeds) == 1 + np.ceil(np.log(ratio) / np.log(4 / 3))
+
+
+@pytest.mark.parametrize("floor", [VISCOUS, BOTH, {**POWER, "restitution_threshold": 0.07}])
+def test_impacts_chatter_that_all_come_while_the_coin_hardly_turns(floor):
+    """Those after the fastest touch that chatters, made one by one, end within the time that is allowed."""
+    case = scenario(coin=THIN, floor=floor)
+    body, rules, rows = case.body, case.rules, np.zeros(1, IMPACT_ROW)
+    low, high = 0.0, 1.0
+    for _ in range(40):
+        middle = (low + high) / 2
+        y = touching(body, middle)
+        chatters = is_chattering(body, rebound_at(body, rules, y), state_of(y))
+        low, high = (middle, high) if chatters else (low, middle)
+    y, elapsed, impacts = touching(body, low), 0.0, 0
+    allowed = 1.02 * CHATTERING * np.sin(0.6) / (np.linalg.norm(y[10:13]) + (G / body.radius) ** 0.5)
+    while -evaluate_gap(body, state_of(y)).speed > 0.1 * low and restitution_at(body, rules, y) > 0:
+        hit(body, rules, restitution_at(body, rules, y), y, rows[0])
+        elapsed += fly(body, y, 1.0, False).time
+        impacts += 1
+    assert low > 0
+    assert elapsed < allowed
+    assert "restitution_threshold" in floor or impacts > 5
+
+
+def test_a_coin_on_a_viscous_floor_comes_into_contact_and_lies():
+    case = load("zloty").replace("floor.restitution", 0.9, "floor.restitution_viscous", 0.2)
+    tossed = analytic.toss(case.replace("ending.test", "lying"))
+    assert tossed.ending == Ending.LYING
+    assert len(tossed.contacts) > 0
+
+
+def test_no_impact_is_trusted_whose_speed_may_be_on_either_side_of_the_elastic_one():
+    """Where v_e is the speed of an impact at which χ is 1, the others change by their own speed alone."""
+    case = load("fig24a").replace("floor.restitution", 1.0, "ending.max_impacts", 3)
+    speed = float(-analytic.toss(case).impacts.contact_velocity_before[0, 2])
+    for part, trusted in ((1 + 1e-15, 0), (1.01, 3)):
+        changed = case.replace("floor.restitution_speed", part * speed, "floor.restitution_exponent", 0.25)
+        assert analytic.toss(changed).trusted_impacts == trusted
+
+
+def test_a_law_of_ones_own_is_asked_with_the_restitution_at_the_speed():
+    law = OwnLaw(smooth)
+    case = on_floor(load("fig24a"), POWER)
+    short = case.replace("ending.max_impacts", 4)
+    own, named = analytic.toss(short, law=law).impacts, analytic.toss(short).impacts
+    assert own.impulse == pytest.approx(named.impulse, rel=1e-9)
+    state = state_of(np.array([0, 0, 0.01, 0, 0, -2.0, 1, 0, 0, 0, 0, 0, 0]))
+    asked = contact_in(case.body, case.rules, state.R, np.array(state.velocity), np.array(state.spin))
+    assert asked.chi == pytest.approx(0.5 * 2**-0.25, rel=1e-14)
+    careful = OwnLaw(smooth, max_restitution=0.8)
+    with pytest.raises(UnsupportedError, match=r"restitution = 0\.5 \(restitution 1 at a low speed\)"):
+        rules_by(careful, case)
+    assert rules_by(careful, case.replace("floor.restitution_threshold", 0.5)).restitution == 0.5
+    assert elastic_restitution(case.rules, 0.5) < 0.8

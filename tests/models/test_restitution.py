@@ -1,0 +1,139 @@
+"""The restitution by the speed of approach, against closed forms and against Hertz's damped contact."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from cointoss.models.body import Rules
+from cointoss.models.making import MOST_IMPACTS, MOST_LOSSLESS
+from cointoss.models.restitution import (
+    chatter_restitution,
+    elastic_speed,
+    largest_restitution,
+    restitution_at_speed,
+    viscous_restitution,
+)
+from tests.helpers.draws import scenario
+
+
+def rules_with(**floor: Any) -> Rules:
+    return scenario(floor={"restitution": 0.5} | floor).rules
+
+
+POWER, VISCOUS = {"restitution_exponent": 0.25}, {"restitution": 1.0, "restitution_viscous": 0.3}
+
+
+def test_a_restitution_without_exponent_and_loss_is_that_of_the_scenario_at_any_speed():
+    for speed in (-1.0, 0.0, 1e-9, 1.0, 20.0):
+        assert restitution_at_speed(rules_with(restitution_speed=3.0), speed) == 0.5
+    assert restitution_at_speed(rules_with(restitution=0.0, **POWER), 0.0) == 0.0
+
+
+@pytest.mark.parametrize("p", [0.1, 0.25, 1.0])
+def test_the_power_law_has_its_restitution_at_its_speed_its_slope_and_1_at_low_speeds(p):
+    rules = rules_with(restitution_exponent=p, restitution_speed=2.0)
+    slowest = elastic_speed(rules)
+    assert slowest == pytest.approx(2.0 * 0.5 ** (1 / p), rel=1e-14)
+    assert restitution_at_speed(rules, 2.0) == 0.5
+    assert restitution_at_speed(rules, 4.0) == pytest.approx(0.5 * 2**-p, rel=1e-14)
+    assert restitution_at_speed(rules, 1.001 * slowest) == pytest.approx(1.001**-p, rel=1e-12)
+    for speed in (slowest * (1 - 1e-12), slowest / 9, 0.0, -1.0):
+        assert restitution_at_speed(rules, speed) == 1.0
+
+
+def of_hertz(A: float) -> float:
+    """Return the restitution of x" = -(x^(3/2) + A √x x'), x' = 1 at the touch, until the force is zero."""
+
+    def rate(_: float, y: np.ndarray) -> list[float]:
+        deep = max(y[0], 0.0)
+        return [y[1], -(deep**1.5 + A * deep**0.5 * y[1])]
+
+    def pushes(t: float, y: np.ndarray) -> float:
+        return y[0] + A * y[1] if t > 0.05 else 1.0
+
+    pushes.terminal = True  # pyright: ignore[reportFunctionMemberAccess]
+    path = solve_ivp(rate, (0, 20), [1e-14, 1], events=pushes, rtol=1e-10, atol=1e-12, method="DOP853")
+    return -path.y[1, -1]
+
+
+@pytest.mark.parametrize(
+    ("A", "near"), [(1e-3, 1e-6), (0.01, 1e-6), (0.1, 1e-4), (0.3, 1e-3), (0.7, 7e-3), (1.0, 1.3e-2)]
+)
+def test_the_viscous_law_is_that_of_a_damped_contact_of_hertz(A, near):
+    """With stiffness and speed 1 its loss a is 1.15345 A: 0.1 % off down to e = 0.7, 1.2 % at 0.4."""
+    assert viscous_restitution(1.15345 * A, 1.0) == pytest.approx(of_hertz(A), rel=near)
+
+
+def test_the_viscous_law_has_the_series_of_its_source():
+    """1 - x + (3/5) x² + O(x³), x = a v^(1/5)."""
+    for x in (1e-3, 1e-2):
+        for speed in (1e-3, 1.0, 5.0):
+            found = viscous_restitution(x / speed**0.2, speed)
+            assert abs(found - (1 - x + 0.6 * x * x)) < 0.5 * x**2.5
+
+
+def test_both_factors_act_above_the_threshold():
+    rules = rules_with(restitution_threshold=0.2, restitution_viscous=0.1, **POWER)
+    assert restitution_at_speed(rules, 0.2) == 0.0
+    expected = 0.5 * 0.3**-0.25 * viscous_restitution(0.1, 0.3)
+    assert restitution_at_speed(rules, 0.3) == pytest.approx(expected, rel=1e-14)
+
+
+FLOORS = [
+    {},
+    {"restitution_threshold": 0.01},
+    VISCOUS,
+    {"restitution_viscous": 0.3},
+    {"restitution_threshold": 0.1, **POWER},
+    {"restitution_threshold": 0.1, "restitution_viscous": 0.1, **POWER},
+    {"restitution_viscous": 0.1, **POWER},
+]
+
+
+@pytest.mark.parametrize("floor", FLOORS)
+def test_a_geometric_chatter_outlasts_the_impacts_to_come(floor):
+    """Their speeds add up to less than v/(1 - χ), and to more than the part of it that the law leaves."""
+    rules = rules_with(**floor)
+    for first in (2.0, 0.5, 0.11):
+        speed, total, count = first, 0.0, 0
+        while speed > 1e-6 * first and count < 100_000:
+            total += speed
+            speed *= restitution_at_speed(rules, speed)
+            count += 1
+        assert count < 100_000
+        longest = first / (1 - chatter_restitution(rules, first))
+        assert total <= longest * (1 + 1e-12)
+        if floor in (VISCOUS, {}):
+            assert total > 0.8 * longest
+
+
+def test_impacts_by_the_power_law_slow_down_to_the_elastic_speed_and_never_end():
+    """v(n) = v_e (v(0)/v_e)^((1 - p)^n)."""
+    rules = rules_with(**POWER)
+    slowest, speed = elastic_speed(rules), 3.0
+    for n in range(1, 60):
+        speed *= restitution_at_speed(rules, speed)
+        assert speed == pytest.approx(slowest * (3.0 / slowest) ** (0.75**n), rel=1e-12)
+    assert chatter_restitution(rules, speed) == 1.0
+    assert largest_restitution(rules) == 1.0
+
+
+def test_impacts_by_the_viscous_law_slow_down_as_the_fifth_power_of_their_number():
+    """v(n) goes as (5/(a n))^5: the sum of what follows as n^-4."""
+    rules, speed, n = rules_with(**VISCOUS), 1.0, 200_000
+    for _ in range(n):
+        speed *= restitution_at_speed(rules, speed)
+    assert speed == pytest.approx((5 / (0.3 * n)) ** 5, rel=1e-3)
+
+
+def test_a_toss_is_given_up_early_where_the_largest_restitution_takes_no_energy():
+    def most(**floor: Any) -> int:
+        return rules_with(**floor).max_impacts
+
+    assert most() == most(restitution_viscous=0.1) == MOST_IMPACTS
+    assert most(**POWER) == MOST_LOSSLESS
+    slowest = elastic_speed(rules_with(**POWER))
+    assert most(restitution_threshold=1.01 * slowest, **POWER) == MOST_IMPACTS
+    assert most(restitution_threshold=0.99 * slowest, **POWER) == MOST_LOSSLESS
