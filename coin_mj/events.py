@@ -11,6 +11,7 @@ from cointoss.coin_mj.steps.flight import FlightExit, fly
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap
 from cointoss.coin_mj.steps.impact import TouchResult, resolve_impact
 from cointoss.coin_mj.steps.knots import RecordedPath, StepKind, add_knot, nothing_recorded
+from cointoss.coin_mj.steps.rebound import coin_touching
 from cointoss.coin_mj.steps.sustained_contact import (
     NO_LOSS,
     NOT_DECIDED,
@@ -28,6 +29,7 @@ from cointoss.models.kernel.vectors import Vector
 from cointoss.models.making import AT_REST
 from cointoss.models.perpetual import energy_history, start_history
 from cointoss.models.records import Ending, Outcome
+from cointoss.models.restitution import chatter_restitution
 from cointoss.models.state import State
 
 ROUNDED_FLAT = 1e-13
@@ -80,10 +82,11 @@ def toss_coin(
         start, touch = time, state_of(coin)
         speed = -evaluate_gap(coin).speed
         is_plastic = rules.restitution_threshold > 0 and speed <= rules.restitution_threshold
-        chi = 0.0 if is_plastic else rules.restitution
+        chi = 0.0 if is_plastic else chatter_restitution(rules, speed)
         sustained = not lands and speed < slow_speed(coin, chi, touch.spin)
         if not sustained:
-            result, time, impulse, path = resolve_impact(plastic if is_plastic else coin, time, path)
+            touched = plastic if is_plastic else coin_touching(coin, rules, speed)
+            result, time, impulse, path = resolve_impact(touched, time, path)
             sustained = result == TouchResult.SUSTAINED
             if result == TouchResult.IMPACT:
                 if keep_all:
@@ -158,9 +161,8 @@ def go_on(
                 break
             speed = -evaluate_gap(coin).speed
             is_plastic = rules.restitution_threshold > 0 and speed <= rules.restitution_threshold
-            if is_plastic:
-                touched = plastic
-            chi = 0.0 if is_plastic else rules.restitution
+            touched = plastic if is_plastic else coin_touching(coin, rules, speed)
+            chi = 0.0 if is_plastic else chatter_restitution(rules, speed)
             sustained = speed < slow_speed(coin, chi, state_of(coin).spin)
         start, left_by = time, ContactExit.LIFT_OFF
         if not sustained:

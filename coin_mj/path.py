@@ -26,7 +26,7 @@ class Knots:
     knots: Array
     """Time [s], the `StepKind` that starts there, qpos and qvel, (n, 15)."""
     restitution: float
-    """χ of the floor."""
+    """χ of the floor, see `contact_restitution`."""
 
     def sample(self, times: Array) -> States:
         """Return the states at `times` [s], in the order of `times`; at an impact, that at first touch."""

@@ -16,6 +16,7 @@ from cointoss.coin_mj.model.machine import Machine, machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import FINE, ROUGH, Friction, MujocoSettings, Realisation
 from cointoss.coin_mj.path import Knots
+from cointoss.coin_mj.steps.sustained_contact import contact_restitution
 from cointoss.coin_mj.trust import lawful_impacts, shared_impacts
 from cointoss.models.body import Body, Rules
 from cointoss.models.certificate import InContact, conserved_energies, gaps, measurements
@@ -141,7 +142,7 @@ def _toss(scenario: Scenario, rules: Rules, settings: MujocoSettings) -> Toss:
     machine = machine_of(scenario, settings)
     answer = run(machine, rules)
     impacts = Impacts.from_rows(answer.rows)
-    path = Knots(machine=machine, knots=answer.knots, restitution=scenario.floor.restitution)
+    path = Knots(machine=machine, knots=answer.knots, restitution=contact_restitution(machine.coin, rules))
     followed, later = _followed(machine, rules, answer, scenario.ending.until)
     trusted, trust_end = _trust(scenario, settings, impacts, answer.contacts)
     return Toss(

@@ -23,6 +23,7 @@ from cointoss.coin_mj.model.settings import (
 )
 from cointoss.coin_mj.model.state import of_release
 from cointoss.models.body import Body, is_ideal, resists
+from cointoss.models.restitution import largest_restitution
 from cointoss.models.scenario import Scenario
 
 _Disable = mujoco.mjtDisableBit
@@ -78,7 +79,7 @@ def machine_of(
     thickness = thickness or shape_thickness(scenario)
     floor, unit = scenario.floor, _mass_unit(scenario.body)
     rate = math.sqrt(scenario.gravity / scenario.coin.radius)
-    settings = resolved(settings, floor.restitution, rate).softened(softer)
+    settings = resolved(settings, largest_restitution(scenario.rules), rate).softened(softer)
     scenario = scenario if unit == 1 else _in_mass_unit(scenario, unit)
     rebound, body, mu = (
         rebound_of(floor.restitution, settings),

@@ -9,6 +9,7 @@ from typing import NamedTuple, cast
 from scipy.optimize import brentq
 
 from cointoss.models.contact_laws.table import is_rough, uses_friction
+from cointoss.models.kernel.compiled import compiled
 from cointoss.models.parts import Floor
 
 ROUGH = 100.0
@@ -146,7 +147,7 @@ def resolved(settings: MujocoSettings, restitution: float, rate: float) -> Mujoc
 
     Args:
         settings: as asked for.
-        restitution: χ of the floor.
+        restitution: χ of the floor, the largest where it varies with the speed.
         rate: √(g/r) of the coin [1/s].
     """
     if settings.contact == Realisation.ONE_STEP:
@@ -205,6 +206,7 @@ def friction_of(floor: Floor) -> float:
     return floor.friction if uses_friction(floor.contact) else 0.0
 
 
+@compiled
 def restitution_of(zeta: float) -> float:
     """Return the restitution of a damped spring that lets go when its force reaches zero.
 

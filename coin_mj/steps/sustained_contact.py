@@ -20,6 +20,7 @@ from cointoss.models.kernel.vectors import Matrix, Vector, apply, cross, norm, s
 from cointoss.models.perpetual import FIRST_CHECK, EnergyHistory
 from cointoss.models.records import Ending, Outcome
 from cointoss.models.rest import is_held, is_slowing
+from cointoss.models.restitution import chatter_restitution
 from cointoss.models.state import State
 
 HEAVY = 10
@@ -82,6 +83,15 @@ def slow_speed(coin: MujocoCoin, chi: float, w: Vector) -> float:
 
 
 @compiled
+def contact_restitution(coin: MujocoCoin, rules: Rules) -> float:
+    """Return χ by which the touches of a sustained contact are told from impacts, see `slow_speed`.
+
+    Where the restitution varies with the speed, it is that at the least `slow_speed`.
+    """
+    return chatter_restitution(rules, HEAVY * coin.body.gravity * coin.rebound.duration)
+
+
+@compiled
 def follow_contact(
     coin: MujocoCoin,
     rules: Rules,
@@ -106,7 +116,7 @@ def follow_contact(
         `ContactExit`, the time [s], the steps left, the outcome, the ending, and the path.
     """
     body = coin.body
-    rate = (body.gravity / body.radius) ** 0.5
+    rate, chi = (body.gravity / body.radius) ** 0.5, contact_restitution(coin, rules)
     unloaded, upright, may_speed_up = 0.0, 0.0, slope_feeds(body, coin.friction == 0)
     while time < rules.max_time:
         x, v, e, w, R = state_of(coin)
@@ -131,13 +141,13 @@ def follow_contact(
             outcome, ending = Outcome.UNDECIDED, Ending.CONTACT_STEPS if steps_left <= 0 else Ending.NONE
         if ending != Ending.NONE:
             return ContactExit.DECIDED, time, steps_left, outcome, ending, path
-        dt, lands = next_step(coin, rules.restitution, up, up_rate, w, sunk)
+        dt, lands = next_step(coin, chi, up, up_rate, w, sunk)
         if lands:
             _pass_over(coin, dt)
             return ContactExit.RIM_LANDS, time + dt, steps_left, Outcome.UNDECIDED, Ending.NONE, path
         dt = min(dt, shortest_stop(coin, w), rules.max_time - time)
         path = add_knot(coin, time, StepKind.CONTACT, path)
-        force, dt = shallow_step(coin, rules.restitution, w, dt)
+        force, dt = shallow_step(coin, chi, w, dt)
         time += dt
         steps_left -= 1
         on_edge = body.thickness > 0 and abs(up[2]) < UPRIGHT and abs(up_rate[2]) < UPRIGHT * rate
