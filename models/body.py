@@ -142,8 +142,9 @@ def never_adds_energy(rules: Rules) -> bool:
 
 @compiled
 def resists(rules: Rules) -> bool:
-    """Return whether the floor resists rolling or pivoting."""
-    return rules.rolling_friction > 0 or rules.pivoting_friction > 0
+    """Return whether floor or air resist rolling, pivoting or the run of the contact point round the rim."""
+    by_floor = rules.rolling_friction > 0 or rules.pivoting_friction > 0 or rules.contour_friction > 0
+    return by_floor or rules.contour_viscosity > 0 or rules.viscosity > 0
 
 
 @compiled

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from cointoss.models.attitude import Quaternion, norm_of
 from cointoss.models.barriers import highest_on_floor
-from cointoss.models.body import Body, Rules
+from cointoss.models.body import Body, Rules, resists
 from cointoss.models.clearance import damping_rate
 from cointoss.models.contact_laws.table import is_followed, laws_that, may_be_energetic, quoted
 from cointoss.models.geometry import gap
@@ -50,6 +50,7 @@ class Fault(IntEnum):
     CAUGHT = 19
     ROW = 20
     CONTOUR_LAW = 21
+    CONTOUR = 22
 
 
 _RESISTANCE_LAW = (
@@ -57,7 +58,8 @@ _RESISTANCE_LAW = (
     f"a length with {quoted(laws_that(lambda law: law.is_followed))}"
 )
 _RESISTANCES = (
-    "lengths with sqrt(rolling_friction^2 + pivoting_friction^2) < 2 sqrt(J/m) = {limit:.6g} m, "
+    "lengths with sqrt((rolling_friction + contour_friction)^2 + pivoting_friction^2) "
+    "< 2 sqrt(J/m) = {limit:.6g} m, "
     "J the least moment of inertia: beyond, the floor's force has no solution"
 )
 ACCEPTED = {
@@ -104,6 +106,7 @@ ACCEPTED = {
     Fault.DRAG: ("air", f"air that slows the coin at a rate of at most {FASTEST_DRAG:g} sqrt(g/r)"),
     Fault.ROLLING: ("floor.rolling_friction", _RESISTANCES),
     Fault.PIVOTING: ("floor.pivoting_friction", _RESISTANCES),
+    Fault.CONTOUR: ("floor.contour_friction", _RESISTANCES),
     Fault.ROW: ("row", "a finite number at place {limit:g}; NaN stands for a field that may be left out"),
     Fault.CAUGHT: ("ending.caught", "more than {limit:.6g} m, so that the coin is caught in flight"),
 }
@@ -218,10 +221,12 @@ def fault_of_toss(body: Body, rules: Rules, state: State) -> FoundFault:
     found = fault_of_release(body, state)
     if found.fault != Fault.NONE:
         return found
-    rolling, pivoting = rules.rolling_friction, rules.pivoting_friction
+    rolling, pivoting, contour = rules.rolling_friction, rules.pivoting_friction, rules.contour_friction
     # Up to there K + q ẑᵀ is positive definite: see analytic/contact/resistance.py.
     most = 2 * (body.inertia_smallest / body.mass) ** 0.5
-    if (rolling > 0 or pivoting > 0) and not math.hypot(rolling, pivoting) < most:
+    if resists(rules) and not math.hypot(rolling + contour, pivoting) < most:
+        if contour > max(rolling, pivoting):
+            return FoundFault(Fault.CONTOUR, most)
         return FoundFault(Fault.ROLLING if rolling >= pivoting else Fault.PIVOTING, most)
     reach = highest_on_floor(body)
     return _NOTHING if rules.caught > reach else FoundFault(Fault.CAUGHT, reach)

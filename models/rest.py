@@ -18,6 +18,20 @@ def slow_spin(body: Body) -> float:
 
 
 @compiled
+def holding_arm(rolling: float, contour: float, on_line: bool) -> float:
+    """Return the arm over the normal force of the moment that holds a coin on its edge from rolling [m].
+
+    Contour friction resists that roll alone: of a coin on one rim point, which may fall, it holds nothing.
+
+    Args:
+        rolling: δ [m].
+        contour: c [m].
+        on_line: whether the coin stands on a line, both rims on the floor.
+    """
+    return rolling + contour if on_line else rolling
+
+
+@compiled
 def is_held(body: Body, rolling: float, sliding: float, state: State, arm: Vector, on_line: bool) -> bool:
     """Return whether resistance to rolling holds a coin in contact where it is, on its edge.
 
@@ -29,7 +43,7 @@ def is_held(body: Body, rolling: float, sliding: float, state: State, arm: Vecto
 
     Args:
         body: the coin.
-        rolling: δ [m].
+        rolling: δ, or `holding_arm` [m].
         sliding: μ in sustained contact.
         state: of the coin.
         arm: of the contact point A from C, space frame, (3,) [m].
@@ -82,7 +96,7 @@ def is_slowing(body: Body, rolling: float, pivoting: float, w: Vector) -> bool:
 
     Args:
         body: the coin.
-        rolling: δ [m].
+        rolling: what resists the roll of an upright coin, δ + c [m].
         pivoting: p [m].
         w: angular velocity, space frame, (3,) [rad/s].
     """

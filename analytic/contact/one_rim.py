@@ -8,6 +8,7 @@ from cointoss.analytic.contact.rim_contact import (
     accelerate,
     add_quotient,
     contact_margin,
+    flight_over_floor,
     rim_contact_in_flight,
     rim_motion,
     spin_gained_at,
@@ -30,7 +31,7 @@ from cointoss.models.records import Array
 @inlined
 def free_flow(contact: SustainedContact, y: Array, dy: Array) -> RimContact:
     """Write the rate of change of the state y in free flight into dy, both (13,), and return A there."""
-    flight = flight_of(contact.body, y)
+    flight = flight_over_floor(contact.body, contact.friction, y)
     write_rate(contact.body, flight, dy)
     return rim_contact_in_flight(contact.body, contact.friction, flight, contact.rim)
 
@@ -45,7 +46,8 @@ def add_force(contact: SustainedContact, A: RimContact, F: Vector, dy: Array) ->
 @compiled
 def contact_in_flight(contact: SustainedContact, y: Array) -> RimContact:
     """Return A in the state y, (13,), with the floor's resistance."""
-    return rim_contact_in_flight(contact.body, contact.friction, flight_of(contact.body, y), contact.rim)
+    flight = flight_over_floor(contact.body, contact.friction, y)
+    return rim_contact_in_flight(contact.body, contact.friction, flight, contact.rim)
 
 
 @inlined

@@ -1,14 +1,25 @@
-"""Resistance to rolling and pivoting: moments about a rim point in proportion to the normal force there.
+"""Resistance to rolling, pivoting and the run round the rim: moments about a rim point by the force there.
 
 With a unit normal force at A comes the moment -δ ω_h/|ω_h| - p ω_z/|ω_z| ẑ, ω_h the part of ω along the
 floor, so that the force F at A gives dv_A/dt = b + (K + q ẑᵀ) F, q the acceleration of A by that moment. What
 holds for K without resistance holds with K + q ẑᵀ: N and the moments are found together. They oppose ω, and
-take energy at the rate N (δ |ω_h| + p |ω_z|). Below `slow_spin` either grows in proportion to ω.
+take energy at the rate N (δ |ω_h| + p |ω_z|). Below `slow_spin` either grows in proportion to ω. The losses
+of `cointoss.models.contour` come on top: a moment along ĝ, where the normal leans, and one of the air under
+the coin, which no force comes with.
 """
 
 from typing import NamedTuple
 
 from cointoss.models.body import Body
+from cointoss.models.contour import (
+    Contour,
+    air_moment_per_spin,
+    contour_per_force,
+    has_contour,
+    leaning,
+    longest_arm,
+)
+from cointoss.models.geometry import tilt_sine_of
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, add, dot, norm, scale, subtract
 from cointoss.models.rest import slow_spin
@@ -23,6 +34,8 @@ class FloorFriction(NamedTuple):
     """δ [m]."""
     pivoting: float = 0.0
     """p [m]."""
+    contour: Contour = Contour()
+    """The losses of the contact point that runs round the rim."""
 
 
 FRICTIONLESS = FloorFriction(0.0)
@@ -31,8 +44,8 @@ FRICTIONLESS = FloorFriction(0.0)
 
 @compiled
 def has_resistance(friction: FloorFriction) -> bool:
-    """Return whether the floor resists rolling or pivoting."""
-    return friction.rolling > 0 or friction.pivoting > 0
+    """Return whether floor or air resist rolling, pivoting or the run of the contact point round the rim."""
+    return friction.rolling > 0 or friction.pivoting > 0 or has_contour(friction.contour)
 
 
 @compiled
@@ -56,3 +69,26 @@ def moment_per_force(body: Body, friction: FloorFriction, up: Vector, w: Vector)
     rolling = -friction.rolling / max(norm(w_h), slow)
     pivoting = -friction.pivoting / max(abs(w_z), slow)
     return add(scale(rolling, w_h), scale(pivoting * w_z, up))
+
+
+@compiled
+def contour_moment_per_force(body: Body, friction: FloorFriction, up: Vector, w: Vector) -> Vector:
+    """Return the moment of the contour for a unit normal force, body frame, (3,) [m].
+
+    Args:
+        body: the coin.
+        friction: `FloorFriction`.
+        up: the upward unit vector, body frame, (3,), the coin not being flat.
+        w: angular velocity, body frame, (3,) [rad/s].
+    """
+    g = leaning(up)
+    turn, longest = dot(g, w), longest_arm(body, friction.rolling, friction.pivoting)
+    return scale(-turn * contour_per_force(body, friction.contour, longest, tilt_sine_of(up), turn), g)
+
+
+@compiled
+def air_moment(body: Body, friction: FloorFriction, up: Vector, w: Vector) -> Vector:
+    """Return the moment of the air under the coin, body frame, (3,) [N m]; args as above."""
+    g = leaning(up)
+    turn = dot(g, w)
+    return scale(-turn * air_moment_per_spin(body, friction.contour, tilt_sine_of(up), turn), g)

@@ -11,18 +11,19 @@ from cointoss.models.body import slope_feeds
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import norm
 from cointoss.models.records import Array
-from cointoss.models.rest import is_held, slow_spin
+from cointoss.models.rest import holding_arm, is_held, slow_spin
 
 
 @compiled
 def rests(contact: SustainedContact, y: Array) -> bool:
     """Return whether resistance to rolling holds a coin in contact in the state y, (13,); see `is_held`."""
     body, friction = contact.body, contact.friction
-    if not friction.rolling > 0 or norm(spin_of(y)) > slow_spin(body):
+    on_line = contact.mode == Mode.UPRIGHT
+    rolling = holding_arm(friction.rolling, friction.contour.friction, on_line)
+    if not rolling > 0 or norm(spin_of(y)) > slow_spin(body):
         return False
     A = rim_contact(body, y, lower_rim_of(y))
-    on_line = contact.mode == Mode.UPRIGHT
-    return is_held(body, friction.rolling, friction.sliding, state_of(y), A.arm, on_line)
+    return is_held(body, rolling, friction.sliding, state_of(y), A.arm, on_line)
 
 
 @compiled

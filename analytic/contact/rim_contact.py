@@ -13,6 +13,8 @@ import numpy as np
 from cointoss.analytic.contact.resistance import (
     FRICTIONLESS,
     FloorFriction,
+    air_moment,
+    contour_moment_per_force,
     has_resistance,
     moment_per_force,
 )
@@ -20,6 +22,7 @@ from cointoss.analytic.flight.equations_of_motion import Flight, flight_of, writ
 from cointoss.analytic.flight.state_vector import attitude_of, set_spin, set_velocity, spin_of, velocity_of
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import Body
+from cointoss.models.contour import has_contour
 from cointoss.models.geometry import FACE_SINE, tilt_sine_of
 from cointoss.models.kernel.compiled import compiled, inlined
 from cointoss.models.kernel.vectors import (
@@ -85,11 +88,23 @@ def rim_contact(body: Body, y: Array, rim: float) -> RimContact:
 @compiled
 def both_rims(body: Body, friction: FloorFriction, y: Array) -> tuple[RimContact, RimContact]:
     """Return the `RimContact` of tails' rim and that of heads', in the state y, (13,); see `rim_contact`."""
-    flight = flight_of(body, y)
+    flight = flight_over_floor(body, friction, y)
     return (
         rim_contact_in_flight(body, friction, flight, -1.0),
         rim_contact_in_flight(body, friction, flight, 1.0),
     )
+
+
+@inlined
+def flight_over_floor(body: Body, friction: FloorFriction, y: Array) -> Flight:
+    """Return the `Flight` of a coin that is not flat, in the state y, (13,), with the air under it."""
+    flight = flight_of(body, y)
+    if friction.contour.air > 0:
+        state = flight.state
+        moment = air_moment(body, friction, state.R[2], state.spin)
+        by_air = add(flight.spin_rate, apply(body.inertia_inverse, moment))
+        return Flight(state, flight.velocity, flight.force, by_air)
+    return flight
 
 
 @inlined
@@ -153,7 +168,10 @@ def rim_motion(body: Body, friction: FloorFriction, flight: Flight, rim: float) 
     b = add(by_air_and_weight, add(cross(flight.spin_rate, a), turn_rate))
     turned = (0.0, 0.0, 0.0)
     if has_resistance(friction):
-        turned = apply(body.inertia_inverse, moment_per_force(body, friction, up, w))
+        moment = moment_per_force(body, friction, up, w)
+        if has_contour(friction.contour):
+            moment = add(moment, contour_moment_per_force(body, friction, up, w))
+        turned = apply(body.inertia_inverse, moment)
     return RimMotion(up, a, add(flight.velocity, turn), b, turned)
 
 

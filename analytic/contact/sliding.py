@@ -11,13 +11,13 @@ from cointoss.analytic.contact.rim_contact import (
     RimContact,
     RimMotion,
     contact_margin,
+    flight_over_floor,
     horizontal,
     rim_motion,
     rim_point,
     spin_gained_at,
     write_held_rate,
 )
-from cointoss.analytic.flight.equations_of_motion import flight_of
 from cointoss.analytic.flight.state_vector import spin_of, state_of, velocity_of
 from cointoss.analytic.numerics.tolerances import BORDER, SLOW
 from cointoss.models.body import Body
@@ -43,9 +43,9 @@ def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
 
 @inlined
 def flow_with_friction(contact: SustainedContact, y: Array, dy: Array) -> float:
-    """Return what `flow` does, for any μ; it is 0 on a floor that resists rolling or pivoting alone."""
+    """Return what `flow` does, for any μ; it is 0 on a floor that has resistance alone."""
     body, friction, mu = contact.body, contact.friction, contact.friction.sliding
-    flight = flight_of(body, y)
+    flight = flight_over_floor(body, friction, y)
     A = rim_motion(body, friction, flight, contact.rim)
     b_z, along = dot(A.up, A.free_acceleration), normal_with_friction(A, mu)
     spin = spin_gained_at(body, friction, A, along)

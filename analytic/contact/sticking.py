@@ -8,12 +8,12 @@ from cointoss.analytic.contact.rim_contact import (
     RimContact,
     contact_margin,
     delassus_matrix,
+    flight_over_floor,
     horizontal,
     rim_motion,
     spin_gained_at,
     write_held_rate,
 )
-from cointoss.analytic.flight.equations_of_motion import flight_of
 from cointoss.analytic.numerics.tolerances import BORDER
 from cointoss.models.body import Body
 from cointoss.models.kernel.compiled import compiled, inlined
@@ -25,7 +25,7 @@ from cointoss.models.records import Array
 def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
     """Write the rate of change of the state y into dy, and return the margin; see `automaton.flow`."""
     body, friction = contact.body, contact.friction
-    flight = flight_of(body, y)
+    flight = flight_over_floor(body, friction, y)
     A = rim_motion(body, friction, flight, contact.rim)
     F = holding_force(delassus_matrix(body, friction, A), A.free_acceleration)
     write_held_rate(body, flight, F, spin_gained_at(body, friction, A, F), dy)

@@ -14,9 +14,10 @@ from cointoss.analytic.contact.rim_contact import (
     accelerate,
     add_quotient,
     both_rims,
+    flight_over_floor,
     rim_contact_in_flight,
 )
-from cointoss.analytic.flight.equations_of_motion import flight_of, write_rate
+from cointoss.analytic.flight.equations_of_motion import write_rate
 from cointoss.analytic.flight.state_vector import (
     attitude_of,
     normalise,
@@ -55,7 +56,7 @@ def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
     Friction acts on each rim against that rim's slip. The mode ends where the floor would have to pull.
     """
     body, friction = contact.body, contact.friction
-    flight = flight_of(body, y)
+    flight = flight_over_floor(body, friction, y)
     write_rate(body, flight, dy)
     tails = rim_contact_in_flight(body, friction, flight, -1.0)
     heads = rim_contact_in_flight(body, friction, flight, 1.0)

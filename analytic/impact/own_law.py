@@ -13,14 +13,14 @@ import numpy as np
 
 from cointoss.analytic.impact.breach import Breach, breach_of
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
-from cointoss.models.body import EXACT, Body, OwnCode, Rules, resists
+from cointoss.models.body import EXACT, Body, OwnCode, Rules
 from cointoss.models.errors import require_type
 from cointoss.models.geometry import lowest_point
 from cointoss.models.kernel.address import Function, NotCompiledError, call_at, place
 from cointoss.models.kernel.vectors import Matrix, Vector
 from cointoss.models.laws import ContactLaw
 from cointoss.models.making import MOST_LOSSLESS
-from cointoss.models.parts import Coin, Floor, Release
+from cointoss.models.parts import RESISTANCES, Coin, Floor, Release
 from cointoss.models.records import Array, Impacts, UnsupportedError
 from cointoss.models.restitution import largest_restitution, restitution_at_speed
 from cointoss.models.scenario import Scenario, euler_parameters, vector
@@ -191,7 +191,7 @@ def rules_by(law: OwnLaw | None, scenario: Scenario) -> Rules:
 
     Raises:
         TypeError: for what is no such law.
-        UnsupportedError: for a floor that resists rolling or pivoting, which is a matter of contact, or with
+        UnsupportedError: for a floor that resists motion in contact, which is a matter of contact, or with
             more restitution than the law is meant for.
     """
     rules = scenario.rules
@@ -213,12 +213,12 @@ def require_floor(law: OwnLaw, scenario: Scenario) -> None:
             f"floor.restitution = {floor.restitution:g}{by_speed}: accepted: up to max_restitution, "
             f"{law.max_restitution:g}, of the law {law.name}"
         )
-    if resists(scenario.rules):
-        key = "rolling_friction" if floor.rolling_friction > 0 else "pivoting_friction"
-        raise UnsupportedError(
-            f"floor.{key} = {getattr(floor, key):g}: accepted: 0 with the law {law.name}, "
-            "which is not followed into sustained contact"
-        )
+    for key in RESISTANCES:
+        if getattr(floor, key) > 0:
+            raise UnsupportedError(
+                f"floor.{key} = {getattr(floor, key):g}: accepted: 0 with the law {law.name}, "
+                "which is not followed into sustained contact"
+            )
 
 
 def residuals(law: OwnLaw, body: Body, rules: Rules, impacts: Impacts) -> Array:

@@ -33,7 +33,7 @@ def on_edge(body: Body, y: Array) -> bool:
 def slows(body: Body, friction: FloorFriction, y: Array) -> bool:
     """Return whether the floor's resistance slows a coin that stands; see `is_slowing`."""
     w = apply(rotation_matrix(attitude_of(y)), spin_of(y))
-    return is_slowing(body, friction.rolling, friction.pivoting, w)
+    return is_slowing(body, friction.rolling + friction.contour.friction, friction.pivoting, w)
 
 
 @compiled

@@ -1,0 +1,298 @@
+"""Losses as the contact point runs round the rim: power, moments, closed forms of Euler's disk, and rest."""
+
+import numpy as np
+import pytest
+
+from cointoss import analytic
+from cointoss.analytic.contact.automaton import Mode, flow
+from cointoss.analytic.contact.contact import lower_rim_of
+from cointoss.analytic.contact.integrator import contact_work, step_contact
+from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.analytic.contact.rest import rests
+from cointoss.analytic.contact.rim_contact import both_rims, rim_contact
+from cointoss.analytic.contact.sampling import floor_force
+from cointoss.analytic.numerics.tolerances import CONTACT_STEP_ERROR
+from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
+from cointoss.models.body import resists
+from cointoss.models.contour import Contour, air_moment_per_spin, contour_per_force, leaning, longest_arm
+from cointoss.models.kernel.compiled import by_numba
+from cointoss.models.records import Ending, Outcome
+from tests.helpers.contacts import follow_for, held, put_on_floor
+from tests.helpers.draws import THIN, ZLOTY, draw_coin, scenario
+
+step_contact = by_numba(step_contact)
+
+G, R, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
+UNIT = (G / R) ** 0.5
+LOSSES = (Contour(2e-5), Contour(0.0, 3e-7), Contour(0.0, 0.0, 2e-5), Contour(1e-5, 1e-7, 2e-5))
+
+
+def classical_state(angles, rates):
+    """Return the state of a coin with z-x-z angles and their rates."""
+    (_, theta, phi), (psi_rate, theta_rate, phi_rate) = angles, rates
+    spin = (
+        psi_rate * np.sin(theta) * np.sin(phi) + theta_rate * np.cos(phi),
+        psi_rate * np.sin(theta) * np.cos(phi) - theta_rate * np.sin(phi),
+        psi_rate * np.cos(theta) + phi_rate,
+    )
+    return np.array([0, 0, 0, 0, 0, 0, *quaternion_from_angles(angles), *spin])
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_spin_along_the_lean_is_the_rate_of_phi_times_the_sine_of_the_tilt(seed):
+    rng = np.random.default_rng(seed)
+    angles, rates = rng.uniform((0, 0.1, 0), (6, 3.0, 6)), rng.normal(size=3)
+    y = classical_state(tuple(angles), rates)
+    Rm = np.array(rotation_matrix(tuple(y[6:10])))
+    lean = np.array(leaning(tuple(Rm[2])))
+    assert lean @ y[10:13] == pytest.approx(rates[2] * np.sin(angles[1]), rel=1e-12)
+    assert np.linalg.norm(lean) == pytest.approx(1, rel=1e-14)
+    assert Rm[2] @ lean == pytest.approx(0, abs=1e-15)
+
+
+def contact_states(seed):
+    """Give states in each mode, with the rate of φ, the coin's body and the floor's friction."""
+    rng = np.random.default_rng(seed)
+    coin = draw_coin(rng)
+    body = scenario(coin=coin).body
+    for contour in LOSSES:
+        mu, rolling, pivoting = rng.uniform((0.1, 0.0, 0.0), (0.9, 1e-4, 1e-4))
+        friction = FloorFriction(mu, rolling, pivoting, contour)
+        for mode in (Mode.SLIDING, Mode.INCIPIENT_SLIP, Mode.STICKING, Mode.UPRIGHT):
+            tilt = np.pi / 2 if mode == Mode.UPRIGHT else rng.uniform(0.1, 1.4)
+            if mode == Mode.UPRIGHT and not coin["thickness"]:
+                continue
+            angles = (rng.uniform(0, 6), tilt, rng.uniform(0, 6))
+            y = classical_state(angles, rng.uniform(-20, 20, 3))
+            y[3:6] = rng.uniform(-0.3, 0.3, 3)
+            put_on_floor(body, friction, mode, y)
+            up = np.array(rotation_matrix(tuple(y[6:10])))[2]
+            sine = np.hypot(up[0], up[1])
+            yield body, friction, mode, y, np.dot(leaning(tuple(up)), y[10:13]) / sine, sine
+
+
+def power_of(body, dy, y):
+    return M * np.dot(y[3:6], dy[3:6]) + M * G * y[5] + y[10:13] @ np.array(body.inertia) @ dy[10:13]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_energy_is_lost_at_the_rate_of_the_law(seed):
+    """DE/dt = F · v_A - N (δ |ω_h| + p |ω_z| + c |φ'| + c_v φ'²) - (π/4) η r³ φ'²/sin θ."""
+    largest = 0.0
+    for body, friction, mode, y, rate, sine in contact_states(seed):
+        if mode == Mode.UPRIGHT:
+            continue
+        dy, w = np.empty(13), np.array(rotation_matrix(tuple(y[6:10]))) @ y[10:13]
+        contact, contour = held(body, friction, mode, y), friction.contour
+        flow(contact, y, dy)
+        F = np.array(floor_force(contact, y))
+        taken = F[2] * (friction.rolling * np.hypot(w[0], w[1]) + friction.pivoting * abs(w[2]))
+        on_rim = F[2] * (contour.friction * abs(rate) + contour.viscosity * rate**2)
+        on_rim += np.pi / 4 * contour.air * R**3 * rate**2 / sine
+        taken += on_rim - F @ np.array(rim_contact(body, y, lower_rim_of(y)).velocity)
+        assert power_of(body, dy, y) == pytest.approx(-taken, abs=1e-12)
+        largest = max(largest, abs(on_rim))
+    assert largest > 1e-6
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_an_upright_coin_loses_what_its_roll_does(seed):
+    """Without slip friction and other resistance: ω_ζ is the rate of φ, and both rims carry the weight."""
+    for body, friction, mode, y, rate, _ in contact_states(seed):
+        if mode == Mode.UPRIGHT:
+            dy, contour = np.empty(13), friction.contour
+            contact = held(body, FloorFriction(0.0, 0.0, 0.0, contour), mode, y)
+            flow(contact, y, dy)
+            N = floor_force(contact, y)[2]
+            on_rim = N * (contour.friction * abs(rate) + contour.viscosity * rate**2)
+            on_rim += np.pi / 4 * contour.air * R**3 * rate**2
+            assert rate == pytest.approx(y[12], abs=1e-6)
+            assert power_of(body, dy, y) == pytest.approx(-on_rim, abs=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_lowest_point_stays_on_the_floor(seed):
+    for body, friction, mode, y, _, _ in contact_states(seed):
+        if mode == Mode.UPRIGHT:
+            continue
+        rim, dy, dt = lower_rim_of(y), np.empty(13), 1e-6
+        flow(held(body, friction, mode, y), y, dy)
+        after, before = (np.array(rim_contact(body, y + side * dt * dy, rim).velocity) for side in (1, -1))
+        part = slice(None) if mode == Mode.STICKING else slice(2, 3)
+        assert ((after - before) / (2 * dt))[part] == pytest.approx(0, abs=1e-6 * float(np.linalg.norm(dy)))
+
+
+def euler_disk(tilt):
+    """Return the state of a thin disc that rolls round its fixed mass centre at a small tilt.
+
+    Ω² sin α = 4 g/r for the thin disc; ω lies along the diameter through A, with |ω| = Ω sin α.
+    """
+    y = np.array([0, 0, R * np.sin(tilt), 0, 0, 0, *quaternion_from_angles((0.0, tilt, 0.0)), 0, 0, 0])
+    y[11] = 2 * UNIT * np.sin(tilt) ** 0.5
+    return y
+
+
+def fall(contour, mode, tilt, least, longest=np.inf):
+    """Return times, tilts and rates of φ of Euler's disk on its way down to a tilt, or up to a time."""
+    body, friction = scenario(coin=THIN).body, FloorFriction(50.0 if mode == Mode.STICKING else 0.0)
+    friction = friction._replace(contour=contour)
+    y, dt, time, seen = euler_disk(tilt), np.inf, 0.0, []
+    stages = contact_work(held(body, friction, mode, y), y)
+    while not seen or (seen[-1][1] > least and time < longest):
+        step = step_contact(held(body, friction, mode, y), y, dt, CONTACT_STEP_ERROR, stages)
+        assert not step.is_over
+        dt, time = step.next_dt, time + step.elapsed
+        up = np.array(rotation_matrix(tuple(y[6:10])))[2]
+        sine = np.hypot(up[0], up[1])
+        seen.append((time, np.arcsin(sine), np.dot(leaning(tuple(up)), y[10:13]) / sine))
+    return np.array(seen).T
+
+
+FALLS = {
+    "contour friction": (Contour(2e-5 * R), 0.1, 3 / 2, 2 * 2e-5 * UNIT),
+    "contour viscosity": (Contour(0.0, 2e-7 * R / UNIT), 0.02, 2, 16 / 3 * 2e-7 * UNIT),
+    "air": (Contour(0.0, 0.0, 1e-8 * M * UNIT / R), 0.03, 3, 2 * np.pi * 1e-8 * UNIT),
+}
+"""The losses, the first tilt, and k and p of the closed form α^p = k (t_f - t)."""
+
+
+@pytest.mark.parametrize("mode", [Mode.STICKING, Mode.SLIDING])
+@pytest.mark.parametrize("name", FALLS)
+def test_eulers_disk_stops_as_its_closed_form_says(name, mode):
+    """E = 3/2 m g r α and φ' = 2 √(g/(r α)), with or without friction against slip.
+
+    So dα/dt is -(4/3) (c/r) √(g/r) α^(-1/2), -(8/3) (c_v g/r²)/α or -(2 π/3) (η r/m)/α²: α falls as the
+    power 2/3, 1/2 or 1/3 of the time that is left.
+    """
+    contour, start, power, slope = FALLS[name]
+    times, tilts, rates = fall(contour, mode, start, 1e-3)
+    for least, most in ((1e-3, 1e-2), (1e-2, 1e-1)):
+        part = (tilts > least) & (tilts < most)
+        found = -np.polyfit(times[part], tilts[part] ** power, 1)[0]
+        assert found == pytest.approx(slope, rel=4e-3)
+    low = (tilts > 3e-3) & (tilts < 1e-2)
+    assert np.abs(rates[low]) * tilts[low] ** 0.5 == pytest.approx(2 * UNIT, rel=2e-2)
+
+
+def test_steps_follow_the_wobble_as_without_losses():
+    """A loss adds no steps to a turn of the contact point round the rim."""
+
+    def steps_in_turn(contour, least, longest=np.inf):
+        times, _, rates = fall(contour, Mode.STICKING, 0.1, least, longest)
+        return len(times) / np.trapezoid(np.abs(rates), times) * 2 * np.pi
+
+    assert steps_in_turn(FALLS["contour friction"][0], 5e-3) < 1.01 * steps_in_turn(Contour(), 0.0, 1.0)
+
+
+def test_moments_stay_below_what_the_floor_can_answer():
+    """However flat the coin, hypot(δ + arm, p) is below 2 √(J/m), and the air's moment below m g r."""
+    body, contour = scenario(coin=draw_coin(np.random.default_rng(3))).body, Contour(1e-4, 1e-4, 1e-3)
+    most = 2 * (body.inertia_smallest / body.mass) ** 0.5
+    for rolling, pivoting in ((0.0, 0.0), (0.3 * most, 0.8 * most)):
+        longest = longest_arm(body, rolling, pivoting)
+        for turn in (-300.0, -1e-9, 1e-4, 1.0):
+            arm = abs(turn) * contour_per_force(body, contour, longest, 1e-7, turn)
+            assert np.hypot(rolling + arm, pivoting) < most
+            assert abs(turn) * air_moment_per_spin(body, contour, 1e-7, turn) <= 1.0001 * M * G * R
+    assert contour_per_force(body, Contour(1e-6), longest, 0.5, 20.0) == pytest.approx(1e-6 / 10, rel=1e-14)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_flat_unbalanced_coin_is_pressed_in_one_way(seed):
+    """K + q ẑᵀ is positive definite at every tilt."""
+    rng = np.random.default_rng(seed)
+    body, friction = scenario(coin=draw_coin(rng)).body, FloorFriction(0.0, 1e-3, 1e-3, Contour(1e-4, 1e-5))
+    for tilt in 10.0 ** -np.arange(0, 7):
+        y = classical_state((0.3, tilt, rng.uniform(0, 6)), rng.uniform(-30, 30, 3))
+        K = np.array(both_rims(body, friction, y)[0].delassus)
+        assert np.linalg.eigvalsh((K + K.T) / 2)[0] > 0
+
+
+def upright_state(spin, speed=0.0):
+    """Return the state of a balanced coin upright on the floor; ζ is along -y, and η upwards."""
+    return np.array([0, 0, R, speed, 0, 0, *quaternion_from_angles((0.0, np.pi / 2, 0.0)), *spin])
+
+
+def test_an_upright_disc_that_rolls_is_slowed_at_each_laws_rate():
+    """(J_ζ + m r²) dω_ζ/dt is -c m g, -c_v m g ω_ζ or -(π/4) η r³ ω_ζ."""
+    body, speed = scenario(coin=THIN).body, 0.3
+    inertia = body.inertia[2][2] + M * R * R
+    start = upright_state((0.0, 0.0, -speed / R), speed)
+    friction = FloorFriction(50.0, contour=Contour(1e-3))
+    states, times = follow_for(body, friction, Mode.STICKING, start, 0.4)
+    assert states[:, 3] == pytest.approx(speed - 1e-3 * M * G * R / inertia * times, abs=1e-9 * speed)
+    for contour, rate in ((Contour(0.0, 1e-5), 1e-5 * M * G), (Contour(air=1e-3), np.pi / 4 * 1e-3 * R**3)):
+        friction = FloorFriction(50.0, contour=contour)
+        states, times = follow_for(body, friction, Mode.STICKING, start, 0.4)
+        assert states[:, 3] == pytest.approx(speed * np.exp(-rate / inertia * times), rel=1e-9)
+
+
+def test_contour_friction_holds_a_coin_on_both_rims_from_rolling_and_none_on_one():
+    """At rest the weight's moment is m g a, a the distance of C from the line on which the coin stands."""
+    c, thick = 1e-4, {**ZLOTY, "thickness": 4e-3}
+    for share in (0.5, 0.9, 1.1):
+        body = scenario(coin={**thick, "center_of_mass": [share * c, 0, 0]}).body
+        y = upright_state((0.0, 0.0, 0.0))
+        friction = FloorFriction(0.3, contour=Contour(c))
+        put_on_floor(body, friction, Mode.UPRIGHT, y)
+        assert rests(held(body, friction, Mode.UPRIGHT, y), y) == (share < 1)
+        assert not rests(held(body, FloorFriction(0.3), Mode.UPRIGHT, y), y)
+        assert not rests(held(body, FloorFriction(0.3, contour=Contour(0.0, c)), Mode.UPRIGHT, y), y)
+    thin, y = scenario(coin=THIN).body, upright_state((0.0, 0.0, 0.0))
+    assert rests(held(thin, FloorFriction(0.3, c), Mode.STICKING, y), y)
+    assert not rests(held(thin, friction, Mode.STICKING, y), y), "a coin on one rim point may fall"
+
+
+TINY = [("floor.contour_friction", 1e-12), ("floor.contour_viscosity", 1e-12), ("air.viscosity", 1e-12)]
+
+
+@pytest.mark.usefixtures("without_horizon")
+@pytest.mark.parametrize(("field", "size"), TINY)
+def test_no_period_is_claimed_of_a_coin_that_loses_ever_so_little(field, size):
+    case = scenario(
+        coin=THIN,
+        floor={"contact": "perfectly_rough", "restitution": 0.1},
+        release={"position": [0, 0, 0.013], "angles": [0, 1.3, 0], "angular_velocity": [0, 0, 60]},
+        ending={"max_time": 4.0},
+    )
+    assert analytic.toss(case).ending == Ending.PERIODIC
+    assert analytic.toss(case.replace(field, size)).ending == Ending.MAX_TIME
+
+
+@pytest.mark.parametrize(("field", "size"), TINY)
+def test_a_floor_with_any_of_the_losses_resists(field, size):
+    """So no coin is perpetual there, and no spin is left out of the energy."""
+    case = scenario()
+    assert not resists(case.rules)
+    assert resists(case.replace(field, size).rules)
+
+
+@pytest.mark.usefixtures("without_horizon")
+@pytest.mark.parametrize(
+    ("field", "ending"),
+    [("floor.contour_friction", Ending.AT_REST), ("floor.contour_viscosity", Ending.STANDING)],
+)
+def test_a_thick_coin_that_rolls_upright_rests_where_contour_friction_stops_it(field, ending):
+    """V/(c g/(r (1 + J_ζ/(m r²)))) after it is set down; a coin that viscosity slows stops at no time."""
+    speed, c = 0.3, 1e-3
+    case = scenario(
+        coin={**ZLOTY, "thickness": 4e-3},
+        floor={"contact": "perfectly_rough", "restitution": 0.0},
+        release={
+            "position": [0, 0, R],
+            "velocity": [speed, 0, 0],
+            "angles": [0.0, np.pi / 2, 0.0],
+            "angular_velocity": [0, 0, -speed / R],
+        },
+        ending={"test": "lying"},
+    )
+    found = analytic.toss(case.replace(field, c))
+    assert (found.outcome, found.ending) == (Outcome.EDGE, ending)
+    if ending == Ending.AT_REST:
+        assert found.end_time == pytest.approx(speed * R * 1.5 / (c * G), rel=5e-3)
+
+
+def test_a_contour_friction_beyond_the_floors_answer_is_refused():
+    says = r"floor\.contour_friction = 0\.0125: accepted: .*contour_friction\).*< 2 sqrt\(J/m\)"
+    with pytest.raises(ValueError, match=says):
+        scenario(coin=THIN, floor={"contact": "smooth", "restitution": 0.5, "contour_friction": R})
