@@ -96,11 +96,13 @@ def require_supported(scenario: Scenario, *, settings: MujocoSettings) -> None:
             f'floor.restitution_kind = "{floor.restitution_kind}": accepted by the MuJoCo engine: '
             '"kinematic" (its contacts prescribe how the normal speed changes, whatever the work)'
         )
-    for name in RESISTANCES if settings.friction == Friction.NATIVE else ():
-        if getattr(floor, name) > 0:
+    resisting = {f"floor.{name}": getattr(floor, name) for name in RESISTANCES}
+    resisting["air.viscosity"] = scenario.air.viscosity
+    for name, value in resisting.items() if settings.friction == Friction.NATIVE else ():
+        if value > 0:
             raise UnsupportedError(
-                f"floor.{name} = {getattr(floor, name):g}: accepted by the MuJoCo engine with its native "
-                "friction: 0; a length with explicit friction"
+                f"{name} = {value:g}: accepted by the MuJoCo engine with its native friction: 0; "
+                "more with explicit friction"
             )
 
 
@@ -124,7 +126,7 @@ def toss(scenario: ScenarioSource, *, settings: MujocoSettings = FINE) -> Toss:
     Raises:
         ScenarioError: for a file or a name that can't be used, and for more impacts than can be kept.
         UnsupportedError: for contact laws other than "smooth", "coulomb" and "perfectly_rough"; energetic
-            restitution; resistance to rolling or pivoting beside native friction.
+            restitution; resistance to motion in contact beside native friction.
 
     Warns:
         ApproximationWarning: for a perfectly rough floor, which is one of friction `ROUGH`.

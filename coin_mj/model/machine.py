@@ -23,6 +23,7 @@ from cointoss.coin_mj.model.settings import (
 )
 from cointoss.coin_mj.model.state import of_release
 from cointoss.models.body import Body, is_ideal, resists
+from cointoss.models.contour import Contour
 from cointoss.models.restitution import largest_restitution
 from cointoss.models.scenario import Scenario
 
@@ -102,6 +103,7 @@ def machine_of(
         friction=mu,
         rolling_friction=floor.rolling_friction,
         pivoting_friction=floor.pivoting_friction,
+        contour=Contour(floor.contour_friction, floor.contour_viscosity, scenario.air.viscosity),
         is_balanced=not any(scenario.coin.center_of_mass),
         has_explicit_friction=settings.friction == Friction.EXPLICIT and mu > 0,
         resists=resists(scenario.rules),
@@ -141,6 +143,7 @@ def _in_mass_unit(scenario: Scenario, unit: float) -> Scenario:
     return scenario.replace(
         *("coin.mass", coin.mass / unit, "coin.inertia", inertia),
         *("air.normal", air.normal / unit, "air.tangential", air.tangential / unit),
+        *("air.viscosity", air.viscosity / unit),
     )
 
 

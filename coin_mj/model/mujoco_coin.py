@@ -5,6 +5,7 @@ from typing import NamedTuple
 from cointoss.coin_mj.model.addresses import call_at, numbers_at
 from cointoss.coin_mj.model.settings import Rebound
 from cointoss.models.body import Body
+from cointoss.models.contour import Contour
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import inlined
 
@@ -103,12 +104,14 @@ class MujocoCoin(NamedTuple):
     """δ of the floor [m]."""
     pivoting_friction: float
     """p of the floor [m]."""
+    contour: Contour
+    """The losses of the contact point that runs round the rim."""
     is_balanced: bool
     """Whether C is B: then the free joint's mass matrix never changes."""
     has_explicit_friction: bool
     """Whether the friction is Coulomb's force."""
     resists: bool
-    """Whether the floor resists rolling or pivoting."""
+    """Whether floor or air resist rolling, pivoting or the run of the contact point round the rim."""
     has_one_step: bool
     """Whether a contact is one step."""
     flight_angle: float

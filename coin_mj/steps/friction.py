@@ -11,8 +11,9 @@ from cointoss.coin_mj.model.state import Motion, momentum_of, motion_of, set_mot
 from cointoss.coin_mj.steps.constrained_step import Constraint, constrained_forward, contact_step
 from cointoss.coin_mj.steps.coulomb import coulomb_force
 from cointoss.coin_mj.steps.mujoco_step import other_force
-from cointoss.coin_mj.steps.resistance import resisted_force
+from cointoss.coin_mj.steps.resistance import Coefficients, contour_arm, resisted_force
 from cointoss.models.attitude import rotation_matrix
+from cointoss.models.contour import leaning
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector, add, apply, apply_transposed, cross
@@ -54,8 +55,10 @@ def apply_friction(coin: MujocoCoin, constraint: Constraint, dt: float) -> None:
     # any other push through its contact, has nothing left to do.
     if resists:
         motion, motion_free = slip + apply(R, start[10:13]), slip_free + apply(R_end, end[10:13])
-        coefficients = (coin.friction, coin.rolling_friction, coin.pivoting_friction)
-        F, M = resisted_force(K, coefficients, normal, motion, motion_free, dt)
+        arm = contour_arm(coin, R[2], start[10:13], normal)
+        coefficients = Coefficients(coin.friction, coin.rolling_friction, coin.pivoting_friction, arm)
+        leans = (apply(R, leaning(R[2])), apply(R_end, leaning(R_end[2])))
+        F, M = resisted_force(K, coefficients, normal, motion, motion_free, leans, dt)
     else:
         x, y = coulomb_force(K, coin.friction, normal, slip[:2], slip_free[:2], dt)
         F, M = (x, y, -(K[0, 2] * x + K[1, 2] * y) / K[2, 2]), (0.0, 0.0, 0.0)

@@ -19,7 +19,7 @@ from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector, apply, cross, norm, subtract
 from cointoss.models.perpetual import FIRST_CHECK, EnergyHistory
 from cointoss.models.records import Ending, Outcome
-from cointoss.models.rest import is_held, is_slowing
+from cointoss.models.rest import holding_arm, is_held, is_slowing
 from cointoss.models.restitution import chatter_restitution
 from cointoss.models.state import State
 
@@ -145,7 +145,7 @@ def follow_contact(
         if lands:
             _pass_over(coin, dt)
             return ContactExit.RIM_LANDS, time + dt, steps_left, Outcome.UNDECIDED, Ending.NONE, path
-        dt = min(dt, shortest_stop(coin, w), rules.max_time - time)
+        dt = min(dt, shortest_stop(coin, up, w), rules.max_time - time)
         path = add_knot(coin, time, StepKind.CONTACT, path)
         force, dt = shallow_step(coin, chi, w, dt)
         time += dt
@@ -215,7 +215,8 @@ def frequency_of(dt: float) -> float:
 @compiled
 def slows(coin: MujocoCoin, R: Matrix, w: Vector) -> bool:
     """Return whether the floor's resistance slows a coin that stands; see `is_slowing`."""
-    return is_slowing(coin.body, coin.rolling_friction, coin.pivoting_friction, apply(R, w))
+    rolling = coin.rolling_friction + coin.contour.friction
+    return is_slowing(coin.body, rolling, coin.pivoting_friction, apply(R, w))
 
 
 @compiled
@@ -227,11 +228,12 @@ def rests(coin: MujocoCoin, state: State, upright: bool) -> bool:
         state: its own.
         upright: whether it is on both rims.
     """
-    if not coin.rolling_friction > 0:
+    rolling = holding_arm(coin.rolling_friction, coin.contour.friction, upright)
+    if not rolling > 0:
         return False
     point, _ = lowest_point(coin.body, state.R[2], state.spin)
     arm = apply(state.R, subtract(point, coin.body.center))
-    return is_held(coin.body, coin.rolling_friction, coin.friction, state, arm, upright)
+    return is_held(coin.body, rolling, coin.friction, state, arm, upright)
 
 
 @compiled

@@ -11,7 +11,7 @@ from cointoss.coin_mj.model import state
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.settings import Friction, MujocoSettings
 from cointoss.coin_mj.steps import resistance, sustained_contact
-from cointoss.coin_mj.steps.resistance import PointMotion
+from cointoss.coin_mj.steps.resistance import Coefficients, PointMotion
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.kernel.vectors import cross
@@ -33,6 +33,7 @@ pytestmark = [
 
 G, R, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
 UNIT = (G / R) ** 0.5
+NO_LEAN = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
 def set_down(speed, spin=0.0, coin=THIN, law="coulomb", **floor):
@@ -72,7 +73,8 @@ def draw_contact(rng):
     K = np.block(
         [[np.eye(3) - across @ J_inverse @ across, -across @ J_inverse], [J_inverse @ across, J_inverse]]
     )
-    return K, vector(rng.uniform(0.02, 0.3, 3)), point_motion(rng.normal(size=6))
+    coefficients = Coefficients(*vector(rng.uniform(0.02, 0.3, 3)), 0.0)
+    return K, coefficients, point_motion(rng.normal(size=6))
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -82,8 +84,8 @@ def test_no_moment_is_larger_than_the_floor_has_and_each_takes_energy(seed):
     K, coefficients, motion = draw_contact(rng)
     dt, normal = 1e-3, 3.0
     free = np.array(motion) + dt * rng.normal(size=6)
-    F, moment = resisted_force(K, coefficients, normal, motion, point_motion(free), dt)
-    mu, delta, p = coefficients
+    F, moment = resisted_force(K, coefficients, normal, motion, point_motion(free), NO_LEAN, dt)
+    mu, delta, p, _ = coefficients
     N = normal + F[2]
     middle = free + dt * (K @ np.array([*F, *moment])) / 2
     assert N > 0
@@ -102,13 +104,31 @@ def test_a_coin_at_rest_is_held_by_what_pulls_it_and_no_more(seed):
     K, _, _ = draw_contact(rng)
     dt, still, normal = 1e-3, point_motion(np.zeros(6)), 10.0
     free = point_motion(dt * K @ (rng.uniform(-1, 1, 6) * [1, 1, 0, 1, 1, 1]))
-    F, moment = resisted_force(K, (1.0, 0.5, 0.5), normal, still, free, dt)
+    F, moment = resisted_force(K, Coefficients(1.0, 0.5, 0.5, 0.0), normal, still, free, NO_LEAN, dt)
     after = np.array(free) + dt * K @ np.array([*F, *moment])
     assert np.delete(after, 2) == pytest.approx(0, abs=1e-11)
-    F, weak = resisted_force(K, (0.0, 1e-3, 2e-3), normal, still, free, dt)
+    F, weak = resisted_force(K, Coefficients(0.0, 1e-3, 2e-3, 0.0), normal, still, free, NO_LEAN, dt)
     assert F[:2] == (0.0, 0.0)
     assert np.hypot(*weak[:2]) == pytest.approx(1e-3 * (normal + F[2]), rel=1e-9)
     assert abs(weak[2]) == pytest.approx(2e-3 * (normal + F[2]), rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_contours_moment_acts_along_the_lean_against_the_spin_there(seed):
+    """Of the size arm · N while the coin turns, and no more than stops it."""
+    rng = np.random.default_rng([5, seed])
+    K, _, motion = draw_contact(rng)
+    angle, dt, normal = rng.uniform(0, 6), 1e-3, 3.0
+    lean = np.array([np.cos(angle), np.sin(angle), 0.0])
+    leans = (vector(lean), vector(lean))
+    F, moment = resisted_force(K, Coefficients(0.0, 0.0, 0.0, 0.1), normal, motion, motion, leans, dt)
+    size = -0.1 * (normal + F[2]) * np.sign(lean @ motion[3:])
+    assert np.array(moment) == pytest.approx(size * lean, abs=1e-12)
+    assert K[2] @ np.array([*F, *moment]) == pytest.approx(0, abs=1e-12)
+    still = point_motion(1e-7 * np.array(motion))
+    F, moment = resisted_force(K, Coefficients(0.0, 0.0, 0.0, 0.1), normal, still, still, leans, dt)
+    after = np.array(still) + dt * K @ np.array([*F, *moment])
+    assert lean @ after[3:] == pytest.approx(0, abs=1e-15)
 
 
 def test_without_resistance_no_bit_of_a_toss_changes():
@@ -144,12 +164,13 @@ def test_energy_never_rises(law, size):
         assert tossed.outcome in (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE)
 
 
-def eulers_disk(**floor):
+def eulers_disk(viscosity=0.0, **floor):
     """Follow a thin disc that rolls round its resting mass centre: times, tilts, energies and ω_z."""
     tilt = 0.3
     rate = 2 * (G * np.sin(tilt) / R) ** 0.5
     case = scenario(
         coin=THIN,
+        air={"viscosity": viscosity},
         floor={"contact": "perfectly_rough", "restitution": 0.3, **floor},
         release={
             "position": [0, 0, R * np.sin(tilt)],
@@ -169,7 +190,7 @@ def eulers_disk(**floor):
         up = tuple(turn[2])
         dt, lands = next_step(coin, 0.3, up, cross(up, w), w, 0.0)
         assert not lands
-        dt = min(dt, shortest_stop(coin, w))
+        dt = min(dt, shortest_stop(coin, up, w))
         sustained_step(coin, 0.3, w, dt)
         time += dt
     return np.array(rows).T
@@ -187,6 +208,24 @@ def test_eulers_disk_falls_flat_as_the_square_of_the_time_left_under_resistance_
     assert np.max(energies - np.minimum.accumulate(energies)) < 1e-6
 
 
+@pytest.mark.parametrize(
+    ("losses", "power", "slope"),
+    [
+        ({"contour_friction": 1.6e-3 * R}, 1.5, 2 * 1.6e-3),
+        ({"contour_viscosity": 3.4e-4 * R / UNIT}, 2, 16 / 3 * 3.4e-4),
+        ({"viscosity": 8.5e-5 * M * UNIT / R}, 3, 2 * np.pi * 8.5e-5),
+    ],
+)
+def test_eulers_disk_stops_as_its_closed_form_says(losses, power, slope):
+    """α^(3/2), α² or α³ falls steadily, by E = 3/2 m g r α and φ' = 2 √(g/(r α))."""
+    times, tilts, energies, _ = eulers_disk(**losses)
+    low = (tilts > 0.05) & (tilts < 0.2)
+    found = -np.polyfit(times[low], tilts[low] ** power, 1)[0]
+    # Corrections of α², and of the steps.
+    assert found == pytest.approx(slope * UNIT, rel=3e-2)
+    assert np.max(energies - np.minimum.accumulate(energies)) < 1e-6
+
+
 def test_eulers_disk_loses_its_pivoting_at_first_at_the_rate_of_the_closed_form():
     """DE/dt = -p m g |ω_z|."""
     p = 2e-4
@@ -201,3 +240,5 @@ def test_beside_native_friction_resistance_is_refused_by_name():
     native = replace(coin_mj.FINE, friction=Friction.NATIVE)
     with pytest.raises(UnsupportedError, match=r"floor\.pivoting_friction = 0\.0002: .*native friction: 0"):
         coin_mj.toss(set_down(0.1, pivoting_friction=2e-4), settings=native)
+    with pytest.raises(UnsupportedError, match=r"air\.viscosity = 2e-05: .*native friction: 0"):
+        coin_mj.toss(set_down(0.1).replace("air.viscosity", 2e-5), settings=native)
