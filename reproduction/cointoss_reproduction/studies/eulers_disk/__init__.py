@@ -1,0 +1,1 @@
+"""The study, what it declares, and what it alone uses."""
