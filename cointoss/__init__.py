@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from cointoss.compare.fitting.fit import Fit as Fit
     from cointoss.compare.fitting.fit import Fitted as Fitted
     from cointoss.compare.fitting.fit import fit as fit
+    from cointoss.compare.fitting.flips import Flips as Flips
     from cointoss.compare.fitting.observed import Observed as Observed
     from cointoss.compare.report.comparison import Comparison as Comparison
     from cointoss.compare.report.comparison import compare as compare

@@ -59,6 +59,15 @@ if TYPE_CHECKING:
     from cointoss.compare.film.back_end import drawing_problem as drawing_problem
     from cointoss.compare.film.back_end import require_mujoco as require_mujoco
     from cointoss.compare.film.stills import stills as stills
+    from cointoss.compare.fitting.people import WOBBLING as WOBBLING
+    from cointoss.compare.fitting.people import People as People
+    from cointoss.compare.fitting.people import PeopleFit as PeopleFit
+    from cointoss.compare.fitting.people import chance_of_spread as chance_of_spread
+    from cointoss.compare.fitting.people import fit_people as fit_people
+    from cointoss.compare.fitting.people import log_likelihoods as log_likelihoods
+    from cointoss.compare.fitting.people import quantiles as quantiles
+    from cointoss.compare.fitting.people import spread_interval as spread_interval
+    from cointoss.compare.fitting.people import spread_of as spread_of
     from cointoss.compare.metrics.estimate import Estimate as Estimate
     from cointoss.compare.metrics.estimates import LEVEL as LEVEL
     from cointoss.compare.metrics.estimates import PARTS as PARTS
@@ -138,7 +147,6 @@ if TYPE_CHECKING:
     from cointoss.models.geometry import contact_velocity as contact_velocity
     from cointoss.models.geometry import gap as gap
     from cointoss.models.geometry import lowest_point as lowest_point
-    from cointoss.models.hand import same_side_probability as same_side_probability
     from cointoss.models.kernel.compiled import by_numba as by_numba
     from cointoss.models.kernel.digests import code_digest as code_digest
     from cointoss.models.parts import RESISTANCES as RESISTANCES

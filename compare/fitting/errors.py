@@ -6,9 +6,9 @@ class ObservationError(ValueError):
 
 
 class ValueRefusedError(ObservationError):
-    """A number of an array of `Observed` that no observation has."""
+    """A number of an array of a record that no observation has."""
 
-    def __init__(self, name: str, index: int, value: object, accepted: str) -> None:
+    def __init__(self, name: str, index: int, value: object, accepted: str, record: str = "Observed") -> None:
         """Keep which number of which array it is, its value, and what is accepted."""
-        super().__init__(f"Observed.{name}: [{index}] is {value}, accepted: {accepted}")
+        super().__init__(f"{record}.{name}: [{index}] is {value}, accepted: {accepted}")
         self.name, self.index, self.value, self.accepted = name, index, value, accepted

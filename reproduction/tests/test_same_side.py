@@ -5,44 +5,38 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from scipy.special import betaln
-from scipy.stats import uniform
 
+from cointoss import Flips
+from cointoss.study import (
+    WOBBLING,
+    PeopleFit,
+    chance_of_spread,
+    fit_people,
+    log_likelihoods,
+    quantiles,
+    spread_interval,
+    spread_of,
+)
 from cointoss_reproduction.studies.same_side.people import (
     EXPONENTIAL,
     NORMAL,
-    WOBBLING,
-    Flips,
-    People,
-    PeopleFit,
-    chance_of_spread,
-    fit,
-    interval,
-    log_likelihoods,
-    quantiles,
     read_flips,
-    spread_of,
+    read_started,
     without,
 )
 
 
 def drawn(family, parameters, people=200, flips=7000, seed=3):
     rng = np.random.default_rng(seed)
-    count = np.full(people, flips // 2)
+    count = np.full(people, flips)
     p = quantiles(family, np.array(parameters), rng.random(people))
-    return Flips(rng.binomial(count, p), count, rng.binomial(count, p), count)
+    return Flips(same=rng.binomial(count, p), flips=count)
 
 
 def test_the_counts_are_those_published():
     flips = read_flips()
     assert (flips.same.sum(), flips.flips.sum(), len(flips.flips)) == (178_078, 350_757, 48)
-
-
-def test_the_spread_of_psi_is_the_root_of_its_mean_square():
-    """p = 1/2 + asin(tan² φ)/π, solved for φ = 90° - ψ."""
-    p = quantiles(WOBBLING, np.array([0.1]), (np.arange(4000) + 0.5) / 4000)
-    off = np.arctan(np.sqrt(np.sin(np.pi * (p - 0.5))))
-    assert np.sqrt(np.mean(off**2)) == pytest.approx(0.1, rel=1e-3)
+    assert sum(int(one.flips.sum()) for one in read_started()) == 350_757
 
 
 def log_integral(family, parameters, same, count):
@@ -88,14 +82,6 @@ def test_the_likelihood_of_each_person_is_its_integral(family, parameters):
         assert found[person] == pytest.approx(expected, abs=1e-6)
 
 
-def test_the_likelihood_of_uniform_people_is_in_closed_form():
-    """The integral of p^k (1 - p)^(n - k) is a beta function."""
-    family = People(uniform(), (0.0, 1.0), lambda _, latent: latent, start=(0.5,))
-    flips = Flips(*(np.array([number]) for number in (30, 50, 25, 50)))
-    found = log_likelihoods(flips, family, np.array([0.5]))
-    assert found[0] == pytest.approx(betaln(56, 46), abs=1e-9)
-
-
 @pytest.mark.parametrize(
     ("family", "truth", "others"),
     [
@@ -106,14 +92,14 @@ def test_the_likelihood_of_uniform_people_is_in_closed_form():
 )
 def test_a_spread_over_people_is_found_again_within_its_interval(family, truth, others):
     flips = drawn(family, truth)
-    found = fit(flips, family)
-    low, high = interval(flips, found)
+    found = fit_people(flips, family)
+    low, high = spread_interval(flips, found)
     assert low < truth[0] < high
     assert 0.1 < (high - low) / truth[0] < 0.6
     assert found.parameters[1:] == pytest.approx(truth[1:], abs=0.004)
     if family is not WOBBLING:
         assert spread_of(found) == pytest.approx(found.parameters[0], rel=1e-6)
-    assert all(found.log_likelihood > fit(flips, other).log_likelihood for other in others)
+    assert all(found.log_likelihood > fit_people(flips, other).log_likelihood for other in others)
 
 
 def test_one_person_left_out_leaves_the_others():
@@ -125,7 +111,7 @@ def test_one_person_left_out_leaves_the_others():
 
 def test_people_who_differ_too_much_have_no_chance():
     flips, rng = drawn(WOBBLING, [0.2]), np.random.default_rng(4)
-    found = fit(flips, WOBBLING)
+    found = fit_people(flips, WOBBLING)
     assert 0.05 < chance_of_spread(flips, found, rng) < 0.95
     halved = PeopleFit(WOBBLING, found.parameters / 2, found.log_likelihoods)
     assert chance_of_spread(flips, halved, rng) < 0.01

@@ -9,22 +9,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss import Engine, Hand
-from cointoss.study import TOUCHES, Array, Estimate, first_side, jackknife, rows_from_states, share, share_of
+from cointoss.study import (
+    TOUCHES,
+    WOBBLING,
+    Array,
+    Estimate,
+    PeopleFit,
+    chance_of_spread,
+    first_side,
+    fit_people,
+    jackknife,
+    log_likelihoods,
+    quantiles,
+    rows_from_states,
+    share,
+    share_of,
+    spread_interval,
+    spread_of,
+)
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.studies.same_side.people import (
     EXPONENTIAL,
     NORMAL,
-    WOBBLING,
-    PeopleFit,
-    chance_of_spread,
-    fit,
-    interval,
-    log_likelihoods,
-    quantiles,
     read_flips,
-    spread_of,
+    read_started,
     without,
 )
 
@@ -70,14 +80,14 @@ JOBS = (
 
 def flipped() -> Iterator[dict[str, Any]]:
     """Return how often people catch the side that was up, together and each, beside the fitted models."""
-    flips = read_flips()
+    flips, (heads, tails) = read_flips(), read_started()
 
     def same(kept: NDArray[np.bool_]) -> float:
         return flips.same[kept].sum() / flips.flips[kept].sum()
 
     def heads_more(kept: NDArray[np.bool_]) -> float:
-        heads = flips.heads_same[kept].sum() / flips.heads[kept].sum()
-        return heads - flips.tails_same[kept].sum() / flips.tails[kept].sum()
+        from_heads, from_tails = (one.same[kept].sum() / one.flips[kept].sum() for one in (heads, tails))
+        return from_heads - from_tails
 
     people = len(flips.flips)
     yield {"same": jackknife(same, people, "people"), "heads_more": jackknife(heads_more, people, "people")}
@@ -104,7 +114,7 @@ def modelled(family: str) -> dict[str, Any]:
         each = enumerate(refitted)
         return sum(log_likelihoods(flips, one.people, one.parameters)[person] for person, one in each)
 
-    low, high = interval(flips, found)
+    low, high = spread_interval(flips, found)
     first = Estimate(float(found.parameters[0]), float(low), float(high), len(left), "people")
     return {
         "parameters": len(found.parameters),
@@ -124,7 +134,9 @@ def modelled(family: str) -> dict[str, Any]:
 def _fitted(family: str) -> tuple[PeopleFit, list[PeopleFit]]:
     """Return a family fitted to all people, and to all but each."""
     flips, people = read_flips(), FAMILIES[family]
-    return fit(flips, people), [fit(without(flips, person), people) for person in range(len(flips.flips))]
+    return fit_people(flips, people), [
+        fit_people(without(flips, person), people) for person in range(len(flips.flips))
+    ]
 
 
 def bounced(job: int, count: int = 3000, people: int = 8000, mujoco: int = 400) -> Iterator[dict[str, Any]]:

@@ -1,0 +1,62 @@
+"""How often coins that people tossed showed the side that had been up at the release."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cointoss.compare.fitting.errors import ObservationError, ValueRefusedError
+
+MOST_PEOPLE = 1000
+MOST_FLIPS = 1_000_000
+"""Of a person; the quadrature over people would need too many nodes for more."""
+
+
+@dataclass(frozen=True, init=False, eq=False)
+class Flips:
+    """How often each person's coin showed the side that had been up at its release; arrays are read-only.
+
+    Flips(same=[5_130, 260], flips=[10_000, 500])
+    """
+
+    same: NDArray[np.int64]
+    """Flips of each person with that side up, (n,)."""
+    flips: NDArray[np.int64]
+    """All flips of each person, (n,)."""
+    people: tuple[str, ...]
+    """What each person, or series, is called; by default they are numbered from 1."""
+
+    def __init__(self, *, same: ArrayLike, flips: ArrayLike, people: tuple[str, ...] = ()) -> None:
+        """Check the counts.
+
+        Raises:
+            ObservationError: naming the argument, its value and what is accepted.
+        """
+        most = np.broadcast_to(np.asarray(flips, dtype=float), np.shape(flips))
+        for name, given, bound in (("flips", flips, MOST_FLIPS), ("same", same, most)):
+            values = np.array(given, dtype=float)
+            if values.ndim != 1 or values.shape != most.shape or len(values) > MOST_PEOPLE:
+                accepted = f"one of flips and of same for each of at most {MOST_PEOPLE} people"
+                raise ObservationError(f"Flips.{name}: shape {values.shape}, accepted: {accepted}")
+            bad = ~((values % 1 == 0) & (values >= 0) & (values <= bound))
+            if bad.any():
+                i = int(np.argmax(bad))
+                limit = int(np.broadcast_to(bound, values.shape)[i])
+                raise ValueRefusedError(
+                    name, i, f"{values[i]:g}", f"a whole number from 0 to {limit}", "Flips"
+                )
+            kept = values.astype(np.int64)
+            kept.setflags(write=False)
+            object.__setattr__(self, name, kept)
+        if not self.flips.sum():
+            raise ObservationError("Flips.flips: none, accepted: at least one flip")
+        names = tuple(map(str, people)) or tuple(str(n + 1) for n in range(len(self.flips)))
+        if len(names) != len(self.flips):
+            raise ObservationError(
+                f"Flips.people: {len(names)} names, accepted: {len(self.flips)}, one a person"
+            )
+        object.__setattr__(self, "people", names)
+
+    def __repr__(self) -> str:
+        """Return how many there are."""
+        return f"<Flips: {self.same.sum()} of {self.flips.sum()} by {len(self.flips)} people>"

@@ -1,0 +1,221 @@
+"""The probability of the same side, as it is distributed over people, fitted to how often each had it."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq, minimize
+from scipy.special import betaln, logsumexp
+from scipy.stats import chi2, halfnorm
+
+from cointoss.compare.fitting.flips import Flips
+from cointoss.compare.metrics.estimates import LEVEL
+from cointoss.models.hand import same_side_probability
+from cointoss.models.records import Array
+
+PANELS, ORDER = 150, 8
+"""Panels of the quadrature over people by Gauss and Legendre, and its order in each."""
+RESOLVED = 25_000
+"""Flips of a person whose likelihood so many panels resolve; its width shrinks as 1/√n."""
+DROP = float(chi2.ppf(LEVEL, 1)) / 2
+"""How far the logarithm of the likelihood falls from its largest value to the ends of an interval."""
+_LEAST = 1e-12
+_TOLERANCE = 1e-7
+"""Of a search for the largest likelihood: of parameters, which are below 1, and of its logarithm."""
+
+
+@dataclass(frozen=True)
+class SameSide:
+    """How likely the side that was up at the release comes up, as a function of |90° - ψ|."""
+
+    probability: Callable[[Array], Array]
+    """The probability for angles from 0 to 90°, (n,) [rad] to (n,)."""
+    tosses: float = math.inf
+    """Simulated tosses behind each probability; infinite for a closed form."""
+
+
+CAUGHT = SameSide(lambda off: same_side_probability(np.pi / 2 - off))
+"""A coin that a hand catches after many turns (Diaconis, Holmes and Montgomery 2007)."""
+
+
+@dataclass(frozen=True)
+class People:
+    """A family of distributions of p, the probability of the same side, over people."""
+
+    latent: Any
+    """The distribution of a number that each person has, of `scipy.stats`."""
+    ends: tuple[float, float]
+    """Between which all but 1e-25 of it lies."""
+    probability: Callable[[Array, Array], Array]
+    """p, from the parameters and that number, (n,) to (n,)."""
+    start: tuple[float, ...]
+    """Where the search for the parameters begins; the first is a spread, and not negative."""
+    largest: float = 1.0
+    """The largest spread."""
+    tosses: float = math.inf
+    """As of `SameSide`."""
+
+
+@dataclass(frozen=True)
+class PeopleFit:
+    """A distribution of p over people, fitted by maximum likelihood."""
+
+    people: People
+    parameters: Array
+    log_likelihoods: Array
+    """Logarithm of each person's likelihood, but for what depends on the counts alone, (n,)."""
+
+    @property
+    def log_likelihood(self) -> float:
+        """That of all people."""
+        return float(self.log_likelihoods.sum())
+
+
+def wobbling(side: SameSide) -> People:
+    """Return people whose |90° - ψ| is half-normal; the parameter is the root of its mean square [rad]."""
+
+    def probability(parameters: Array, off: Array) -> Array:
+        return side.probability(np.minimum(parameters[0] * off, np.pi / 2))
+
+    return People(halfnorm(), (0.0, 11.0), probability, start=(0.2,), largest=np.pi / 2, tosses=side.tosses)
+
+
+WOBBLING = wobbling(CAUGHT)
+"""People who wobble, and catch the coin."""
+
+
+def log_binomial(same: ArrayLike, flips: ArrayLike, p: ArrayLike, tosses: float = math.inf) -> Array:
+    """Return the logarithm of the likelihood of counts, but for what depends on these; arrays broadcast.
+
+    A simulated p is known as well as its tosses let it: its posterior distribution is a beta distribution
+    (Jeffreys), so the counts are beta-binomial.
+
+    Args:
+        same: how often the same side came up.
+        flips: all flips.
+        p: the probability of the same side.
+        tosses: behind each p.
+    """
+    up, other = np.asarray(same), np.asarray(flips) - np.asarray(same)
+    q = np.clip(np.asarray(p, dtype=float), _LEAST, 1 - _LEAST)
+    if math.isinf(tosses):
+        return np.asarray(up * np.log(q) + other * np.log1p(-q))
+    a, b = tosses * q + 1 / 2, tosses * (1 - q) + 1 / 2
+    return np.asarray(betaln(up + a, other + b) - betaln(a, b))
+
+
+def log_likelihoods(flips: Flips, people: People, parameters: Array) -> Array:
+    """Return the logarithm of the likelihood of each person's counts, but for what depends on these, (n,).
+
+    Panels of the quadrature are narrower than any person's likelihood, wherever among all people that lies.
+
+    Args:
+        flips: the counts.
+        people: whose integral over the latent number it is.
+        parameters: of the family.
+    """
+    latent, weights = _nodes(people.ends, int(flips.flips.max()))
+    p = people.probability(parameters, latent)
+    of_latent = people.latent.logpdf(latent) + np.log(weights)
+    of_counts = log_binomial(flips.same[:, None], flips.flips[:, None], p, people.tosses)
+    return np.asarray(logsumexp(of_counts + of_latent, axis=1))
+
+
+def _nodes(ends: tuple[float, float], flips: int = RESOLVED) -> tuple[Array, Array]:
+    """Return the nodes of the quadrature and their weights, (m,) each, for at most so many flips a person."""
+    x, weights = leggauss(ORDER)
+    panels = math.ceil(PANELS * max(1.0, flips / RESOLVED) ** 0.5)
+    edges = np.linspace(*ends, panels + 1)
+    half = np.diff(edges)[:, None] / 2
+    return (edges[:-1, None] + half * (1 + x)).ravel(), (half * weights).ravel()
+
+
+def fit_people(flips: Flips, people: People) -> PeopleFit:
+    """Return the distribution of a family under which the counts are most likely."""
+    found = _most_likely(
+        lambda x: log_likelihoods(flips, people, x).sum(),
+        people.start,
+        [(0.0, people.largest)] + [(0.0, 1.0)] * (len(people.start) - 1),
+    )
+    return PeopleFit(people, found, log_likelihoods(flips, people, found))
+
+
+def _most_likely(
+    log_likelihood: Callable[[Array], float], start: tuple[float, ...], bounds: list[tuple[float, float]]
+) -> Array:
+    best = minimize(
+        lambda x: -log_likelihood(x),
+        x0=start,
+        bounds=bounds,
+        method="Nelder-Mead",
+        options={"xatol": _TOLERANCE, "fatol": _TOLERANCE},
+    )
+    return best.x
+
+
+def quantiles(people: People, parameters: Array, parts: Array) -> Array:
+    """Return p below which parts of the people are, (n,) to (n,); p must grow with the latent number."""
+    return people.probability(parameters, people.latent.ppf(parts))
+
+
+def spread_of(found: PeopleFit) -> float:
+    """Return the standard deviation of p over people."""
+    latent, weights = _nodes(found.people.ends)
+    of_latent = weights * found.people.latent.pdf(latent)
+    p = found.people.probability(found.parameters, latent)
+    return float(np.sqrt(of_latent @ (p - of_latent @ p) ** 2))
+
+
+def spread_interval(flips: Flips, found: PeopleFit) -> Array:
+    """Return the interval of the first parameter by the likelihood ratio, the others at their best, (2,).
+
+    An end is 0, or the largest spread, where the likelihood is not small there.
+    """
+    best, rest = found.parameters[0], tuple(found.parameters[1:])
+
+    def above(spread: float) -> float:
+        def at(others: Array) -> float:
+            return log_likelihoods(flips, found.people, np.array([spread, *others])).sum()
+
+        others = _most_likely(at, rest, [(0.0, 1.0)] * len(rest)) if rest else np.array([])
+        return float(at(others) - found.log_likelihood) + DROP
+
+    return np.array([crossing(above, best, end) for end in (0.0, found.people.largest)])
+
+
+def crossing(above: Callable[[float], float], inner: float, outer: float) -> float:
+    """Return where a function falls below 0 on its way outwards; the outer end where it does not.
+
+    Args:
+        above: not negative at the inner end.
+        inner: the inner end.
+        outer: the outer end.
+    """
+    return outer if inner == outer or above(outer) >= 0 else float(brentq(above, inner, outer, xtol=1e-6))
+
+
+def chance_of_spread(flips: Flips, found: PeopleFit, rng: np.random.Generator, draws: int = 4000) -> float:
+    """Return how likely people as modelled differ among each other by as much as those who flipped.
+
+    Args:
+        flips: the counts.
+        found: the model.
+        rng: draws people.
+        draws: how many times all of them.
+    """
+    latent = found.people.latent.rvs((draws, len(flips.flips)), random_state=rng)
+    p = np.clip(found.people.probability(found.parameters, latent), 0, 1)
+    drawn = _scatter(rng.binomial(flips.flips, p), flips.flips)
+    return float((drawn >= _scatter(flips.same, flips.flips)).mean())
+
+
+def _scatter(same: NDArray[np.int64], flips: NDArray[np.int64]) -> Array:
+    """Return χ² of the counts against one p for all, (..., n) to (...); 0 where all are the same."""
+    p = (same.sum(axis=-1) / flips.sum())[..., None]
+    variance = flips * p * (1 - p)
+    missed = np.divide((same - flips * p) ** 2, variance, where=variance > 0, out=np.zeros(same.shape))
+    return missed.sum(axis=-1)
