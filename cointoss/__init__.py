@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from cointoss.compare.fitting.fit import Fitted as Fitted
     from cointoss.compare.fitting.fit import fit as fit
     from cointoss.compare.fitting.flips import Flips as Flips
+    from cointoss.compare.fitting.hand_fit import HandFit as HandFit
+    from cointoss.compare.fitting.hand_fit import PersonFit as PersonFit
     from cointoss.compare.fitting.observed import Observed as Observed
     from cointoss.compare.report.comparison import Comparison as Comparison
     from cointoss.compare.report.comparison import compare as compare

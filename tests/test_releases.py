@@ -11,7 +11,7 @@ import pytest
 import xarray
 
 import cointoss as package
-from cointoss.compare.fitting.table import read_observed
+from cointoss.compare.fitting.table import read_seen
 from cointoss.models.batch import STATE
 from cointoss.models.hand import load_hand
 from cointoss.models.reading import parse
@@ -153,7 +153,7 @@ def test_shares_are_told_as_they_were(release, tmp_path):
 @pytest.mark.parametrize("table", ["stopwatch", "frames"])
 def test_what_was_seen_is_read_as_it_was(release, table):
     sd = {"time": 0.001, "height": 0.002, "attitude": 0.01}
-    found = read_observed(release / "given" / f"{table}.csv", sd)
+    found = read_seen(release / "given" / f"{table}.csv", sd)
     now = {name: getattr(found, name).tolist() for name in found.__dataclass_fields__}
     assert unlike(read(release / "made" / f"{table}.json"), now) == []
 

@@ -25,7 +25,7 @@ ARGUMENTS = {
     "MODEL.xml": "an XML file of MuJoCo",
     "GEOM": "the name or the number of a geom, twice",
     "MAP.zarr": "a map that cointoss basin made",
-    "OBSERVED.csv": "a CSV file with the times of touches, or with frames of a film",
+    "OBSERVED.csv": "a CSV file with the times of touches, with frames of a film, or with counts of flips",
 }
 """What the arguments of commands take."""
 

@@ -1,9 +1,9 @@
 """`cointoss fit`: what was seen of a coin to the fields that explain it."""
 
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import click
 
@@ -14,20 +14,25 @@ from cointoss.compare.commands.common import (
     plain_errors,
     print_json,
 )
-from cointoss.compare.commands.names import fitted, scenario_argument, varied
+from cointoss.compare.commands.names import fitted, optional_scenario_argument, varied
 from cointoss.compare.commands.options import options_of
 from cointoss.compare.commands.settings import set_option, with_scenario
 from cointoss.compare.output.accepted import Form, Within
+from cointoss.compare.output.language import option_of
 from cointoss.compare.sweep.asked import Source
 from cointoss.models.devices import Device
+
+if TYPE_CHECKING:
+    from cointoss.compare.fitting.flips import Flips
+    from cointoss.compare.fitting.observed import Observed
 
 
 @dataclass(frozen=True, kw_only=True)
 class SoughtValues:
     """The fields whose values are to be found, how, and where they go."""
 
-    vary: Annotated[tuple[str, ...], Form("FIELD=START:STOP")]
-    """A field to be found, and where it is looked for; may be given several times."""
+    vary: Annotated[tuple[str, ...], Form("FIELD=START:STOP")] = ()
+    """A field to be found, and where it is looked for; may be given several times; not of counts."""
     sd_time: Annotated[str | None, Form("QUANTITY")] = None
     """Standard deviation of the times of touches, such as '1 ms'; needed without a column sd_t."""
     sd_height: Annotated[str | None, Form("QUANTITY")] = None
@@ -36,29 +41,39 @@ class SoughtValues:
     """Standard deviation of tilts and attitudes, such as '2 deg'."""
     starts: Annotated[int, Within(1, 1 << 20)] = 2048
     """Values that are tried first, spread evenly over the spans; more for more or wider ones."""
+    hand: Path | None = None
+    """A hand's file, of counts: it tosses the scenario's coin, but for its psi."""
+    tosses: Annotated[int, Within(1, 10_000_000)] = 1000
+    """Tosses of the scenario's coin at each of 31 psi, of counts."""
     seed: Annotated[int, Within(0, 2**32)] = 0
-    """Seed of the starts."""
+    """Seed of the starts, or of the tosses."""
     device: Device = Device.CPU
-    """What tosses; a fit is made by the CPU, so that auto is the CPU."""
+    """What tosses; a fit of one toss is made by the CPU, so that auto is the CPU."""
     out: Path | None = None
-    """Also write the scenario with the values found to this .toml file."""
+    """Also write the scenario with the values found, or of counts the hand, to this .toml file."""
     png: Path | None = None
-    """Also draw the fit to this .png file."""
+    """Also draw the fit to this .png file; not of counts."""
     json: bool = False
     """Print JSON, in full precision."""
+
+
+_OF_A_TOSS = ("vary", "starts", "png")
+_OF_COUNTS = ("hand", "tosses")
+"""Options that are of use for the one, and not for the other."""
 
 
 @click.command(
     epilog="OBSERVED.csv has a column t (time) with a row for each touch, or t and z (height) or tilt with a "
     "row for each frame; units in brackets, as in t (ms). Exports of phyphox and of Tracker are read, too. "
-    + SCENARIO_HELP
+    "Counts have a row for each person, and columns same and flips, or heads_to_heads, heads_to_tails, "
+    "tails_to_tails and tails_to_heads. " + SCENARIO_HELP
 )
 @click.argument("observed", metavar="OBSERVED.csv", type=Place())
-@scenario_argument
+@optional_scenario_argument
 @set_option
 @options_of(SoughtValues, completed={"vary": fitted})
 @with_scenario
-def fit(observed: Path, source: Source, asked: SoughtValues) -> None:
+def fit(observed: Path, source: Source | None, asked: SoughtValues) -> None:
     """Find the values of a scenario's fields that explain what was seen of a coin, or that none do.
 
     Seen are the times of its touches, as a microphone hears them, faces up, or heights and attitudes, as a
@@ -70,18 +85,79 @@ def fit(observed: Path, source: Source, asked: SoughtValues) -> None:
     Printed are the values with their 99 % intervals, whether this model can do what was seen at all, other
     values that would explain it too, and each touch. Where it cannot, there are no intervals, and the exit
     status is 1.
+
+    Of counts of flips, how often the side came up that was up at the release, the psi of each person's hand
+    is found, and its scatter over people. Without SCENARIO the coins are caught; with it, coins are tossed
+    onto its floor.
     """
-    from cointoss.compare.fitting.table import read_observed
-    from cointoss.compare.output.files import require_file, write_bytes, write_text
+    from cointoss.compare.fitting.flips import Flips
+    from cointoss.compare.fitting.table import read_seen
+    from cointoss.compare.output.files import require_file
+
+    given = [observed, *([source.name] if source else []), *([asked.hand] if asked.hand else [])]
+    require_file(asked.out, ".toml", *given)
+    require_file(asked.png, ".png", *given)
+    sd = {"time": asked.sd_time, "height": asked.sd_height, "attitude": asked.sd_attitude}
+    typed = {name: text for name, text in sd.items() if text is not None}
+    options = {f"sd.{name}": (f"--sd-{name}", text) for name, text in typed.items()}
+    with plain_errors(str(observed)), naming_options(options):
+        seen = read_seen(observed, typed)
+    if isinstance(seen, Flips):
+        _refuse_options(_OF_A_TOSS, asked, "only with the times of touches or frames of a film")
+        if source is None:
+            _refuse_options(_OF_COUNTS, asked, "only with a SCENARIO")
+        is_possible = _fit_hand(seen, source, asked)
+    else:
+        _refuse_options(_OF_COUNTS, asked, "only with counts of flips")
+        context = click.get_current_context()
+        for name, value in (("scenario", source), ("vary", asked.vary)):
+            if not value:
+                raise click.MissingParameter(
+                    ctx=context, param=next(one for one in context.command.params if one.name == name)
+                )
+        assert source is not None
+        is_possible = _fit_toss(seen, source, asked)
+    sys.exit(0 if is_possible else 1)
+
+
+def _refuse_options(names: tuple[str, ...], asked: SoughtValues, accepted: str) -> None:
+    """Refuse options of no use, where they are not as by default."""
+    for item in fields(asked):
+        if item.name in names and (value := getattr(asked, item.name)) != item.default:
+            shown = value[0] if isinstance(value, tuple) else value
+            raise click.UsageError(f"{option_of(item.name)} {shown}: accepted: {accepted}")
+
+
+def _fit_hand(flips: "Flips", source: Source | None, asked: SoughtValues) -> bool:
+    """Print the hand that explains counts, and return whether one does."""
+    from cointoss.compare.fitting import fit as fitting
+    from cointoss.compare.fitting.hand_answer import as_lines
+    from cointoss.compare.output.files import write_text
+    from cointoss.models.hand import load_hand
+
+    found = fitting.fit(
+        flips,
+        source and source.scenario,
+        hand=load_hand(asked.hand) if asked.hand else None,
+        tosses=asked.tosses,
+        seed=asked.seed,
+        device=asked.device,
+    )
+    if asked.out is not None:
+        write_text(asked.out, found.hand_toml())
+    if asked.json:
+        print_json({**found.as_dict(), "seed": asked.seed, "tosses": source and asked.tosses}, "analytic")
+    else:
+        click.echo(as_lines(found))
+        _echo_files(asked, "hand")
+    return found.is_possible
+
+
+def _fit_toss(seen: "Observed", source: Source, asked: SoughtValues) -> bool:
+    """Print the values that explain what was seen of a toss, and return whether any do."""
+    from cointoss.compare.output.files import write_bytes, write_text
     from cointoss.models.stages import stage
 
-    require_file(asked.out, ".toml", source.name, observed)
-    require_file(asked.png, ".png", source.name, observed)
-    sd = {"time": asked.sd_time, "height": asked.sd_height, "attitude": asked.sd_attitude}
-    given = {name: text for name, text in sd.items() if text is not None}
-    options = {f"sd.{name}": (f"--sd-{name}", text) for name, text in given.items()}
-    with plain_errors(str(observed)), naming_options(options):
-        seen = read_observed(observed, given)
     with stage("getting ready"):  # what is imported takes long on a busy machine
         from cointoss.compare.fitting import fit as fitting
         from cointoss.compare.fitting.answer import as_lines
@@ -105,7 +181,12 @@ def fit(observed: Path, source: Source, asked: SoughtValues) -> None:
         print_json({**found.as_dict(), "seed": asked.seed, "starts": asked.starts}, "analytic")
     else:
         click.echo(as_lines(found))
-        for name, path in (("scenario", asked.out), ("picture", asked.png)):
-            if path is not None:
-                click.echo(f"\n{name:11} {path}")
-    sys.exit(0 if found.is_possible else 1)
+        _echo_files(asked, "scenario")
+    return found.is_possible
+
+
+def _echo_files(asked: SoughtValues, what: str) -> None:
+    """Print which files were written."""
+    for name, path in ((what, asked.out), ("picture", asked.png)):
+        if path is not None:
+            click.echo(f"\n{name:11} {path}")

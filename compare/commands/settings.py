@@ -72,15 +72,17 @@ def described(source: str, settings: Sequence[str] = ()) -> "tuple[Scenario, str
 
 
 def with_scenario(command: Callable[..., None]) -> Callable[..., None]:
-    """Return a command that takes a scenario and its settings, which it has as `source`.
+    """Return a command that takes a scenario and its settings, which it has as `source`, None without one.
 
     What is wrong with it, or with the scenario, is said in one line.
     """
 
     @wraps(command)
-    def called(*arguments: Any, scenario: str, settings: tuple[str, ...], **asked: Any) -> None:
-        with plain_errors(scenario):
-            source = Source(scenario, *described(scenario, settings), settings)
+    def called(*arguments: Any, scenario: str | None, settings: tuple[str, ...], **asked: Any) -> None:
+        if scenario is None and settings:
+            raise click.UsageError(f"--set {settings[0]}: accepted: only with a SCENARIO")
+        with plain_errors(scenario or click.get_current_context().command_path):
+            source = scenario and Source(scenario, *described(scenario, settings), settings)
             command(*arguments, source=source, **asked)
 
     return called

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from os import PathLike
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,14 +12,17 @@ from scipy.stats import chi2
 
 from cointoss.analytic import toss
 from cointoss.compare.fitting.errors import ObservationError
+from cointoss.compare.fitting.flips import Flips
+from cointoss.compare.fitting.hand_fit import TOSSES, HandFit, fit_flips
 from cointoss.compare.fitting.misfit import CLOCK, Misfit
 from cointoss.compare.fitting.observed import Observed
 from cointoss.compare.fitting.search import LEVEL, LeastSquaresSearch, Minimum
-from cointoss.compare.fitting.table import read_observed
+from cointoss.compare.fitting.table import read_seen
 from cointoss.compare.sweep.axes import NUMBERS, Span, spans_of
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
 from cointoss.models.devices import Device
-from cointoss.models.errors import ScenarioError
+from cointoss.models.errors import ScenarioError, shown
+from cointoss.models.hand import Hand
 from cointoss.models.names import SPIN
 from cointoss.models.processor import Processor
 from cointoss.models.reading import ScenarioSource, scenario_of
@@ -37,6 +40,7 @@ FIELDS = {CLOCK: "s"} | {
     if field != SPIN and not field.startswith(("ending.", "release.quaternion."))
 }
 """What may be free, and its SI unit."""
+Spans = Mapping[str, tuple[float | str, float | str] | str]
 _EXAMPLE = '{"floor.restitution": (0.4, 0.9)}'
 
 
@@ -194,48 +198,93 @@ class Fit:
         return plot_fit(self, ax)  # pyright: ignore[reportArgumentType]
 
 
+@overload
 def fit(
     observed: Observed | str | PathLike[str],
     scenario: ScenarioSource,
-    vary: Mapping[str, tuple[float | str, float | str] | str],
+    vary: Spans,
     *,
     sd: Mapping[str, float | str] | None = None,
     starts: int = STARTS,
     seed: int = 0,
     device: Device | str = Device.CPU,
-) -> Fit:
-    """Find the values of some fields of a scenario that explain what was seen of a coin.
+) -> Fit: ...
+@overload
+def fit(
+    observed: Flips | str | PathLike[str],
+    scenario: ScenarioSource | None = None,
+    *,
+    hand: Hand | None = None,
+    tosses: int = TOSSES,
+    seed: int = 0,
+    device: Device | str = Device.CPU,
+) -> HandFit: ...
+def fit(
+    observed: Observed | Flips | str | PathLike[str],
+    scenario: ScenarioSource | None = None,
+    vary: Spans | None = None,
+    *,
+    sd: Mapping[str, float | str] | None = None,
+    starts: int = STARTS,
+    hand: Hand | None = None,
+    tosses: int = TOSSES,
+    seed: int = 0,
+    device: Device | str = Device.CPU,
+) -> Fit | HandFit:
+    """Find the values of some fields of a scenario that explain what was seen of a coin, or a hand's wobble.
 
         cointoss.fit("heard.csv", "coin.toml", {"floor.restitution": (0.4, 0.9)}, sd={"time": "1 ms"})
+        cointoss.fit("counts.csv")
 
     The squares of the residuals of the analytic engine's toss are made least from many starts in the spans,
     those of the first touches first. The standard deviations are those of linear propagation: of the errors
     of what was seen alone, if the model is right. Faces are held against the toss; they determine no value.
 
+    Counts of flips, of people and of how often the side came up that had been up, tell each person's ψ, and
+    its scatter over people: of coins that are caught by a closed form, of a scenario's coin by tosses.
+
     Args:
         observed: what was seen, or the path of a CSV file that has it.
-        scenario: what is held fixed; or a file's path, or a name such as "fig24a".
+        scenario: what is held fixed; or a file's path, or a name such as "fig24a". Of flips its own release
+            is not used, and without it the coins are caught.
         vary: for each field its first and last value, (START, STOP) or "START:STOP", in SI or with a unit;
             of its name the part suffices that no other field has, such as "restitution". The field "clock" is
             the time that the observer's clock shows at the release; where it does not vary, that is 0.
         sd: of a file, standard deviations of "time", "height" and "attitude", in SI or as texts with a unit,
             where it has none itself.
         starts: how many, spread evenly.
-        seed: of their order.
-        device: "cpu" or "auto": the CPU tosses, for a card finds how a toss ends, not what it shows before.
+        hand: that tosses a scenario's coin, but for its ψ, where flips were counted; by default `Hand()`.
+        tosses: of each of some 30 ψ, where flips were counted and a scenario's coin is tossed.
+        seed: of the order of the starts, or of the tosses.
+        device: "cpu" or "auto": the CPU tosses, for a card finds how a toss ends, not what it shows before;
+            of flips as of `shares`.
 
     Raises:
         ObservationError: for a file or numbers that can't be used.
         ValueError: for a standard deviation that nothing has.
         SweepError: for a field or a span that can't be used.
         ScenarioError: for a scenario that can't be used, or where no value of the spans makes one.
-        UnsupportedError: for the device "cuda".
+        UnsupportedError: for the device "cuda", but of flips.
     """
-    Processor(device).require_cpu("by a fit")
     require_whole("starts", starts, 1, MOST_STARTS)
     require_whole("seed", seed, 0, MOST_SEED)
+    if isinstance(observed, str | PathLike):
+        observed = read_seen(observed, sd)
+    if isinstance(observed, Flips):
+        if vary is not None:
+            raise SweepError(f"vary: {shown(vary)}, accepted: none for counts of flips")
+        if scenario is None and hand is not None:
+            raise SweepError("hand: accepted: only with a scenario whose coin it tosses")
+        described = None if scenario is None else scenario_of(scenario)
+        return fit_flips(observed, described, hand=hand, tosses=tosses, seed=seed, device=device)
+    if not isinstance(observed, Observed):
+        accepted = "an Observed, Flips, or the path of a CSV file"
+        raise ObservationError(f"observed: {observed!r}, accepted: {accepted}")
+    if scenario is None:
+        raise SweepError("scenario: None, accepted: one whose fields explain what was seen")
+    Processor(device).require_cpu("by a fit")
     described = scenario_of(scenario)
-    spans = spans_of(vary, described, FIELDS, _EXAMPLE, free=[CLOCK])
+    spans = spans_of({} if vary is None else vary, described, FIELDS, _EXAMPLE, free=[CLOCK])
     if len(spans) > MOST_FIELDS:
         raise SweepError(f"vary: {len(spans)} fields; accepted: from 1 to {MOST_FIELDS}")
     for span in spans:
@@ -243,10 +292,6 @@ def fit(
             raise SweepError(
                 f"{span.field}: this scenario has a quaternion; accepted: release.angles in its place"
             )
-    if isinstance(observed, str | PathLike):
-        observed = read_observed(observed, sd)
-    elif not isinstance(observed, Observed):
-        raise ObservationError(f"observed: {observed!r}, accepted: an Observed, or the path of a CSV file")
     misfit = Misfit(scenario=described, spans=spans, observed=observed)
     searched = LeastSquaresSearch(misfit, starts=starts, seed=seed).found()
     if searched is None:

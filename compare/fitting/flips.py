@@ -49,7 +49,7 @@ class Flips:
             kept.setflags(write=False)
             object.__setattr__(self, name, kept)
         if not self.flips.sum():
-            raise ObservationError("Flips.flips: none, accepted: at least one flip")
+            raise ObservationError("no flips; accepted: at least one")
         names = tuple(map(str, people)) or tuple(str(n + 1) for n in range(len(self.flips)))
         if len(names) != len(self.flips):
             raise ObservationError(

@@ -21,6 +21,8 @@ PANELS, ORDER = 150, 8
 """Panels of the quadrature over people by Gauss and Legendre, and its order in each."""
 RESOLVED = 25_000
 """Flips of a person whose likelihood so many panels resolve; its width shrinks as 1/√n."""
+SCANNED = 30
+"""Spreads that are tried where p is simulated, so that its likelihood may have several peaks."""
 DROP = float(chi2.ppf(LEVEL, 1)) / 2
 """How far the logarithm of the likelihood falls from its largest value to the ends of an interval."""
 _LEAST = 1e-12
@@ -136,9 +138,17 @@ def _nodes(ends: tuple[float, float], flips: int = RESOLVED) -> tuple[Array, Arr
 
 def fit_people(flips: Flips, people: People) -> PeopleFit:
     """Return the distribution of a family under which the counts are most likely."""
+
+    def likelihood(x: Array) -> float:
+        return float(log_likelihoods(flips, people, x).sum())
+
+    start = people.start
+    if not math.isinf(people.tosses):
+        spreads = np.linspace(0.0, people.largest, SCANNED + 1)[1:]
+        start = max(((spread, *start[1:]) for spread in spreads), key=lambda x: likelihood(np.array(x)))
     found = _most_likely(
-        lambda x: log_likelihoods(flips, people, x).sum(),
-        people.start,
+        likelihood,
+        start,
         [(0.0, people.largest)] + [(0.0, 1.0)] * (len(people.start) - 1),
     )
     return PeopleFit(people, found, log_likelihoods(flips, people, found))
@@ -184,18 +194,23 @@ def spread_interval(flips: Flips, found: PeopleFit) -> Array:
         others = _most_likely(at, rest, [(0.0, 1.0)] * len(rest)) if rest else np.array([])
         return float(at(others) - found.log_likelihood) + DROP
 
-    return np.array([crossing(above, best, end) for end in (0.0, found.people.largest)])
+    steps = 1 if math.isinf(found.people.tosses) else SCANNED
+    return np.array([crossing(above, best, end, steps) for end in (0.0, found.people.largest)])
 
 
-def crossing(above: Callable[[float], float], inner: float, outer: float) -> float:
+def crossing(above: Callable[[float], float], inner: float, outer: float, steps: int = 1) -> float:
     """Return where a function falls below 0 on its way outwards; the outer end where it does not.
 
     Args:
         above: not negative at the inner end.
         inner: the inner end.
         outer: the outer end.
+        steps: in which a function that may fall several times is followed inwards, to its last fall.
     """
-    return outer if inner == outer or above(outer) >= 0 else float(brentq(above, inner, outer, xtol=1e-6))
+    places = np.linspace(outer, inner, steps + 1).tolist()
+    last = next(i for i, at in enumerate(places) if at == inner or above(at) >= 0)
+    root: Any = outer if last == 0 else brentq(above, places[last], places[last - 1], xtol=1e-6)
+    return float(root)
 
 
 def chance_of_spread(flips: Flips, found: PeopleFit, rng: np.random.Generator, draws: int = 4000) -> float:

@@ -1,6 +1,5 @@
 """What was seen of a coin, read from a CSV file as phyphox, Tracker and a person write it."""
 
-import csv
 import math
 import re
 import warnings
@@ -11,20 +10,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from cointoss.compare.fitting.cells import BEFORE_HEADER, read_cells, require_whole_rows
 from cointoss.compare.fitting.errors import ObservationError, ValueRefusedError
+from cointoss.compare.fitting.flips import Flips
+from cointoss.compare.fitting.flips_table import ACCEPTED as COUNTS
+from cointoss.compare.fitting.flips_table import flips_of, is_of_flips
 from cointoss.compare.fitting.observed import LEAST_SD, Observed
 from cointoss.compare.sweep.axes import number
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.models.bounded import TooLargeError, read_bounded
 from cointoss.models.errors import FieldError, shown
 from cointoss.models.parts import LARGEST as LARGEST_SD
 from cointoss.models.units import in_si
 from cointoss.models.unused import UnusedFieldWarning
 
-LARGEST = 10_000_000
-"""Bytes of a file."""
-BEFORE_HEADER = 5
-"""Lines above that with the names; Tracker writes the name of the track there."""
 NAMES = {
     "time": (("t", "time"), "s"),
     "touch": (("touch", "bounce", "impact"), ""),
@@ -107,8 +105,10 @@ class Heading(NamedTuple):
         return found
 
 
-def read_observed(path: str | PathLike[str], sd: Mapping[str, float | str] | None = None) -> Observed:
+def read_seen(path: str | PathLike[str], sd: Mapping[str, float | str] | None = None) -> Observed | Flips:
     """Read what was seen from a CSV file; commas, semicolons or tabs between its cells, # before a comment.
+
+    Its columns say whether that is one toss, or counts of flips.
 
     A row is a touch where it has a number in the column `touch`, or where no column is of a film; another is
     a frame. phyphox's acoustic stopwatch and its (in)elastic collision export the touches in one row.
@@ -125,16 +125,11 @@ def read_observed(path: str | PathLike[str], sd: Mapping[str, float | str] | Non
     Warns:
         UnusedFieldWarning: for columns that are not used.
     """
-    deviations = _deviations({} if sd is None else sd)
+    deviations, rows = _deviations({} if sd is None else sd), read_cells(Path(path))
     try:
-        return _observed(_rows(Path(path)), deviations)
+        return _seen(rows, deviations)
     except ObservationError as error:
         raise ObservationError(f"{path}: {error}") from None
-    except FileNotFoundError:
-        raise ObservationError(f"{path}: no such file; accepted: a CSV file") from None
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "no text"
-        raise ObservationError(f"{path}: can't be read ({reason}); accepted: a CSV file in UTF-8") from None
 
 
 def _deviations(given: Mapping[str, float | str]) -> dict[str, float]:
@@ -157,25 +152,12 @@ def _deviations(given: Mapping[str, float | str]) -> dict[str, float]:
     return found
 
 
-def _rows(path: Path) -> list[list[str]]:
-    """Return the cells of a file that are neither empty lines nor comments."""
-    try:
-        lines = read_bounded(path, LARGEST).decode("utf-8-sig").splitlines()
-        lines = [line for line in lines if line.strip() and not line.startswith("#")]
-        mark = max(";\t,", key=lambda mark: sum(line.count(mark) > 0 for line in lines[:BEFORE_HEADER]))
-        rows = [[cell.strip() for cell in row] for row in csv.reader(lines, delimiter=mark)]
-    except (csv.Error, TooLargeError) as error:
-        raise ObservationError(f"{error}; accepted: a CSV file of at most {LARGEST:,} bytes") from None
-    return rows if mark == "," else [[_with_point(cell) for cell in row] for row in rows]
-
-
-def _with_point(cell: str) -> str:
-    """Return a number written with a decimal comma with a point; another cell as it is."""
-    return cell.replace(",", ".") if re.fullmatch(r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?", cell) else cell
-
-
-def _observed(rows: list[list[str]], sd: Mapping[str, float]) -> Observed:
+def _seen(rows: list[list[str]], sd: Mapping[str, float]) -> Observed | Flips:
     for at, row in enumerate(rows[:BEFORE_HEADER]):
+        if is_of_flips(row):
+            for name, value in sd.items():
+                raise FieldError(name.replace("_", ".", 1), value, "none for counts of flips")
+            return flips_of(row, rows[at + 1 :])
         headings, below = [Heading.of(cell) for cell in row], rows[at + 1 :]
         in_one_row = [i for i, heading in enumerate(headings) if _IN_ONE_ROW.fullmatch(heading.name)]
         if in_one_row:
@@ -189,15 +171,9 @@ def _observed(rows: list[list[str]], sd: Mapping[str, float]) -> Observed:
             return _of_columns({"time": (0, headings[in_one_row[0]])}, times, sd)
         if any(heading.key == "time" for heading in headings):
             columns = _columns(headings)
-            least = 1 + max(i for i, _ in columns.values())
-            for n, cells in enumerate(below, start=1):
-                if len(cells) < least or any(cells[len(headings) :]):
-                    raise ObservationError(
-                        f"row {n} has {len(cells)} cells; accepted: {len(headings)}, one for each column; "
-                        "decimal commas need semicolons or tabs between the cells"
-                    )
+            require_whole_rows(below, 1 + max(i for i, _ in columns.values()), len(headings))
             return _of_columns(columns, below, sd)
-    raise ObservationError(f"no column of times; accepted: {ACCEPTED}")
+    raise ObservationError(f"no column of times; accepted: {ACCEPTED}; or of counts of flips: {COUNTS}")
 
 
 def _columns(headings: Sequence[Heading]) -> dict[str, tuple[int, Heading]]:

@@ -1,12 +1,14 @@
 """The side a coin started from: the fit to people's flips."""
 
+from inspect import getfile
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from cointoss import Flips
+from cointoss import Flips, fit
 from cointoss.study import (
     WOBBLING,
     PeopleFit,
@@ -24,6 +26,9 @@ from cointoss_reproduction.studies.same_side.people import (
     read_started,
     without,
 )
+from tests.helpers.command_line import cointoss
+
+TABLE = Path(getfile(read_flips)).with_name("same_side_flips.csv")
 
 
 def drawn(family, parameters, people=200, flips=7000, seed=3):
@@ -31,6 +36,15 @@ def drawn(family, parameters, people=200, flips=7000, seed=3):
     count = np.full(people, flips)
     p = quantiles(family, np.array(parameters), rng.random(people))
     return Flips(same=rng.binomial(count, p), flips=count)
+
+
+def test_the_command_finds_the_scatter_of_the_page():
+    answered = cointoss("fit", TABLE)
+    assert answered.exit_code == 0, answered.stderr
+    assert "90 with a scatter of 10.0 [7.6, 13.5] over 48 people" in answered.stdout
+    found, counts = fit(TABLE), read_flips()
+    assert found.flips.same.tolist() == counts.same.tolist()
+    assert found.flips.flips.tolist() == counts.flips.tolist()
 
 
 def test_the_counts_are_those_published():

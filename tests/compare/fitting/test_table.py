@@ -7,7 +7,7 @@ import pytest
 
 from cointoss import analytic, load
 from cointoss.compare.fitting.errors import ObservationError
-from cointoss.compare.fitting.table import read_observed
+from cointoss.compare.fitting.table import read_seen
 from cointoss.compare.output.answer import path_csv
 from cointoss.models.unused import UnusedFieldWarning
 
@@ -19,7 +19,7 @@ def read(tmp_path):
     def read_text(text: str, sd=SD):
         path = tmp_path / "seen.csv"
         path.write_text(text, encoding="utf-8")
-        return read_observed(path, sd)
+        return read_seen(path, sd)
 
     return read_text
 
@@ -125,17 +125,17 @@ def test_what_is_no_file_of_text_is_refused(tmp_path):
         if content is not None:
             (tmp_path / name).write_bytes(content)
         with pytest.raises(ObservationError, match=f"{name}: .*accepted: a CSV file"):
-            read_observed(tmp_path / name, SD)
+            read_seen(tmp_path / name, SD)
     with pytest.raises(ObservationError, match="/dev/zero: more than 10000000 bytes; accepted: a CSV file"):
-        read_observed("/dev/zero", SD)
+        read_seen("/dev/zero", SD)
 
 
 def test_a_pipe_is_a_table_and_one_that_nobody_writes_to_is_refused(tmp_path):
     os.mkfifo(tmp_path / "seen.csv")
     with pytest.raises(ObservationError, match=r"seen.csv: can't be read \(a pipe that nobody writes to\)"):
-        read_observed(tmp_path / "seen.csv", SD)
+        read_seen(tmp_path / "seen.csv", SD)
     read, write = os.pipe()
     os.write(write, b"t\n0.1\n0.2\n")
     os.close(write)
-    assert read_observed(f"/dev/fd/{read}", SD).touch_times.tolist() == [0.1, 0.2]
+    assert read_seen(f"/dev/fd/{read}", SD).touch_times.tolist() == [0.1, 0.2]
     os.close(read)

@@ -1,0 +1,260 @@
+"""The wobble of a hand that explains how often its coins show the first side, or that none does."""
+
+import math
+from dataclasses import asdict, dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+from scipy.stats import binom
+
+from cointoss.compare.fitting.flips import Flips
+from cointoss.compare.fitting.people import (
+    CAUGHT,
+    DROP,
+    SameSide,
+    chance_of_spread,
+    crossing,
+    fit_people,
+    log_binomial,
+    spread_interval,
+    wobbling,
+)
+from cointoss.compare.fitting.search import LEVEL
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import share_of
+from cointoss.compare.shares.shares import shares
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.models.devices import Device
+from cointoss.models.hand import Hand
+from cointoss.models.records import Outcome
+from cointoss.models.scenario import Scenario
+
+LARGEST = math.pi / 2
+"""The largest |90° - ψ| [rad]."""
+ANGLES = np.linspace(0.0, LARGEST, 901)
+"""Angles |90° - ψ| at which the likelihood of one person's counts is tried first [rad]."""
+SIMULATED = 31
+"""Angles at which a coin that bounces is tossed; between them its share is interpolated."""
+TOSSES = 1000
+
+
+@dataclass(frozen=True, kw_only=True)
+class PersonFit:
+    """What a person's counts say of ψ."""
+
+    person: str
+    share: Estimate
+    """Share of flips with the side up that was up at the release; NaN without flips."""
+    psi: Estimate
+    """ψ from 0 to 90° [rad]; NaN where the interval has them all. Where the model cannot do what was counted
+    it has no interval: the ends are NaN."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class HandFit:
+    """The wobble of a hand that explains counts of flips best."""
+
+    flips: Flips
+    people: tuple[PersonFit, ...]
+    """Each person apart, in the order of the counts."""
+    scatter: Estimate | None
+    """Root of the mean square of 90° - ψ over people, |90° - ψ| being half-normal [rad]; None for one person.
+    Its interval is as that of ψ."""
+    hand: Hand
+    """The hand as fitted, as `Hand.people` is; with its own ψ where it is one person's."""
+    chances: dict[str, float]
+    """How likely chance makes the right model miss by as much, by what is tested."""
+    scenario: Scenario | None
+    """Whose coin was tossed; None for the closed form of a coin that is caught."""
+
+    @property
+    def p_value(self) -> float:
+        """How likely chance makes the right model miss by as much in any of its tests."""
+        return min(1.0, len(self.chances) * min(self.chances.values()))
+
+    @property
+    def is_possible(self) -> bool:
+        """Whether such a hand can have made these counts."""
+        return self.p_value >= 1 - LEVEL
+
+    @property
+    def verdict(self) -> str:
+        """Whether the model can do what was counted, in words."""
+        if self.is_possible:
+            return f"this model can do what was counted: p = {self.p_value:.2g}"
+        what = min(self.chances, key=self.chances.__getitem__)
+        return f"this model cannot do what was counted with any psi: {what}, p = {self.p_value:.2g}"
+
+    def __getitem__(self, person: str) -> PersonFit:
+        """Return what was found for a person.
+
+        Raises:
+            KeyError: for another name.
+        """
+        found = dict(zip(self.flips.people, self.people, strict=True))
+        if person not in found:
+            raise KeyError(f"{person}: accepted: {', '.join(found)}")
+        return found[person]
+
+    def __repr__(self) -> str:
+        """Return the hand and the verdict."""
+        return f"<HandFit: {self.hand.in_words}; {self.verdict}>"
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return it in the form of `cointoss fit --json`, angles in rad; null stands for what is NaN."""
+        counts = zip(self.people, self.flips.same.tolist(), self.flips.flips.tolist(), strict=True)
+        return {
+            "people": [
+                {"person": one.person, "same": same, "flips": flips}
+                | {"share": _ends(one.share), "psi": _ends(one.psi)}
+                for one, same, flips in counts
+            ],
+            "scatter": self.scatter and _ends(self.scatter),
+            "hand": asdict(self.hand),
+            "chances": self.chances,
+            "p_value": self.p_value,
+            "possible": self.is_possible,
+            "verdict": self.verdict,
+            "scenario": self.scenario and self.scenario.as_tables(),
+        }
+
+    def hand_toml(self) -> str:
+        """Return the file of the hand, with what is not as by default."""
+        usual = {item.name: item.default for item in fields(Hand)}
+        own = {name: value for name, value in asdict(self.hand).items() if value != usual[name]}
+        return "".join(f"{name} = {_in_toml(value)}\n" for name, value in own.items())
+
+
+def fit_flips(
+    flips: Flips,
+    scenario: Scenario | None = None,
+    *,
+    hand: Hand | None = None,
+    tosses: int = TOSSES,
+    seed: int = 0,
+    device: Device | str = Device.CPU,
+) -> HandFit:
+    """Return the wobble that explains counts of flips best: see `fit`."""
+    usual = Hand() if hand is None else hand
+    if usual.spun:
+        raise SweepError("hand.spun = True: accepted: false, for a hand that tosses")
+    side = CAUGHT if scenario is None else simulated(scenario, usual, tosses=tosses, seed=seed, device=device)
+    each = tuple(
+        PersonFit(person=name, share=share_of(same, count, "flips"), psi=_psi_of(same, count, side))
+        for name, same, count in zip(flips.people, flips.same.tolist(), flips.flips.tolist(), strict=True)
+    )
+    chances, scatter = _chances_of_shares(flips, side), None
+    fitted = replace(usual, psi=_known(each[0].psi.value, usual.psi), psi_scatter=0.0)
+    if len(each) > 1:
+        people = fit_people(flips, wobbling(side))
+        low, high = spread_interval(flips, people)
+        scatter = Estimate(float(people.parameters[0]), float(low), float(high), len(each), "people")
+        fitted = replace(usual, psi=math.pi / 2, psi_scatter=scatter.value)
+        chances["people differ too much"] = chance_of_spread(flips, people, np.random.default_rng(seed))
+    found = HandFit(
+        flips=flips, people=each, scatter=scatter, hand=fitted, chances=chances, scenario=scenario
+    )
+    return found if found.is_possible else _without_intervals(found)
+
+
+def simulated(scenario: Scenario, hand: Hand, *, tosses: int, seed: int, device: Device | str) -> SameSide:
+    """Return how likely the first side comes up for a hand's tosses of a scenario, by |90° - ψ|.
+
+    Each toss begins with heads up.
+
+    Args:
+        scenario: whose coin is tossed, until it rests or is caught.
+        hand: that tosses, but for its ψ.
+        tosses: of each angle.
+        seed: of the releases.
+        device: that tosses.
+    """
+    counted = shares(
+        scenario,
+        {"hand.psi": (0.0, LARGEST, SIMULATED)},
+        hand=replace(hand, up="heads", psi_scatter=0.0),
+        tosses=tosses,
+        seed=seed,
+        device=device,
+    )["count"]
+    heads, tails = (counted.sel(outcome=str(one)).to_numpy() for one in (Outcome.HEADS, Outcome.TAILS))
+    on_a_face = heads + tails
+    if not on_a_face.all():
+        raise SweepError(
+            f"tosses: {tosses} of each psi, of some of which none ends on a face; accepted: more"
+        )
+    share, angles = (heads + 1 / 2) / (on_a_face + 1), LARGEST - counted["hand.psi"].to_numpy()
+    return SameSide(lambda off: np.interp(off, angles[::-1], share[::-1]), float(on_a_face.min()))
+
+
+def _psi_of(same: int, flips: int, side: SameSide) -> Estimate:
+    """Return the ψ of one person by maximum likelihood, with the interval by its ratio [rad]."""
+
+    def likelihood(off: float) -> float:
+        return float(log_binomial(same, flips, side.probability(np.array([off])), side.tosses)[0])
+
+    values = log_binomial(same, flips, side.probability(ANGLES), side.tosses)
+    top = int(np.argmax(values))
+    near = ANGLES[max(top - 1, 0)], ANGLES[min(top + 1, len(ANGLES) - 1)]
+    refined: Any = minimize_scalar(lambda off: -likelihood(off), bounds=near, method="bounded")
+    best = float(refined.x) if -refined.fun > values[top] else float(ANGLES[top])
+    least = likelihood(best) - DROP
+    angles = np.unique([*ANGLES, best])
+    inside = np.flatnonzero(log_binomial(same, flips, side.probability(angles), side.tosses) >= least)
+    around = np.pad(angles, 1, mode="edge")[[inside[0], inside[-1] + 2]]
+    low, high = (
+        crossing(lambda off: likelihood(off) - least, float(inner), float(outer))
+        for inner, outer in zip(angles[inside[[0, -1]]], around, strict=True)
+    )
+    value = math.nan if (low, high) == (0.0, LARGEST) else LARGEST - best
+    return Estimate(value, LARGEST - high, LARGEST - low, flips, "flips")
+
+
+def _chances_of_shares(flips: Flips, side: SameSide) -> dict[str, float]:
+    """Return the chance of so few flips, or so many, with the first side up, at the best ψ for them.
+
+    Of several people it is that of their sum, and that of the one who is farthest out.
+    """
+    p, people = side.probability(ANGLES), len(flips.flips)
+    same, count = (np.append(each, each.sum()) for each in (flips.same, flips.flips))
+    tails = {"seldom": binom.cdf(same, count, p.min()), "often": binom.sf(same - 1, count, p.max())}
+    chances: dict[str, float] = {}
+    for how, tail in tails.items():
+        if how == "often" and p.max() == 1:
+            continue
+        chances[f"the first side came up too {how}"] = float(tail[-1])
+        if people > 1:
+            least = int(np.argmin(tail[:-1]))
+            who = f"the first side came up too {how} for {flips.people[least]}"
+            chances[who] = min(1.0, people * float(tail[least]))
+    return chances
+
+
+def _without_intervals(found: HandFit) -> HandFit:
+    """Return a fit of a model that cannot be: no value of it is the true one."""
+
+    def bare(one: Estimate) -> Estimate:
+        return replace(one, low=math.nan, high=math.nan)
+
+    people = tuple(replace(one, psi=bare(one.psi)) for one in found.people)
+    return replace(found, people=people, scatter=found.scatter and bare(found.scatter))
+
+
+def _known(value: float, otherwise: float) -> float:
+    return otherwise if math.isnan(value) else value
+
+
+def _ends(one: Estimate) -> dict[str, float]:
+    return {"value": one.value, "low": one.low, "high": one.high}
+
+
+def _in_toml(value: Any) -> str:
+    """Return a field of a hand as its file has it."""
+    return (
+        str(value).lower()
+        if isinstance(value, bool)
+        else f'"{value}"'
+        if isinstance(value, str)
+        else repr(value)
+    )

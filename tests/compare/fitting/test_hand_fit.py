@@ -1,0 +1,210 @@
+"""A hand fitted to counts: closed forms, intervals that cover the truth, and people whom none explains."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+from scipy.stats import binom, chi2
+
+from cointoss import Flips, Hand, HandFit, fit, load_hand
+from cointoss.compare.fitting.hand_answer import as_lines
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.models.hand import same_side_probability
+from tests.helpers.command_line import cointoss, refused
+
+COIN = """
+[coin]
+mass = "5 g"
+radius = "12.5 mm"
+thickness = "2 mm"
+
+[floor]
+contact = "smooth"
+restitution = 0.2
+
+[release]
+position = [0, 0, 1]
+"""
+CAUGHT = COIN + '\n[ending]\ncaught = "1 m"\n'
+
+
+def degrees(estimate) -> list[float]:
+    return [math.degrees(end) for end in estimate.ends]
+
+
+def drawn(people: int, flips: int, psi_scatter: float, seed: int) -> Flips:
+    """Return counts of people who wobble so."""
+    rng = np.random.default_rng(seed)
+    p = same_side_probability(rng.normal(np.pi / 2, psi_scatter, people))
+    return Flips(same=rng.binomial(flips, p), flips=np.full(people, flips))
+
+
+def test_a_persons_psi_is_the_inverse_of_the_probability():
+    """p = 1/2 + asin(cot² ψ)/π at ψ, and at the ends of the interval twice the log-likelihood is χ² lower."""
+    found = fit(Flips(same=[5_600], flips=[10_000])).people[0].psi
+    value, *ends = (float(same_side_probability(psi)) for psi in found.ends)
+    assert value == pytest.approx(0.56, abs=1e-6)
+    drop = chi2.ppf(0.99, 1) / 2
+
+    def above(p):
+        return binom.logpmf(5_600, 10_000, p) - binom.logpmf(5_600, 10_000, 0.56) + drop
+
+    assert sorted(ends) == pytest.approx([brentq(above, 0.5, 0.56), brentq(above, 0.56, 0.7)], abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("same", "flips", "expected"),
+    [
+        (50, 100, [90, 60, 90]),
+        (0, 0, [math.nan, 0, 90]),
+        (1, 1, [math.nan, 0, 90]),
+        (1000, 1000, [45, 0, 46]),
+    ],
+)
+def test_the_ends_of_what_a_person_can_count(same, flips, expected):
+    """A fair share is that of 90°, no flips say nothing, and from 45° on all flips are the same."""
+    found = fit(Flips(same=[same, 50], flips=[flips, 100]))
+    assert degrees(found.people[0].psi) == pytest.approx(expected, abs=6, nan_ok=True)
+    assert ("not determined" in as_lines(found)) == math.isnan(expected[0])
+    assert found.is_possible
+
+
+def test_one_person_has_a_psi_and_no_scatter_over_people():
+    found = fit(Flips(same=[560], flips=[1000], people=("Anna",)))
+    assert found.scatter is None
+    assert found.hand == Hand(psi=found["Anna"].psi.value)
+    assert "over" not in as_lines(found)
+    with pytest.raises(KeyError, match="Ben: accepted: Anna"):
+        found["Ben"]
+
+
+def test_people_without_wobble_have_none():
+    found = fit(drawn(20, 2000, 0.0, seed=1))
+    assert found.scatter is not None
+    assert found.scatter.low == 0
+    assert degrees(found.scatter)[2] < 12
+
+
+def test_intervals_hold_the_truth_as_often_as_they_say():
+    """Of 30 such tables more than 2 miss with a chance of 3e-3, of 100 people more than 4 with 3e-3."""
+    truth, missed = math.radians(12), 0
+    for seed in range(30):
+        scatter = fit(drawn(10, 3000, truth, seed)).scatter
+        assert scatter is not None
+        missed += not scatter.low <= truth <= scatter.high
+    assert missed <= 2
+    psi = np.radians(np.linspace(60, 90, 100))
+    rng = np.random.default_rng(7)
+    found = fit(Flips(same=rng.binomial(5000, same_side_probability(psi)), flips=np.full(100, 5000)))
+    missed = sum(not one.psi.low <= true <= one.psi.high for one, true in zip(found.people, psi, strict=True))
+    assert missed <= 4
+
+
+def test_the_fitted_hand_tosses_as_the_people_who_were_counted():
+    found = fit(drawn(200, 5000, math.radians(15), seed=3))
+    assert found.scatter is not None
+    assert found.hand == Hand(psi_scatter=found.scatter.value)
+    assert degrees(found.scatter)[0] == pytest.approx(15, abs=1.5)
+
+
+@pytest.mark.parametrize(
+    ("same", "flips", "why"),
+    [
+        ([300], [1000], "too seldom"),
+        ([450, 440], [1000, 1000], "too seldom"),
+        ([400, 600, 550, 600], [1000, 1000, 1000, 1000], "too seldom for 1"),
+        ([5000] * 30 + [7000], [10_000] * 31, "differ too much"),
+    ],
+)
+def test_shares_below_one_half_are_those_of_no_wobble(same, flips, why):
+    found = fit(Flips(same=same, flips=flips))
+    assert not found.is_possible
+    assert why in found.verdict
+    assert "[" not in as_lines(found).splitlines()[1].split("]")[1]
+    assert math.isnan(found.people[0].psi.low)
+
+
+def test_a_simulated_coin_that_is_caught_has_the_closed_form(tmp_path):
+    """The simulation's error widens the intervals, and moves them by a part of their width."""
+    (tmp_path / "caught.toml").write_text(CAUGHT, encoding="utf-8")
+    flips = Flips(same=[620, 540], flips=[1000, 1000])
+    closed, tossed = fit(flips), fit(flips, tmp_path / "caught.toml", tosses=250)
+    for one, other in zip(closed.people, tossed.people, strict=True):
+        assert degrees(other.psi)[0] == pytest.approx(degrees(one.psi)[0], abs=8)
+        assert other.psi.low < one.psi.value < other.psi.high
+    assert closed.people[0].psi.high - closed.people[0].psi.low < 0.9 * (
+        tossed.people[0].psi.high - tossed.people[0].psi.low
+    )
+    assert tossed.scenario is not None
+    assert closed.scenario is None
+
+
+def test_on_a_smooth_floor_all_same_is_more_likely_with_less_wobble(tmp_path):
+    """Bounces complete the bias: 95 of 100 need a ψ far nearer to 90° than a catch does."""
+    (tmp_path / "coin.toml").write_text(COIN, encoding="utf-8")
+    flips = Flips(same=[95], flips=[100])
+    caught, bounced = fit(flips), fit(flips, tmp_path / "coin.toml", tosses=30)
+    assert math.degrees(bounced.people[0].psi.high - caught.people[0].psi.high) > 10
+
+
+@pytest.fixture
+def counts(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "coin.toml").write_text(COIN, encoding="utf-8")
+    (tmp_path / "heard.csv").write_text("t\n1\n", encoding="utf-8")
+    (tmp_path / "hand.toml").write_text("spun = true\n", encoding="utf-8")
+    (tmp_path / "counts.csv").write_text("person,same,flips\nAnna,560,1000\nBen,9,20\n", encoding="utf-8")
+    return "counts.csv"
+
+
+def test_the_command_answers_as_python(counts):
+    found = fit(counts)
+    answered = cointoss("fit", counts, "--json", "--out", "found.toml")
+    told = json.loads(answered.stdout)
+    assert answered.exit_code == 0
+    assert [one["person"] for one in told["people"]] == ["Anna", "Ben"]
+    assert told["people"][0]["psi"]["value"] == found["Anna"].psi.value
+    assert told["scatter"]["value"] == load_hand("found.toml").psi_scatter == found.hand.psi_scatter
+    assert as_lines(found) in cointoss("fit", counts).stdout
+
+
+def test_the_command_ends_with_1_where_no_wobble_explains_it(counts, tmp_path):
+    (tmp_path / counts).write_text("same,flips\n300,1000\n", encoding="utf-8")
+    answered = cointoss("fit", counts, "--json")
+    assert answered.exit_code == 1
+    assert json.loads(answered.stdout)["people"][0]["psi"] == {
+        "value": math.pi / 2,
+        "low": None,
+        "high": None,
+    }
+
+
+@pytest.mark.usefixtures("counts")
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["counts.csv", "--vary", "z=0:1"], "--vary z=0:1: accepted: only with the times of touches"),
+        (["counts.csv", "--sd-time", "1 ms"], "--sd-time 1 ms: accepted: none for counts of flips"),
+        (["counts.csv", "--set", "z=1"], "--set z=1: accepted: only with a SCENARIO"),
+        (["counts.csv", "--tosses", "5"], "--tosses 5: accepted: only with a SCENARIO"),
+        (["counts.csv", "coin.toml", "--hand", "hand.toml"], "hand.spun = True: accepted: false"),
+        (["counts.csv", "--png", "fit.png"], "--png fit.png: accepted: only with the times of touches"),
+        (["heard.csv", "--sd-time", "1 ms"], "SCENARIO: missing; accepted: a TOML file"),
+        (["heard.csv", "coin.toml", "--sd-time", "1 ms"], "--vary: missing; accepted: --vary FIELD=START"),
+        (["heard.csv", "coin.toml", "--sd-time", "1 ms", "--tosses", "5"], "only with counts of flips"),
+        (["nofile.csv"], "nofile.csv: no such file; accepted: a CSV file"),
+    ],
+)
+def test_options_of_no_use_are_refused(words, message):
+    assert message in refused("fit", *words)
+
+
+def test_python_refuses_what_counts_have_no_use_for():
+    flips = Flips(same=[1], flips=[2])
+    with pytest.raises(SweepError, match=r"vary: .*accepted: none for counts of flips"):
+        fit(flips, "fig24a", {"z": (0, 1)})  # pyright: ignore[reportCallIssue, reportArgumentType]
+    with pytest.raises(SweepError, match="hand: accepted: only with a scenario"):
+        fit(flips, hand=Hand())
+    assert isinstance(fit(flips), HandFit)
