@@ -94,14 +94,14 @@ def fit(observed: Path, source: Source | None, asked: SoughtValues) -> None:
     from cointoss.compare.fitting.table import read_seen
     from cointoss.compare.output.files import require_file
 
-    given = [observed, *([source.name] if source else []), *([asked.hand] if asked.hand else [])]
-    require_file(asked.out, ".toml", *given)
-    require_file(asked.png, ".png", *given)
+    scenario, read = "" if source is None else source.name, [observed, *filter(None, [asked.hand])]
+    require_file(asked.out, ".toml", scenario, *read)
+    require_file(asked.png, ".png", scenario, *read)
     sd = {"time": asked.sd_time, "height": asked.sd_height, "attitude": asked.sd_attitude}
-    typed = {name: text for name, text in sd.items() if text is not None}
-    options = {f"sd.{name}": (f"--sd-{name}", text) for name, text in typed.items()}
+    given = {name: text for name, text in sd.items() if text is not None}
+    options = {f"sd.{name}": (f"--sd-{name}", text) for name, text in given.items()}
     with plain_errors(str(observed)), naming_options(options):
-        seen = read_seen(observed, typed)
+        seen = read_seen(observed, given)
     if isinstance(seen, Flips):
         _refuse_options(_OF_A_TOSS, asked, "only with the times of touches or frames of a film")
         if source is None:

@@ -81,8 +81,9 @@ def with_scenario(command: Callable[..., None]) -> Callable[..., None]:
     def called(*arguments: Any, scenario: str | None, settings: tuple[str, ...], **asked: Any) -> None:
         if scenario is None and settings:
             raise click.UsageError(f"--set {settings[0]}: accepted: only with a SCENARIO")
-        with plain_errors(scenario or click.get_current_context().command_path):
-            source = scenario and Source(scenario, *described(scenario, settings), settings)
+        with plain_errors("cointoss" if scenario is None else scenario):
+            is_none = scenario is None
+            source = None if is_none else Source(scenario, *described(scenario, settings), settings)
             command(*arguments, source=source, **asked)
 
     return called

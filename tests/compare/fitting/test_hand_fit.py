@@ -12,7 +12,7 @@ from cointoss import Flips, Hand, HandFit, fit, load_hand
 from cointoss.compare.fitting.hand_answer import as_lines
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.hand import same_side_probability
-from tests.helpers.command_line import cointoss, refused
+from tests.helpers.command_line import cointoss
 
 COIN = """
 [coin]
@@ -152,9 +152,6 @@ def test_on_a_smooth_floor_all_same_is_more_likely_with_less_wobble(tmp_path):
 @pytest.fixture
 def counts(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "coin.toml").write_text(COIN, encoding="utf-8")
-    (tmp_path / "heard.csv").write_text("t\n1\n", encoding="utf-8")
-    (tmp_path / "hand.toml").write_text("spun = true\n", encoding="utf-8")
     (tmp_path / "counts.csv").write_text("person,same,flips\nAnna,560,1000\nBen,9,20\n", encoding="utf-8")
     return "counts.csv"
 
@@ -179,26 +176,6 @@ def test_the_command_ends_with_1_where_no_wobble_explains_it(counts, tmp_path):
         "low": None,
         "high": None,
     }
-
-
-@pytest.mark.usefixtures("counts")
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (["counts.csv", "--vary", "z=0:1"], "--vary z=0:1: accepted: only with the times of touches"),
-        (["counts.csv", "--sd-time", "1 ms"], "--sd-time 1 ms: accepted: none for counts of flips"),
-        (["counts.csv", "--set", "z=1"], "--set z=1: accepted: only with a SCENARIO"),
-        (["counts.csv", "--tosses", "5"], "--tosses 5: accepted: only with a SCENARIO"),
-        (["counts.csv", "coin.toml", "--hand", "hand.toml"], "hand.spun = True: accepted: false"),
-        (["counts.csv", "--png", "fit.png"], "--png fit.png: accepted: only with the times of touches"),
-        (["heard.csv", "--sd-time", "1 ms"], "SCENARIO: missing; accepted: a TOML file"),
-        (["heard.csv", "coin.toml", "--sd-time", "1 ms"], "--vary: missing; accepted: --vary FIELD=START"),
-        (["heard.csv", "coin.toml", "--sd-time", "1 ms", "--tosses", "5"], "only with counts of flips"),
-        (["nofile.csv"], "nofile.csv: no such file; accepted: a CSV file"),
-    ],
-)
-def test_options_of_no_use_are_refused(words, message):
-    assert message in refused("fit", *words)
 
 
 def test_python_refuses_what_counts_have_no_use_for():
