@@ -170,14 +170,17 @@ def simulated(scenario: Scenario, hand: Hand, *, tosses: int, seed: int, device:
         seed: of the releases.
         device: that tosses.
     """
-    counted = shares(
+    found = shares(
         scenario,
         {"hand.psi": (0.0, LARGEST, SIMULATED)},
         hand=replace(hand, up="heads", psi_scatter=0.0),
         tosses=tosses,
         seed=seed,
         device=device,
-    )["count"]
+    )
+    if not found.attrs["complete"]:
+        raise KeyboardInterrupt
+    counted = found["count"]
     heads, tails = (counted.sel(outcome=str(one)).to_numpy() for one in (Outcome.HEADS, Outcome.TAILS))
     on_a_face = heads + tails
     if not on_a_face.all():
@@ -251,10 +254,4 @@ def _ends(one: Estimate) -> dict[str, float]:
 
 def _in_toml(value: Any) -> str:
     """Return a field of a hand as its file has it."""
-    return (
-        str(value).lower()
-        if isinstance(value, bool)
-        else f'"{value}"'
-        if isinstance(value, str)
-        else repr(value)
-    )
+    return f'"{value}"' if isinstance(value, str) else repr(value)
