@@ -23,8 +23,10 @@ from cointoss.compare.sweep.asked import Source
 from cointoss.models.devices import Device
 
 if TYPE_CHECKING:
+    from cointoss.compare.fitting.edges import Edges
     from cointoss.compare.fitting.flips import Flips
     from cointoss.compare.fitting.observed import Observed
+    from cointoss.models.hand import Hand
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,7 +34,7 @@ class SoughtValues:
     """The fields whose values are to be found, how, and where they go."""
 
     vary: Annotated[tuple[str, ...], Form("FIELD=START:STOP")] = ()
-    """A field to be found, and where it is looked for; may be given several times; not of counts."""
+    """A field to be found, and where it is looked for; may be given several times; not of flips."""
     sd_time: Annotated[str | None, Form("QUANTITY")] = None
     """Standard deviation of the times of touches, such as '1 ms'; needed without a column sd_t."""
     sd_height: Annotated[str | None, Form("QUANTITY")] = None
@@ -42,15 +44,15 @@ class SoughtValues:
     starts: Annotated[int, Within(1, 1 << 20)] = 2048
     """Values that are tried first, spread evenly over the spans; more for more or wider ones."""
     hand: Path | None = None
-    """A hand's file, of counts: it tosses the scenario's coin, but for its psi."""
+    """A hand's file, of counts: it tosses the scenario's coin, of flips but for its psi."""
     tosses: Annotated[int, Within(1, 10_000_000)] = 1000
-    """Tosses of the scenario's coin at each of 31 psi, of counts."""
+    """Tosses of the scenario's coin, of counts: at each of 31 psi, or of 9 values and each thickness."""
     seed: Annotated[int, Within(0, 2**32)] = 0
     """Seed of the starts, or of the tosses."""
     device: Device = Device.CPU
     """What tosses; a fit of one toss is made by the CPU, so that auto is the CPU."""
     out: Path | None = None
-    """Also write the scenario with the values found, or of counts the hand, to this .toml file."""
+    """Also write the scenario with the values found, or of flips the hand, to this .toml file."""
     png: Path | None = None
     """Also draw the fit to this .png file; not of counts."""
     json: bool = False
@@ -66,7 +68,8 @@ _OF_COUNTS = ("hand", "tosses")
     epilog="OBSERVED.csv has a column t (time) with a row for each touch, or t and z (height) or tilt with a "
     "row for each frame; units in brackets, as in t (ms). Exports of phyphox and of Tracker are read, too. "
     "Counts have a row for each person, and columns same and flips, or heads_to_heads, heads_to_tails, "
-    "tails_to_tails and tails_to_heads. " + SCENARIO_HELP
+    "tails_to_tails and tails_to_heads; of edges they have columns thickness, edge and tosses. "
+    + SCENARIO_HELP
 )
 @click.argument("observed", metavar="OBSERVED.csv", type=Place())
 @optional_scenario_argument
@@ -88,8 +91,10 @@ def fit(observed: Path, source: Source | None, asked: SoughtValues) -> None:
 
     Of counts of flips, how often the side came up that was up at the release, the psi of each person's hand
     is found, and its scatter over people. Without SCENARIO the coins are caught; with it, coins are tossed
-    onto its floor.
+    onto its floor. Of counts of edges by thickness the value of one FIELD is found, by tosses of the
+    SCENARIO's coin in each thickness.
     """
+    from cointoss.compare.fitting.edges import Edges
     from cointoss.compare.fitting.flips import Flips
     from cointoss.compare.fitting.table import read_seen
     from cointoss.compare.output.files import require_file
@@ -102,21 +107,27 @@ def fit(observed: Path, source: Source | None, asked: SoughtValues) -> None:
     options = {f"sd.{name}": (f"--sd-{name}", text) for name, text in given.items()}
     with plain_errors(str(observed)), naming_options(options):
         seen = read_seen(observed, given)
+    context = click.get_current_context()
     if isinstance(seen, Flips):
         _refuse_options(_OF_A_TOSS, asked, "only with the times of touches or frames of a film")
         if source is None:
             _refuse_options(_OF_COUNTS, asked, "only with a SCENARIO")
         is_possible = _fit_hand(seen, source, asked)
     else:
-        _refuse_options(_OF_COUNTS, asked, "only with counts of flips")
-        context = click.get_current_context()
+        if isinstance(seen, Edges):
+            _refuse_options(("starts", "png"), asked, "only with the times of touches or frames of a film")
+        else:
+            _refuse_options(_OF_COUNTS, asked, "only with counts")
         for name, value in (("scenario", source), ("vary", asked.vary)):
             if not value:
                 raise click.MissingParameter(
                     ctx=context, param=next(one for one in context.command.params if one.name == name)
                 )
         assert source is not None
-        is_possible = _fit_toss(seen, source, asked)
+        if isinstance(seen, Edges):
+            is_possible = _fit_edges(seen, source, asked)
+        else:
+            is_possible = _fit_toss(seen, source, asked)
     sys.exit(0 if is_possible else 1)
 
 
@@ -133,12 +144,11 @@ def _fit_hand(flips: "Flips", source: Source | None, asked: SoughtValues) -> boo
     from cointoss.compare.fitting import fit as fitting
     from cointoss.compare.fitting.hand_answer import as_lines
     from cointoss.compare.output.files import write_text
-    from cointoss.models.hand import load_hand
 
     found = fitting.fit(
         flips,
         source and source.scenario,
-        hand=load_hand(asked.hand) if asked.hand else None,
+        hand=_hand_of(asked),
         tosses=asked.tosses,
         seed=asked.seed,
         device=asked.device,
@@ -183,6 +193,37 @@ def _fit_toss(seen: "Observed", source: Source, asked: SoughtValues) -> bool:
         click.echo(as_lines(found))
         _echo_files(asked, "scenario")
     return found.is_possible
+
+
+def _fit_edges(edges: "Edges", source: Source, asked: SoughtValues) -> bool:
+    """Print the value that explains counts of edges, and return whether any does."""
+    from cointoss.compare.fitting import fit as fitting
+    from cointoss.compare.fitting.edge_answer import as_lines
+    from cointoss.compare.output.files import write_text
+
+    found = fitting.fit(
+        edges,
+        source.scenario,
+        varied(asked.vary),
+        hand=_hand_of(asked),
+        tosses=asked.tosses,
+        seed=asked.seed,
+        device=asked.device,
+    )
+    if asked.out is not None:
+        write_text(asked.out, found.scenario.to_toml())
+    if asked.json:
+        print_json({**found.as_dict(), "seed": asked.seed, "tosses": asked.tosses}, "analytic")
+    else:
+        click.echo(as_lines(found))
+        _echo_files(asked, "scenario")
+    return found.is_possible
+
+
+def _hand_of(asked: SoughtValues) -> "Hand | None":
+    from cointoss.models.hand import load_hand
+
+    return None if asked.hand is None else load_hand(asked.hand)
 
 
 def _echo_files(asked: SoughtValues, what: str) -> None:

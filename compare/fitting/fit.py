@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from cointoss.analytic import toss
+from cointoss.compare.fitting.edge_fit import EdgeFit, fit_edges
+from cointoss.compare.fitting.edges import Edges
 from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.fitting.flips import Flips
 from cointoss.compare.fitting.hand_fit import TOSSES, HandFit, fit_flips
@@ -211,6 +213,17 @@ def fit(
 ) -> Fit: ...
 @overload
 def fit(
+    observed: Edges,
+    scenario: ScenarioSource,
+    vary: Spans,
+    *,
+    hand: Hand | None = None,
+    tosses: int = TOSSES,
+    seed: int = 0,
+    device: Device | str = Device.CPU,
+) -> EdgeFit: ...
+@overload
+def fit(
     observed: Flips | str | PathLike[str],
     scenario: ScenarioSource | None = None,
     *,
@@ -220,7 +233,7 @@ def fit(
     device: Device | str = Device.CPU,
 ) -> HandFit: ...
 def fit(
-    observed: Observed | Flips | str | PathLike[str],
+    observed: Observed | Flips | Edges | str | PathLike[str],
     scenario: ScenarioSource | None = None,
     vary: Spans | None = None,
     *,
@@ -230,7 +243,7 @@ def fit(
     tosses: int = TOSSES,
     seed: int = 0,
     device: Device | str = Device.CPU,
-) -> Fit | HandFit:
+) -> Fit | HandFit | EdgeFit:
     """Find the values of some fields of a scenario that explain what was seen of a coin, or a hand's wobble.
 
         cointoss.fit("heard.csv", "coin.toml", {"floor.restitution": (0.4, 0.9)}, sd={"time": "1 ms"})
@@ -241,7 +254,8 @@ def fit(
     of what was seen alone, if the model is right. Faces are held against the toss; they determine no value.
 
     Counts of flips, of people and of how often the side came up that had been up, tell each person's ψ, and
-    its scatter over people: of coins that are caught by a closed form, of a scenario's coin by tosses.
+    its scatter over people: of coins that are caught by a closed form, of a scenario's coin by tosses. Counts
+    of edges by thickness tell one field of a scenario, whose coin of each thickness is tossed.
 
     Args:
         observed: what was seen, or the path of a CSV file that has it.
@@ -253,8 +267,9 @@ def fit(
         sd: of a file, standard deviations of "time", "height" and "attitude", in SI or as texts with a unit,
             where it has none itself.
         starts: how many, spread evenly.
-        hand: that tosses a scenario's coin, but for its ψ, where flips were counted; by default `Hand()`.
-        tosses: of each of some 30 ψ, where flips were counted and a scenario's coin is tossed.
+        hand: that tosses a scenario's coin where flips or edges were counted; by default `Hand()`, of whose ψ
+            flips tell, and of edges `Hand.people` with either side up.
+        tosses: of each of some 30 ψ, or of 9 values and each thickness, where counts are explained by tosses.
         seed: of the order of the starts, or of the tosses.
         device: "cpu" or "auto": the CPU tosses, for a card finds how a toss ends, not what it shows before;
             of flips as of `shares`.
@@ -277,14 +292,16 @@ def fit(
             raise SweepError("hand: accepted: only with a scenario whose coin it tosses")
         described = None if scenario is None else scenario_of(scenario)
         return fit_flips(observed, described, hand=hand, tosses=tosses, seed=seed, device=device)
-    if not isinstance(observed, Observed):
-        accepted = "an Observed, Flips, or the path of a CSV file"
+    if not isinstance(observed, Observed | Edges):
+        accepted = "an Observed, Flips, Edges, or the path of a CSV file"
         raise ObservationError(f"observed: {observed!r}, accepted: {accepted}")
     if scenario is None:
         raise SweepError("scenario: None, accepted: one whose fields explain what was seen")
+    described, vary = scenario_of(scenario), {} if vary is None else vary
+    if isinstance(observed, Edges):
+        return fit_edges(observed, described, vary, hand=hand, tosses=tosses, seed=seed, device=device)
     Processor(device).require_cpu("by a fit")
-    described = scenario_of(scenario)
-    spans = spans_of({} if vary is None else vary, described, FIELDS, _EXAMPLE, free=[CLOCK])
+    spans = spans_of(vary, described, FIELDS, _EXAMPLE, free=[CLOCK])
     if len(spans) > MOST_FIELDS:
         raise SweepError(f"vary: {len(spans)} fields; accepted: from 1 to {MOST_FIELDS}")
     for span in spans:

@@ -90,7 +90,7 @@ def _columns(head: Sequence[str]) -> dict[str, int]:
     for i, name in enumerate(head):
         key = key_of(name)
         if key in ("edge", "thickness"):
-            accepted = "a table without it, with the flips that ended on a face"
+            accepted = "thickness, edge and tosses, or none of these and the flips on a face"
             raise ObservationError(f"column {name}: accepted: {accepted}")
         if key in found:
             raise ObservationError(f"columns {head[found[key]]} and {name}; accepted: one of them")

@@ -5,17 +5,15 @@ from dataclasses import asdict, dataclass, fields, replace
 from typing import Any
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 from scipy.stats import binom
 
 from cointoss.compare.fitting.flips import Flips
 from cointoss.compare.fitting.people import (
     CAUGHT,
-    DROP,
     SameSide,
     chance_of_spread,
-    crossing,
     fit_people,
+    interval_of,
     log_binomial,
     spread_interval,
     wobbling,
@@ -27,7 +25,7 @@ from cointoss.compare.shares.shares import shares
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.devices import Device
 from cointoss.models.hand import Hand
-from cointoss.models.records import Outcome
+from cointoss.models.records import Array, Outcome
 from cointoss.models.scenario import Scenario
 
 LARGEST = math.pi / 2
@@ -194,22 +192,10 @@ def simulated(scenario: Scenario, hand: Hand, *, tosses: int, seed: int, device:
 def _psi_of(same: int, flips: int, side: SameSide) -> Estimate:
     """Return the ψ of one person by maximum likelihood, with the interval by its ratio [rad]."""
 
-    def likelihood(off: float) -> float:
-        return float(log_binomial(same, flips, side.probability(np.array([off])), side.tosses)[0])
+    def likelihood(off: Array) -> Array:
+        return log_binomial(same, flips, side.probability(off), side.tosses)
 
-    values = log_binomial(same, flips, side.probability(ANGLES), side.tosses)
-    top = int(np.argmax(values))
-    near = ANGLES[max(top - 1, 0)], ANGLES[min(top + 1, len(ANGLES) - 1)]
-    refined: Any = minimize_scalar(lambda off: -likelihood(off), bounds=near, method="bounded")
-    best = float(refined.x) if -refined.fun > values[top] else float(ANGLES[top])
-    least = likelihood(best) - DROP
-    angles = np.unique([*ANGLES, best])
-    inside = np.flatnonzero(log_binomial(same, flips, side.probability(angles), side.tosses) >= least)
-    around = np.pad(angles, 1, mode="edge")[[inside[0], inside[-1] + 2]]
-    low, high = (
-        crossing(lambda off: likelihood(off) - least, float(inner), float(outer))
-        for inner, outer in zip(angles[inside[[0, -1]]], around, strict=True)
-    )
+    best, low, high = interval_of(likelihood, ANGLES)
     value = math.nan if (low, high) == (0.0, LARGEST) else LARGEST - best
     return Estimate(value, LARGEST - high, LARGEST - low, flips, "flips")
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq, minimize
+from scipy.optimize import brentq, minimize, minimize_scalar
 from scipy.special import betaln, logsumexp
 from scipy.stats import chi2, halfnorm
 
@@ -211,6 +211,32 @@ def crossing(above: Callable[[float], float], inner: float, outer: float, steps:
     last = next(i for i, at in enumerate(places) if at == inner or above(at) >= 0)
     root: Any = outer if last == 0 else brentq(above, places[last], places[last - 1], xtol=1e-6)
     return float(root)
+
+
+def interval_of(likelihood: Callable[[Array], Array], tried: Array) -> tuple[float, float, float]:
+    """Return where the logarithm of a likelihood is largest, and the ends of its interval by the ratio.
+
+    Args:
+        likelihood: the logarithm, (n,) to (n,); it may have several peaks.
+        tried: rising values where it is looked at first, (n,).
+    """
+
+    def at(value: float) -> float:
+        return float(likelihood(np.array([value]))[0])
+
+    values = likelihood(tried)
+    top = int(np.argmax(values))
+    near = tried[max(top - 1, 0)], tried[min(top + 1, len(tried) - 1)]
+    refined: Any = minimize_scalar(lambda value: -at(value), bounds=near, method="bounded")
+    best = float(refined.x) if -refined.fun > values[top] else float(tried[top])
+    least, places = at(best) - DROP, np.unique([*tried, best])
+    inside = np.flatnonzero(likelihood(places) >= least)
+    around = np.pad(places, 1, mode="edge")[[inside[0], inside[-1] + 2]]
+    low, high = (
+        crossing(lambda value: at(value) - least, float(inner), float(outer))
+        for inner, outer in zip(places[inside[[0, -1]]], around, strict=True)
+    )
+    return best, low, high
 
 
 def chance_of_spread(flips: Flips, found: PeopleFit, rng: np.random.Generator, draws: int = 4000) -> float:

@@ -11,10 +11,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from cointoss.compare.fitting.cells import BEFORE_HEADER, read_cells, require_whole_rows
+from cointoss.compare.fitting.edges import Edges
 from cointoss.compare.fitting.errors import ObservationError, ValueRefusedError
 from cointoss.compare.fitting.flips import Flips
 from cointoss.compare.fitting.flips_table import ACCEPTED as COUNTS
-from cointoss.compare.fitting.flips_table import flips_of, is_of_flips
+from cointoss.compare.fitting.flips_table import flips_of, is_of_flips, key_of
 from cointoss.compare.fitting.observed import LEAST_SD, Observed
 from cointoss.compare.sweep.axes import number
 from cointoss.compare.sweep.errors import SweepError
@@ -42,6 +43,7 @@ ACCEPTED = (
     "t or time; of touches: touch, face, sd_t; of frames of a film: z, height or y; tilt or theta; e0 to e3; "
     "sd_z, sd_tilt; each perhaps with a unit, as in t (ms)"
 )
+Seen = Observed | Flips | Edges
 _IN_ONE_ROW = re.compile(r"(start|stop|stop \d+|bounce \d+)", re.IGNORECASE)
 """Touches as phyphox's acoustic stopwatch and its (in)elastic collision export them: one row, 0 for none."""
 _NONE = re.compile(r"nan|\?|[0.,]*(e[-+]?\d+)?", re.IGNORECASE)
@@ -105,10 +107,10 @@ class Heading(NamedTuple):
         return found
 
 
-def read_seen(path: str | PathLike[str], sd: Mapping[str, float | str] | None = None) -> Observed | Flips:
+def read_seen(path: str | PathLike[str], sd: Mapping[str, float | str] | None = None) -> Seen:
     """Read what was seen from a CSV file; commas, semicolons or tabs between its cells, # before a comment.
 
-    Its columns say whether that is one toss, or counts of flips.
+    Its columns say whether that is one toss, or counts of flips or of edges.
 
     A row is a touch where it has a number in the column `touch`, or where no column is of a film; another is
     a frame. phyphox's acoustic stopwatch and its (in)elastic collision export the touches in one row.
@@ -152,12 +154,14 @@ def _deviations(given: Mapping[str, float | str]) -> dict[str, float]:
     return found
 
 
-def _seen(rows: list[list[str]], sd: Mapping[str, float]) -> Observed | Flips:
+def _seen(rows: list[list[str]], sd: Mapping[str, float]) -> Seen:
     for at, row in enumerate(rows[:BEFORE_HEADER]):
         if is_of_flips(row):
             for name, value in sd.items():
                 raise FieldError(name.replace("_", ".", 1), value, "none for counts of flips")
-            return flips_of(row, rows[at + 1 :])
+            keys = [key_of(name) for name in row]
+            of_edges = {"thickness", "edge", "flips"} <= set(keys)
+            return _edges_of(row, keys, rows[at + 1 :]) if of_edges else flips_of(row, rows[at + 1 :])
         headings, below = [Heading.of(cell) for cell in row], rows[at + 1 :]
         in_one_row = [i for i, heading in enumerate(headings) if _IN_ONE_ROW.fullmatch(heading.name)]
         if in_one_row:
@@ -174,6 +178,20 @@ def _seen(rows: list[list[str]], sd: Mapping[str, float]) -> Observed | Flips:
             require_whole_rows(below, 1 + max(i for i, _ in columns.values()), len(headings))
             return _of_columns(columns, below, sd)
     raise ObservationError(f"no column of times; accepted: {ACCEPTED}; or of counts of flips: {COUNTS}")
+
+
+def _edges_of(head: Sequence[str], keys: Sequence[str | None], rows: Sequence[Sequence[str]]) -> Edges:
+    """Return the counts of edges of a table, by thickness."""
+    require_whole_rows(rows, len(head), len(head))
+    arrays = {
+        name: Heading.of(head[keys.index(key)]).numbers([row[keys.index(key)] for row in rows], unit)
+        for name, key, unit in (
+            ("thickness", "thickness", "m"),
+            ("edge", "edge", ""),
+            ("tosses", "flips", ""),
+        )
+    }
+    return Edges(**arrays)
 
 
 def _columns(headings: Sequence[Heading]) -> dict[str, tuple[int, Heading]]:

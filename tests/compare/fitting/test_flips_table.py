@@ -75,7 +75,7 @@ def test_sides_are_read_in_any_spelling():
         ("heads,tails\n1,2\n", "columns heads, tails; accepted: same and flips; same and other"),
         ("hh,ht,tt\n1,2,3\n", "columns hh, ht, tt; accepted: same and flips"),
         ("start,heads,tails\n?,1,2\n", "column start: row 1 is '?', accepted: heads or tails"),
-        ("thickness,edge,tosses\n1,2,3\n", "column thickness: accepted: a table without it"),
+        ("same,flips,edge\n1,2,0\n", "column edge: accepted: thickness, edge and tosses, or none of these"),
         ("person,same\nAnna,3\n", "no column of times; accepted: t or time"),
         ("same,flips\n", "no rows; accepted: one or more"),
         ("same,flips\n0,0\n", "no flips; accepted: at least one"),

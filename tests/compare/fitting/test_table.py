@@ -5,7 +5,7 @@ import os
 import numpy as np
 import pytest
 
-from cointoss import analytic, load
+from cointoss import Observed, analytic, load
 from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.fitting.table import read_seen
 from cointoss.compare.output.answer import path_csv
@@ -137,5 +137,7 @@ def test_a_pipe_is_a_table_and_one_that_nobody_writes_to_is_refused(tmp_path):
     read, write = os.pipe()
     os.write(write, b"t\n0.1\n0.2\n")
     os.close(write)
-    assert read_seen(f"/dev/fd/{read}", SD).touch_times.tolist() == [0.1, 0.2]
+    found = read_seen(f"/dev/fd/{read}", SD)
+    assert isinstance(found, Observed)
+    assert found.touch_times.tolist() == [0.1, 0.2]
     os.close(read)

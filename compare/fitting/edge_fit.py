@@ -1,0 +1,132 @@
+"""The value of a field that explains how often coins end on their edge, or that none does."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from math import nan
+from typing import Any
+
+import numpy as np
+from scipy.stats import chi2
+
+from cointoss.compare.fitting.edges import Edges
+from cointoss.compare.fitting.people import interval_of, log_binomial
+from cointoss.compare.fitting.search import LEVEL
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.shares.plan import FIELDS
+from cointoss.compare.shares.shares import shares
+from cointoss.compare.sweep.axes import HAND, Span, spans_of
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.models.devices import Device
+from cointoss.models.hand import Hand
+from cointoss.models.records import Array, Outcome
+from cointoss.models.scenario import Scenario
+
+VALUES = 9
+"""Values of the field at which coins are tossed; between them the share is interpolated."""
+TRIED = 401
+"""Values of the field at which the likelihood is looked at."""
+_FIELDS = {name: unit for name, unit in FIELDS.items() if name not in (*HAND, "coin.thickness")}
+_EXAMPLE = '{"floor.restitution": (0.1, 0.6)}'
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class EdgeFit:
+    """The value of a field that explains best how often coins ended on their edge."""
+
+    edges: Edges
+    span: Span
+    value: Estimate
+    """The value of the field [SI]; the ends are NaN where the model cannot do what was counted."""
+    shares: Array
+    """Simulated shares of the edge at this value, (n,)."""
+    chi_square: float
+    """Sum of the squares of the residuals, in standard deviations of counts and simulation."""
+    scenario: Scenario
+    """The scenario with this value."""
+
+    @property
+    def degrees(self) -> int:
+        """Thicknesses less the one value."""
+        return len(self.shares) - 1
+
+    @property
+    def p_value(self) -> float:
+        """How likely chance makes the right model miss by as much; NaN where nothing is left to test it."""
+        return float(chi2.sf(self.chi_square, self.degrees)) if self.degrees else float("nan")
+
+    @property
+    def is_possible(self) -> bool:
+        """Whether the model can have made these counts."""
+        return not self.p_value < 1 - LEVEL
+
+    @property
+    def verdict(self) -> str:
+        """Whether the model can do what was counted, in words."""
+        if not self.degrees:
+            return "nothing is left to test the model: one value is fitted to one thickness"
+        can = "can" if self.is_possible else "cannot"
+        found = f"chi-square {self.chi_square:.4g} for {self.degrees}, p = {self.p_value:.2g}"
+        return f"this model {can} do what was counted: {found}"
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return it in the form of `cointoss fit --json`, which has null for what is NaN."""
+        value, low, high = self.value.ends
+        return {
+            "values": {self.span.field: {"value": value, "interval": [low, high], "unit": self.span.unit}},
+            "thickness": self.edges.thickness.tolist(),
+            "edge": self.edges.edge.tolist(),
+            "tosses_seen": self.edges.tosses.tolist(),
+            "share": self.shares.tolist(),
+            "chi_square": self.chi_square,
+            "degrees": self.degrees,
+            "p_value": self.p_value,
+            "possible": self.is_possible,
+            "verdict": self.verdict,
+            "scenario": self.scenario.as_tables(),
+        }
+
+
+def fit_edges(
+    edges: Edges,
+    scenario: Scenario,
+    vary: Mapping[str, Any],
+    *,
+    hand: Hand | None,
+    tosses: int,
+    seed: int,
+    device: Device | str,
+) -> EdgeFit:
+    """Return the value of a field that explains edges best, by simulated likelihood: see `fit`."""
+    span, *others = spans_of(vary, scenario, _FIELDS, _EXAMPLE)
+    if others:
+        raise SweepError(f"vary: {1 + len(others)} fields; accepted: one, of counts of edges")
+    tossed = np.linspace(min(span.start, span.stop), max(span.start, span.stop), VALUES)
+    usual = Hand.people(up="either") if hand is None else hand
+    met, made = np.empty((2, len(edges.thickness), VALUES))
+    for n, thickness in enumerate(edges.thickness.tolist()):
+        coin = scenario.replace("coin.thickness", thickness)
+        ranges = {span.field: (tossed[0], tossed[-1], VALUES)}
+        counted = shares(coin, ranges, hand=usual, tosses=tosses, seed=seed + n, device=device)
+        if not counted.attrs["complete"]:
+            raise KeyboardInterrupt
+        met[n] = counted["count"].sel(outcome=str(Outcome.EDGE))
+        made[n] = counted["count"].sum("outcome")
+    each = (met + 1 / 2) / (made + 1)
+
+    def likelihood(values: Array) -> Array:
+        p = np.array([np.interp(values, tossed, row) for row in each])
+        return log_binomial(edges.edge[:, None], edges.tosses[:, None], p, float(made.min())).sum(axis=0)
+
+    value, low, high = interval_of(likelihood, np.linspace(tossed[0], tossed[-1], TRIED))
+    share = np.array([np.interp(value, tossed, row) for row in each])
+    variance = edges.tosses * share * (1 - share) * (1 + edges.tosses / made.min())
+    chi_square = float(np.sum((edges.edge - edges.tosses * share) ** 2 / variance))
+    found = EdgeFit(
+        edges=edges,
+        span=span,
+        value=Estimate(value, low, high, int(edges.tosses.sum())),
+        shares=share,
+        chi_square=chi_square,
+        scenario=scenario.replace(span.field, value),
+    )
+    return found if found.is_possible else replace(found, value=replace(found.value, low=nan, high=nan))
