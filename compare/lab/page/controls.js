@@ -14,7 +14,7 @@ const SLIDERS = {
     ["coin.radius", "mm", 1e3, 5, 20], ["coin.thickness", "mm", 1e3, 0, 20], ["coin.mass", "g", 1e3, 0.5, 50],
     ["coin.center_of_mass.xi", "mm", 1e3, -3, 3], ["coin.center_of_mass.zeta", "mm", 1e3, -0.5, 0.5],
   ],
-  floor: [["floor.restitution", "", 1, 0, 1], ["floor.friction", "", 1, 0, 1]],
+  floor: [["floor.restitution", "", 1, 0, 1], ["floor.restitution_exponent", "", 1, 0, 0.5], ["floor.friction", "", 1, 0, 1]],
   release: [
     ["release.position.z", "m", 1, 0.03, 1.5], ["release.velocity.z", "m/s", 1, 0, 4], ["release.angular_velocity.eta", "rad/s", 1, 0, 150],
     ["release.angular_velocity.zeta", "rad/s", 1, 0, 100], ["release.angles.theta", "°", TURN, 0, 90],
