@@ -1,4 +1,4 @@
-"""How a ball bounces in Newton or in Genesis with what `cointoss solref --backend NAME` prints.
+"""How a ball bounces in Newton with what `cointoss solref --backend newton` prints.
 
     cointoss solref --restitution 0.8 --dt 0.002 --backend newton --json | python -m adapters.bounces
 
@@ -47,33 +47,6 @@ def newton(found: dict[str, Any], steps: list[float]) -> Iterator[float]:
             yield left(step)
 
 
-def genesis(found: dict[str, Any], steps: list[float]) -> Iterator[float]:
-    """Yield the same by the rigid solver of Genesis, in single precision."""
-    import genesis as gs
-
-    gs.init(backend=gs.cpu, precision="32", logging_level="error")
-    scene = gs.Scene(
-        sim_options=gs.options.SimOptions(dt=found["timestep"], substeps=1, gravity=(0, 0, 0)),
-        rigid_options=gs.options.RigidOptions(integrator=getattr(gs.integrator, found["integrator"])),
-        show_viewer=False,
-    )
-    plane = scene.add_entity(gs.morphs.Plane())
-    ball = scene.add_entity(gs.morphs.Sphere(radius=RADIUS), material=gs.materials.Rigid(rho=DENSITY))
-    (params,) = numbers(found["settings"])
-    for geom in (*plane.geoms, *ball.geoms):
-        geom.set_sol_params(params)
-    scene.build()
-
-    def step() -> tuple[float, float]:
-        scene.step()
-        return float(ball.get_pos()[2]), float(ball.get_dofs_velocity()[2])
-
-    for flight in steps:
-        ball.set_qpos([0, 0, RADIUS + SPEED * flight * found["timestep"], 1, 0, 0, 0])
-        ball.set_dofs_velocity([0, 0, -SPEED, 0, 0, 0])
-        yield left(step)
-
-
 def left(step: Callable[[], tuple[float, float]]) -> float:
     """Return the speed at which a ball leaves the floor, by steps that return height and speed; 0: never."""
     for _ in range(LONGEST):
@@ -90,6 +63,5 @@ def numbers(settings: str) -> list[tuple[float, ...]]:
 
 if __name__ == "__main__":
     asked = json.load(sys.stdin)
-    speeds = {"newton": newton, "genesis": genesis}[asked["backend"]]
-    rebounds = [v / SPEED for v in speeds(asked, [2 + (n + 0.5) / PHASES for n in range(PHASES)])]
-    print(f"{asked['backend']}: {min(rebounds):.4f} to {max(rebounds):.4f}")
+    rebounds = [v / SPEED for v in newton(asked, [2 + (n + 0.5) / PHASES for n in range(PHASES)])]
+    print(f"{min(rebounds):.4f} to {max(rebounds):.4f}")

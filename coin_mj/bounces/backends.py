@@ -29,11 +29,11 @@ class Backend(StrEnum):
 
     @property
     def remark(self) -> str:
-        """What was found of it on a CPU, of mujoco-mjx 3.17, mujoco-warp 4.0, Newton 1.8 and Genesis 1.4."""
+        """What was found of it on a CPU, of mujoco-mjx 3.17, mujoco-warp 4.0 and Newton 1.8."""
         return {
             Backend.MUJOCO: "in double precision",
             Backend.MJX: "in float32 e errs by up to 3e-3, with jax_enable_x64 by no more than MuJoCo's",
             Backend.WARP: "in float32, e errs by 4e-7 more than MuJoCo's",
             Backend.NEWTON: "in float32, Newton 1.8 has 0.7996 to 0.8004 for 0.8 at 2 ms, as MuJoCo has",
-            Backend.GENESIS: "not run",
+            Backend.GENESIS: "names of Genesis 1.4, not run",
         }[self]
