@@ -14,12 +14,10 @@ from cointoss.models.parts import (
     Coin,
     EndingCriteria,
     Floor,
-    Gravity,
-    Label,
     Part,
-    Quantity,
     Release,
 )
+from cointoss.models.quantities import Gravity, Label, Quantity
 from cointoss.models.units import in_si
 from cointoss.models.words import Word
 

@@ -1,7 +1,6 @@
 """The parts of a scenario: coin, air, floor, release and ending; frozen, and validated when made."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Self
 
 import numpy as np
@@ -32,104 +31,29 @@ from cointoss.models.faults import (
 from cointoss.models.kernel.vectors import Matrix, Vector
 from cointoss.models.laws import ContactLaw, EndingTest, RestitutionKind
 from cointoss.models.making import AT_REST, MOST_IMPACTS, Cylinder, moved_inertia
+from cointoss.models.quantities import (
+    AS_WORD,
+    NOT_NEGATIVE,
+    SIZE,
+    Angles,
+    EulerParameters,
+    InertiaRows,
+    Label,
+    Mass,
+    Number,
+    Offset,
+    Position,
+    Speeds,
+    Spins,
+    each_of,
+    named,
+    quantity,
+    time_or_rest,
+)
 from cointoss.models.state import State, state
 from cointoss.models.units import in_si, lambda_unit
 from cointoss.models.words import Word
 
-
-def _named(kind: type[Word]) -> Callable[[Any], Any]:
-    def member(value: Any) -> Any:
-        for item in kind:
-            if isinstance(value, str | kind) and value == item:
-                return item
-        raise ValueError("one of " + ", ".join(f'"{item}"' for item in kind))
-
-    return member
-
-
-@dataclass(frozen=True)
-class Label:
-    """What people call a field that is a number, or each component of one that is a list of them."""
-
-    word: str = ""
-    each: Mapping[str, str] = field(default_factory=dict)
-    """Of a list: the components by their names, and their words."""
-    unit: str = ""
-    """SI unit, in pint's spelling, where the field's `Quantity` does not say it."""
-
-
-def _each(what: str = "", **words: str) -> Label:
-    """Return the label of a list: `what`, if anything, and the word of each component by its name."""
-    return Label(each={name: f"{what} {word}".strip() for name, word in words.items()})
-
-
-@dataclass(frozen=True)
-class Quantity(BeforeValidator):
-    """Reads a string, such as "1 cm/s", in an SI unit."""
-
-    unit: str = ""
-    """In pint's spelling."""
-
-
-def _quantity(unit: str) -> Quantity:
-    return Quantity(lambda value: in_si(value, unit) if isinstance(value, str) else value, unit=unit)
-
-
-def _time_or_rest() -> Quantity:
-    def as_time(value: Any) -> Any:
-        if not isinstance(value, str):
-            return value
-        if value == "rest":
-            return AT_REST
-        try:
-            return in_si(value, "s")
-        except ValueError as error:
-            raise ValueError(f'{error}, or "rest"') from error
-
-    return Quantity(as_time, unit="s")
-
-
-def _list_of(count: int, accepted: str) -> BeforeValidator:
-    def as_tuple(value: Any) -> Any:
-        entries = value.tolist() if isinstance(value, np.ndarray) else value
-        if not isinstance(entries, list | tuple) or len(entries) != count:
-            raise ValueError(f"a list of {count} {accepted}")
-        return tuple(entries)
-
-    return BeforeValidator(as_tuple)
-
-
-# Sizes beyond all coins, within which products of powers stay far from the range of floating-point numbers.
-LARGEST, SMALLEST = 1e9, 1e-9
-# In an angle beyond it the digits that tell one attitude from another are gone [rad].
-LARGEST_ANGLE = 1e6
-_within = Field(ge=-LARGEST, le=LARGEST)
-_size = Field(ge=SMALLEST, le=LARGEST)
-_not_negative = Field(ge=0, le=LARGEST)
-
-Number = Annotated[float, _quantity("")]
-Mass = Annotated[float, _quantity("kg")]
-Length = Annotated[float, _quantity("m"), _within]
-Speed = Annotated[float, _quantity("m/s"), _within]
-Angle = Annotated[float, _quantity("rad"), Field(ge=-LARGEST_ANGLE, le=LARGEST_ANGLE)]
-Spin = Annotated[float, _quantity("rad/s")]
-Gravity = Annotated[float, _quantity("m/s**2"), _size, Label("gravity g")]
-Inertia = Annotated[float, _quantity("kg*m**2"), _within]
-_Lengths = tuple[Length, Length, Length]
-Offset = Annotated[_Lengths, _list_of(3, 'lengths, such as [0, 0, "0.1 mm"]')]
-Position = Annotated[_Lengths, _list_of(3, "lengths, such as [0, 0, 0.4]")]
-Speeds = Annotated[tuple[Speed, Speed, Speed], _list_of(3, 'speeds, such as [0, 0, "2 m/s"]')]
-Angles = Annotated[tuple[Angle, Angle, Angle], _list_of(3, 'angles, such as [0, "7 deg", 0]')]
-Spins = Annotated[tuple[Spin, Spin, Spin], _list_of(3, 'spins, such as [0, "40 rad/s", 0]')]
-EulerParameters = Annotated[
-    tuple[Number, Number, Number, Number], _list_of(4, "numbers of norm 1, such as [1, 0, 0, 0]")
-]
-_Row = Annotated[tuple[Inertia, Inertia, Inertia], _list_of(3, "moments of inertia, such as [8e-8, 0, 0]")]
-_Rows = Annotated[
-    tuple[_Row, _Row, _Row],
-    _list_of(3, "lists of 3 moments of inertia, such as [[8e-8, 0, 0], [0, 8e-8, 0], [0, 0, 1.6e-7]]"),
-]
-_AS_WORD = PlainSerializer(str, when_used="json")
 _ZERO = (0.0, 0.0, 0.0)
 BODY = ("xi", "eta", "zeta")
 """The names of the body axes."""
@@ -214,15 +138,15 @@ def _components_of(part: Part, key: str) -> tuple[str, ...]:
 class Coin(Part):
     """A cylinder of radius r and thickness h whose mass centre C may lie off its geometric centre B."""
 
-    mass: Annotated[Mass, _size, Label("mass")]
+    mass: Annotated[Mass, SIZE, Label("mass")]
     """m [kg]."""
-    radius: Annotated[float, _quantity("m"), _size, Label("radius")]
+    radius: Annotated[float, quantity("m"), SIZE, Label("radius")]
     """r [m]."""
-    thickness: Annotated[float, _quantity("m"), _not_negative, Label("thickness")]
+    thickness: Annotated[float, quantity("m"), NOT_NEGATIVE, Label("thickness")]
     """h [m]; 0 for the thin coin."""
-    center_of_mass: Annotated[Offset, _each("mass centre", xi="ξ", eta="η", zeta="ζ")] = _ZERO
+    center_of_mass: Annotated[Offset, each_of("mass centre", xi="ξ", eta="η", zeta="ζ")] = _ZERO
     """c, from B to C, body frame (ξ, η, ζ) [m]."""
-    inertia: _Rows | None = None
+    inertia: InertiaRows | None = None
     """J_C about C, body frame, products of inertia with their minus sign [kg m²]; by default the uniform
     cylinder's about B, moved to C."""
 
@@ -273,9 +197,9 @@ def _cylinder(fields: Mapping[str, Any]) -> Cylinder | None:
 class _QuadraticDrag(Part):
     """Quadratic resistance as tables of drag coefficients have it."""
 
-    drag_coefficient: Annotated[Number, _not_negative]
+    drag_coefficient: Annotated[Number, NOT_NEGATIVE]
     """C_d of a disk that moves along its axis: the force is ρ C_d/2 π r² v²."""
-    density: Annotated[float, _quantity("kg/m**3"), _not_negative] = 1.2
+    density: Annotated[float, quantity("kg/m**3"), NOT_NEGATIVE] = 1.2
     """ρ, by default that of air at 20 °C and 1013 hPa [kg/m³]."""
 
 
@@ -288,11 +212,11 @@ class Air(Part):
 
     exponent: Annotated[Number, Field(ge=0, le=1), Label("exponent b of the air")] = 0.0
     """b: 0 for linear, 1 for quadratic resistance."""
-    normal: Annotated[float, _not_negative, Label("pressure λ_n of the air", unit=lambda_unit(0))] = 0.0
+    normal: Annotated[float, NOT_NEGATIVE, Label("pressure λ_n of the air", unit=lambda_unit(0))] = 0.0
     """λ_n, of pressure [kg m^(-2-b) s^(b-1)]."""
-    tangential: Annotated[float, _not_negative, Label("friction λ_τ of the air", unit=lambda_unit(0))] = 0.0
+    tangential: Annotated[float, NOT_NEGATIVE, Label("friction λ_τ of the air", unit=lambda_unit(0))] = 0.0
     """λ_τ, of friction [kg m^(-2-b) s^(b-1)]."""
-    viscosity: Annotated[float, _quantity("Pa*s"), _not_negative, Label("viscosity of the air")] = 0.0
+    viscosity: Annotated[float, quantity("Pa*s"), NOT_NEGATIVE, Label("viscosity of the air")] = 0.0
     """η, of the air that a nearly flat coin in sustained contact squeezes out of the gap [Pa s]."""
     instead = tuple(_QuadraticDrag.model_fields)
 
@@ -331,35 +255,35 @@ class Floor(Part):
 
     restitution: Annotated[Number, Field(ge=0, le=1), Label("restitution χ")]
     """χ: normal speed of the contact point after an impact over that before it."""
-    restitution_threshold: Annotated[
-        float, _quantity("m/s"), _not_negative, Label("restitution threshold")
-    ] = 0.0
+    restitution_threshold: Annotated[float, quantity("m/s"), NOT_NEGATIVE, Label("restitution threshold")] = (
+        0.0
+    )
     """Normal speed of approach up to which a touch is plastic, χ = 0 [m/s]."""
-    restitution_speed: Annotated[float, _quantity("m/s"), _size, Label("speed v₀ of restitution")] = 1.0
+    restitution_speed: Annotated[float, quantity("m/s"), SIZE, Label("speed v₀ of restitution")] = 1.0
     """v₀, the normal speed of approach at which χ is `restitution` [m/s]."""
     restitution_exponent: Annotated[Number, Field(ge=0, le=1), Label("exponent p of restitution")] = 0.0
     """p: at the speed v of approach χ is min(1, χ (v/v₀)^-p); 1/4 of plastic, 0 of constant restitution."""
     restitution_viscous: Annotated[
-        float, _quantity("s**0.2*m**-0.2"), _not_negative, Label("viscous loss a of restitution")
+        float, quantity("s**0.2*m**-0.2"), NOT_NEGATIVE, Label("viscous loss a of restitution")
     ] = 0.0
     """a of a viscoelastic contact, whose χ is 1 - a v^(1/5) + O(v^(2/5)) [(s/m)^(1/5)]; both factors act."""
-    contact: Annotated[ContactLaw, BeforeValidator(_named(ContactLaw)), _AS_WORD]
+    contact: Annotated[ContactLaw, BeforeValidator(named(ContactLaw)), AS_WORD]
     """The contact law."""
-    friction: Annotated[Number, _not_negative, Label("friction μ")] = 0.0
+    friction: Annotated[Number, NOT_NEGATIVE, Label("friction μ")] = 0.0
     """μ, for the laws that slide with friction."""
-    rolling_friction: Annotated[float, _quantity("m"), _not_negative, Label("rolling friction δ")] = 0.0
+    rolling_friction: Annotated[float, quantity("m"), NOT_NEGATIVE, Label("rolling friction δ")] = 0.0
     """δ: the moment against rolling in sustained contact, over the normal force [m]."""
-    pivoting_friction: Annotated[float, _quantity("m"), _not_negative, Label("pivoting friction p")] = 0.0
+    pivoting_friction: Annotated[float, quantity("m"), NOT_NEGATIVE, Label("pivoting friction p")] = 0.0
     """p: the moment against pivoting about the vertical, over the normal force [m]."""
-    contour_friction: Annotated[float, _quantity("m"), _not_negative, Label("contour friction c")] = 0.0
+    contour_friction: Annotated[float, quantity("m"), NOT_NEGATIVE, Label("contour friction c")] = 0.0
     """c: the power lost over the normal force, as the contact point runs round the rim at 1 rad/s [m]."""
     contour_viscosity: Annotated[
-        float, _quantity("m*s"), _not_negative, Label("contour viscosity", unit="m*s")
+        float, quantity("m*s"), NOT_NEGATIVE, Label("contour viscosity", unit="m*s")
     ] = 0.0
     """The power lost over the normal force and the square of that rate [m s]."""
-    slope: Annotated[float, _quantity("rad"), Field(ge=0, le=1.5), Label("slope of the floor")] = 0.0
+    slope: Annotated[float, quantity("rad"), Field(ge=0, le=1.5), Label("slope of the floor")] = 0.0
     """The floor's angle to the horizontal [rad]: x is downhill, and z the floor's normal."""
-    restitution_kind: Annotated[RestitutionKind, BeforeValidator(_named(RestitutionKind)), _AS_WORD] = (
+    restitution_kind: Annotated[RestitutionKind, BeforeValidator(named(RestitutionKind)), AS_WORD] = (
         RestitutionKind.KINEMATIC
     )
     """"kinematic", or "energetic" for the law "coulomb"."""
@@ -380,17 +304,17 @@ class Floor(Part):
 class Release(Part):
     """The state at time 0."""
 
-    position: Annotated[Position, _each(x="position x", y="position y", z="height")]
+    position: Annotated[Position, each_of(x="position x", y="position y", z="height")]
     """The position of C, space frame [m]."""
-    velocity: Annotated[Speeds, _each("velocity", x="x", y="y", z="z")] = _ZERO
+    velocity: Annotated[Speeds, each_of("velocity", x="x", y="y", z="z")] = _ZERO
     """The velocity of C, space frame [m/s]."""
-    angles: Annotated[Angles | None, _each(psi="angle ψ", theta="tilt θ", phi="angle φ")] = None
+    angles: Annotated[Angles | None, each_of(psi="angle ψ", theta="tilt θ", phi="angle φ")] = None
     """ψ, θ, φ, the classical Euler angles (z-x-z) [rad]; a flat coin, heads up, by default."""
     quaternion: Annotated[
-        EulerParameters | None, _each("Euler parameter", e0="e₀", e1="e₁", e2="e₂", e3="e₃")
+        EulerParameters | None, each_of("Euler parameter", e0="e₀", e1="e₁", e2="e₂", e3="e₃")
     ] = None
     """Euler parameters e0, e1, e2, e3, body to space, in place of the angles; brought to norm 1."""
-    angular_velocity: Annotated[Spins, _each("spin about", xi="ξ", eta="η", zeta="ζ")] = _ZERO
+    angular_velocity: Annotated[Spins, each_of("spin about", xi="ξ", eta="η", zeta="ζ")] = _ZERO
     """ω, body frame (ξ, η, ζ) [rad/s]."""
 
     @field_validator("quaternion")
@@ -421,20 +345,20 @@ class Release(Part):
 class EndingCriteria(Part):
     """When a toss is over."""
 
-    test: Annotated[EndingTest, BeforeValidator(_named(EndingTest)), _AS_WORD] = EndingTest.RIGOROUS
+    test: Annotated[EndingTest, BeforeValidator(named(EndingTest)), AS_WORD] = EndingTest.RIGOROUS
     """What decides that the face up is final."""
     max_impacts: Annotated[int | None, Field(ge=1, le=MOST_IMPACTS), Label("most impacts")] = None
     """The toss stops after so many impacts; by default see
     `cointoss.models.making.most_impacts`."""
-    max_time: Annotated[float, _quantity("s"), _size, Label("time limit")] = 1_000_000.0
+    max_time: Annotated[float, quantity("s"), SIZE, Label("time limit")] = 1_000_000.0
     """The toss stops at this time [s]."""
-    caught: Annotated[float | None, _size, _quantity("m"), Label("height of the catch")] = None
+    caught: Annotated[float | None, SIZE, quantity("m"), Label("height of the catch")] = None
     """Height at which a hand catches the coin: the toss ends, with the face up, when C first comes down to it
     [m]."""
     until: Annotated[
         float | None,
-        _not_negative,
-        _time_or_rest(),
+        NOT_NEGATIVE,
+        time_or_rest(),
         Label("path until"),
         PlainSerializer(lambda time: "rest" if time == AT_REST else time, when_used="json"),
     ] = None

@@ -23,11 +23,11 @@ from cointoss.models.parts import (
     Coin,
     EndingCriteria,
     Floor,
-    Gravity,
     Part,
     Release,
     refuse,
 )
+from cointoss.models.quantities import Gravity
 from cointoss.models.unused import warn_of_unused_fields
 from cointoss.models.writing import toml
 

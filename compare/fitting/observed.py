@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from cointoss.compare.fitting.errors import ObservationError, ValueRefusedError
 from cointoss.models.attitude import norm_of
-from cointoss.models.parts import LARGEST
+from cointoss.models.quantities import LARGEST
 from cointoss.models.records import Array, Face
 
 MOST = 20_000

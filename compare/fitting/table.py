@@ -20,7 +20,7 @@ from cointoss.compare.fitting.observed import LEAST_SD, Observed
 from cointoss.compare.sweep.axes import number
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.errors import FieldError, shown
-from cointoss.models.parts import LARGEST as LARGEST_SD
+from cointoss.models.quantities import LARGEST as LARGEST_SD
 from cointoss.models.units import in_si
 from cointoss.models.unused import UnusedFieldWarning
 

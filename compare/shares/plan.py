@@ -17,8 +17,9 @@ from cointoss.models.devices import Device
 from cointoss.models.errors import FieldError, ScenarioError
 from cointoss.models.fields import UNITS
 from cointoss.models.hand import OF_A_TOSS, Hand
-from cointoss.models.parts import LARGEST, Release
+from cointoss.models.parts import Release
 from cointoss.models.processor import Processor
+from cointoss.models.quantities import LARGEST
 from cointoss.models.records import Array, Outcome
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import counted

@@ -11,7 +11,7 @@ from cointoss.models.errors import ScenarioError, shown
 from cointoss.models.fields import UNITS, WORDS
 from cointoss.models.hand import QUANTITIES
 from cointoss.models.names import SPIN, full_name
-from cointoss.models.parts import LARGEST
+from cointoss.models.quantities import LARGEST
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
 from cointoss.models.units import in_si, lambda_unit, printed_unit

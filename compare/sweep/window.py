@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from cointoss.compare.sweep.axes import Span
 from cointoss.compare.sweep.batch import TOSS, Batch, Varied
 from cointoss.models.batch import refused
-from cointoss.models.parts import LARGEST
+from cointoss.models.quantities import LARGEST
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
 

@@ -16,7 +16,7 @@ from cointoss.compare.sweep.toss_many import toss_many
 from cointoss.models.batch import PLACE, rows_of
 from cointoss.models.errors import ScenarioError
 from cointoss.models.laws import ContactLaw
-from cointoss.models.parts import LARGEST
+from cointoss.models.quantities import LARGEST
 from cointoss.models.reading import load, parse
 from cointoss.models.records import Outcome
 from tests.helpers.basin_runs import SCENARIO
