@@ -22,7 +22,7 @@ from cointoss.models.body import (
     slope_feeds,
 )
 from cointoss.models.clearance import drag_bound
-from cointoss.models.contact_laws.table import is_followed, is_smooth, uses_friction
+from cointoss.models.contact_laws.table import is_followed, is_rough, is_smooth, uses_friction
 from cointoss.models.geometry import tilt_sine_of
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, apply, dot, norm
@@ -168,7 +168,8 @@ def final_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Ending]
     """Return the face that stays up and why, or the edge; UNDECIDED and NONE where either may still come.
 
     "rigorous" is `settled_face`, "paper" is E < m g r and "paper_smooth" is eq. (20) of Strzalko et al. 2008;
-    under each a coin may come to lie flat, with energy left that no longer turns it; "lying" waits for that.
+    under each a coin may come to lie flat, with energy left that no longer turns it; "lying" waits for that,
+    and so does any test on a slope, where no energy proves a face.
 
     Args:
         body: the coin.
@@ -185,7 +186,8 @@ def final_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Ending]
             return face, Ending.PAPER
     elif rules.test == EndingTest.PAPER_SMOOTH and energy_without_spin(body, state) < mgr:
         return face, Ending.PAPER_SMOOTH
-    if lies(body, rules, state, STILL if rules.test == EndingTest.LYING else WOBBLE):
+    waits = rules.test == EndingTest.LYING or slope_feeds(body, is_smooth(rules.law))
+    if lies(body, rules, state, STILL if waits else WOBBLE):
         return face, Ending.LYING
     return Outcome.UNDECIDED, Ending.NONE
 
@@ -243,9 +245,9 @@ def settled_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Endin
 def idle_energy(body: Body, rules: Rules, v: Vector, w: Vector) -> float:
     """Return energy that a coin in air on a smooth floor never turns into height [J].
 
-    (1 - a) m v_h²/2, a the `sliding_share`, and of a balanced coin J_ζ ω_ζ²/2: without them its energy
-    never grows, in linear air; in other air none is known. Where the floor resists rolling or pivoting, its
-    moment turns spin about ζ into other spin, and only the first is left out.
+    (1 - a) m v_h²/2, a the `sliding_share`, 0 in vacuum, and of a balanced coin J_ζ ω_ζ²/2: without them its
+    energy never grows, in linear air; in other air none is known. Where the floor resists rolling or
+    pivoting, its moment turns spin about ζ into other spin, and only the first is left out.
 
     Args:
         body: the coin.
@@ -255,7 +257,8 @@ def idle_energy(body: Body, rules: Rules, v: Vector, w: Vector) -> float:
     """
     if not is_linear(body.air):
         return 0.0
-    idle = (1 - body.sliding_share) * body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
+    share = 0.0 if in_vacuum(body) else body.sliding_share
+    idle = (1 - share) * body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
     return idle + body.inertia[2][2] * w[2] * w[2] / 2 if is_ideal(body) and not resists(rules) else idle
 
 
@@ -305,14 +308,16 @@ def lies(body: Body, rules: Rules, state: State, left: float) -> bool:
         return False
     # On a face no law without the floor's friction acts on the slip, and resistance to pivoting on the spin.
     mu = rules.friction if uses_friction(rules.law) else 0.0
-    if not is_followed(rules.law) or moments_may_grow(body, mu):
+    feeds = slope_feeds(body, is_smooth(rules.law))
+    if not is_followed(rules.law) or (feeds and moments_may_grow(body, mu)):
         return False
     k, arm, turn_drag = drag_bound(body, v, w, 0.0)
     drag = k * (norm(v) + arm * norm(w))
     rubbing = mu * weight * body.radius + rules.pivoting_friction * weight
     slowing = (rubbing + turn_drag * abs(w[2]) + drag * arm) / J[2][2]
     moment = math.hypot(J[0][2], J[1][2]) * (w[2] * w[2] + slowing)
-    moment += mu * weight * flat_z + drag * arm
+    held = body.mass * body.downhill if is_rough(rules.law) else mu * weight
+    moment += held * flat_z + drag * arm
     return moment < weight * (body.radius - math.hypot(c[0], c[1]))
 
 
@@ -328,6 +333,7 @@ def moments_may_grow(body: Body, mu: float) -> bool:
         body: the coin.
         mu: friction μ that acts on a face.
     """
-    if body.downhill == 0 or is_ideal(body):
-        return False
-    return body.downhill * (1 + 3 * norm(body.center) / (2 * body.radius)) > mu * body.gravity
+    return (
+        not is_ideal(body)
+        and body.downhill * (1 + 3 * norm(body.center) / (2 * body.radius)) > mu * body.gravity
+    )

@@ -51,6 +51,7 @@ class Fault(IntEnum):
     ROW = 20
     CONTOUR_LAW = 21
     CONTOUR = 22
+    CONTOUR_VISCOSITY_LAW = 23
 
 
 _RESISTANCE_LAW = (
@@ -93,6 +94,7 @@ ACCEPTED = {
     Fault.ROLLING_LAW: ("floor.rolling_friction", _RESISTANCE_LAW),
     Fault.PIVOTING_LAW: ("floor.pivoting_friction", _RESISTANCE_LAW),
     Fault.CONTOUR_LAW: ("floor.contour_friction", _RESISTANCE_LAW),
+    Fault.CONTOUR_VISCOSITY_LAW: ("floor.contour_viscosity", _RESISTANCE_LAW.replace("a length", "more")),
     Fault.NORM: (
         "release.quaternion",
         "four numbers of norm 1 within 1e-3 (the norm here is {limit:.6g})",
@@ -165,7 +167,7 @@ def fault_of_inertia(cylinder: Cylinder, J: Matrix, is_given: bool) -> FoundFaul
 
 @compiled
 def fault_of_floor(
-    law: ContactLaw, kind: RestitutionKind, rolling: float, pivoting: float, contour: float
+    law: ContactLaw, kind: RestitutionKind, rolling: float, pivoting: float, contour: float, viscous: float
 ) -> FoundFault:
     """Return what is wrong with a floor's kind of restitution and its resistances."""
     if kind == RestitutionKind.ENERGETIC and not may_be_energetic(law):
@@ -176,6 +178,8 @@ def fault_of_floor(
         return FoundFault(Fault.PIVOTING_LAW, 0.0)
     if contour > 0 and not is_followed(law):
         return FoundFault(Fault.CONTOUR_LAW, 0.0)
+    if viscous > 0 and not is_followed(law):
+        return FoundFault(Fault.CONTOUR_VISCOSITY_LAW, 0.0)
     return _NOTHING
 
 

@@ -3,11 +3,12 @@
 import difflib
 from collections.abc import Collection
 
-from cointoss.models.errors import MOST_NAMED
-from cointoss.models.fields import WORDS
+from cointoss.models.fields import WORDED, WORDS
 
 SPIN = "release.spin"
 """The size of ω about the scenario's own axis of rotation [rad/s]: it stands for the components of ω."""
+MOST_LISTED = 12
+"""Fields of a table that a message lists."""
 _ALIASES = {"height": "release.position.z", "spin": SPIN}
 
 
@@ -41,11 +42,18 @@ def _accepted(name: str, known: list[str], ends: list[str]) -> str:
     components = [field for field in known if field.startswith(f"{name}.")]
     last = {field.rpartition(".")[2]: field for field in known}
     near = difflib.get_close_matches(name, of_table or known, n=1)
-    near = near or [
-        last.get(word, _ALIASES.get(word, ""))
-        for word in difflib.get_close_matches(name, [*last, *_ALIASES], n=1)
-    ]
+    near = (
+        []
+        if name in WORDED
+        else near
+        or [
+            last.get(word, _ALIASES.get(word, ""))
+            for word in difflib.get_close_matches(name, [*last, *_ALIASES], n=1)
+        ]
+    )
     found = ends or components or near
-    others = of_table if 0 < len(of_table) <= MOST_NAMED else [f"numbers of {', '.join(tables)}, and gravity"]
+    others = (
+        of_table if 0 < len(of_table) <= MOST_LISTED else [f"numbers of {', '.join(tables)}, and gravity"]
+    )
     hint = f" (did you mean {near[0]}?)" if near and not ends else ""
     return ", ".join(dict.fromkeys([*found, *others])) + hint

@@ -295,7 +295,8 @@ class Floor(Part):
             self.restitution_kind,
             self.rolling_friction,
             self.pivoting_friction,
-            max(self.contour_friction, self.contour_viscosity),
+            self.contour_friction,
+            self.contour_viscosity,
         )
         refuse(found, self, contact=str(self.contact))
         return self

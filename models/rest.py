@@ -38,8 +38,9 @@ def is_held(body: Body, rolling: float, sliding: float, state: State, arm: Vecto
     At rest the weight's moment about the line of contact is m g a, a the horizontal distance of C from it:
     it stays while a <= δ. All motion is slower than `SLOW`, and its energy is a quarter of what resistance
     takes from it before a can grow to δ, at most. On a smooth floor the coin may slide on. On a slope, which
-    friction must bear, a is the distance to where the weight through C meets the floor. There a coin on one
-    point may pivot: a is then the largest of all directions, and what the slope gives it counts as motion.
+    friction must bear, a is the distance to where the weight through C meets the floor, between the
+    rims if it stands on both. There a coin on one point may pivot: a is then the largest of all directions,
+    and what the slope gives it counts as motion.
 
     Args:
         body: the coin.
@@ -59,6 +60,10 @@ def is_held(body: Body, rolling: float, sliding: float, state: State, arm: Vecto
             return False
         leaning = body.downhill / body.gravity
         if on_line:
+            # Else the coin topples over a rim: the weight meets the floor beyond the line.
+            aside = leaning * arm[2] * state.R[0][2] - body.center[2]
+            if not abs(aside) < body.thickness / 2:
+                return False
             lever = lever_of(state.R, (arm[0] + leaning * arm[2], arm[1], arm[2]), True)
         else:
             given = 2 * body.mass * body.downhill * lever

@@ -230,7 +230,8 @@ def fault_of_parts(row):
             int(row[AT.floor_restitution_kind]),
             row[AT.floor_rolling_friction],
             row[AT.floor_pivoting_friction],
-            max(row[AT.floor_contour_friction], row[AT.floor_contour_viscosity]),
+            row[AT.floor_contour_friction],
+            row[AT.floor_contour_viscosity],
         )
     q = four(row, AT.release_quaternion_e0)
     if found.fault == Fault.NONE and not math.isnan(q[0]):

@@ -133,6 +133,8 @@ LOSS = 0.08
 that takes less than `LOSS` gets a harder spring, up to `HARDEST`, and smaller steps, down to the least of
 `LEAST_LOSS`."""
 LEAST_LOSS = 2.5e-3
+LEAST_SPRING = 0.01
+"""The least χ of a spring: the damping of one with less is too fast for its steps."""
 HARDEST = FINE.stiffness
 STEPS_OF_LOSS = 3
 """Steps in half a period that change the energy by 7e-4, a hundredth of `LOSS`: an error of order 5."""
@@ -143,7 +145,8 @@ def resolved(settings: MujocoSettings, restitution: float, rate: float) -> Mujoc
 
     While a coin turns in a contact its effective mass changes, and with it the energy of the spring. So the
     contacts of a small coin are shorter as its own time √(r/g) is, and those that lose little energy shorter
-    still; they take more steps, too. No spring has χ = 0: that is one step, as long as one of the spring's.
+    still; they take more steps, too. No spring has a χ below `LEAST_SPRING`: that is one step, as long as one
+    of the spring's.
 
     Args:
         settings: as asked for.
@@ -155,7 +158,7 @@ def resolved(settings: MujocoSettings, restitution: float, rate: float) -> Mujoc
     part = min(max(1 - restitution * restitution, LEAST_LOSS) / LOSS, 1.0)
     asked = settings.stiffness
     stiffness = max(asked, min(asked / part**2, HARDEST)) * max(rate / LARGE, 1.0) ** 2
-    if restitution == 0:
+    if restitution < LEAST_SPRING:
         step = math.pi / math.sqrt(stiffness) / settings.steps
         return replace(settings, contact=Realisation.ONE_STEP, step=step)
     steps = max(settings.steps, math.ceil(STEPS_OF_LOSS * part ** (-2 / 5)))

@@ -1,7 +1,7 @@
 """The rebound of a touch whose restitution depends on its speed of approach."""
 
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
-from cointoss.coin_mj.model.settings import Rebound, restitution_of
+from cointoss.coin_mj.model.settings import LEAST_SPRING, Rebound, restitution_of
 from cointoss.models.body import Rules
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.restitution import elastic_restitution, varies
@@ -13,10 +13,14 @@ _AFTER = _PLACE + 1
 
 @compiled
 def coin_touching(coin: MujocoCoin, rules: Rules, speed: float) -> MujocoCoin:
-    """Return the coin with the rebound of a touch at a speed above the threshold [m/s]."""
+    """Return the coin with the rebound of a touch at a speed above the threshold [m/s].
+
+    A restitution below `LEAST_SPRING` is realised as that.
+    """
     if not varies(rules):
         return coin
-    rebound = rebound_with(coin.rebound, coin.has_one_step, elastic_restitution(rules, speed))
+    chi = max(elastic_restitution(rules, speed), LEAST_SPRING)
+    rebound = rebound_with(coin.rebound, coin.has_one_step, chi)
     return MujocoCoin(*coin[:_PLACE], rebound, *coin[_AFTER:])  # pyright: ignore[reportCallIssue]
 
 

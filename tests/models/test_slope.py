@@ -8,7 +8,7 @@ from cointoss.models.body import friction_can_hold, slope_feeds
 from cointoss.models.ending import cannot_be_caught, final_face, moments_may_grow
 from cointoss.models.geometry import gap
 from cointoss.models.records import Ending, Outcome
-from cointoss.models.rest import lever_of
+from cointoss.models.rest import is_held, lever_of
 from cointoss.models.state import state
 from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, scenario
 
@@ -26,6 +26,7 @@ def touching(body, tilt, v=(0.0, 0.0, 0.0), w=(0.0, 0.0, 0.0)):
     ("floor", "air", "level", "slope"),
     [
         ({"contact": "smooth"}, {}, SETTLED, SETTLED),
+        ({"contact": "smooth", "contour_friction": 1e-4}, {}, SETTLED, SETTLED),
         ({"contact": "smooth", "rolling_friction": 1e-4}, {}, SETTLED, SETTLED),
         ({"contact": "smooth"}, AIR, SETTLED, NONE),
         (ROUGH, {}, SETTLED, NONE),
@@ -57,6 +58,41 @@ def test_a_flat_coin_lies_for_good_if_friction_or_balance_bounds_its_moments(coi
     case = scenario(coin=coin, floor={**ROUGH, "slope": slope}, ending={"test": "lying"})
     sliding = touching(case.body, 0.0, v=(0.3, 0.0, 0.0), w=(0.0, 0.0, 2.0))
     assert final_face(case.body, case.rules, sliding) == (LYING if lies else NONE)
+
+
+def test_a_thick_coin_that_a_rough_slope_topples_does_not_lie():
+    """It topples over its rim from tan(slope) = r/(h/2), here 0.5, on."""
+    thick = {"mass": 5e-3, "radius": 5e-3, "thickness": 0.02}
+    for slope, outcome in ((np.arctan(0.49), LYING), (np.arctan(0.51), NONE)):
+        case = scenario(coin=thick, floor={"contact": "perfectly_rough", "slope": slope})
+        assert final_face(case.body, case.rules, touching(case.body, 0.0)) == outcome
+
+
+def test_an_unbalanced_coin_that_spins_on_a_smooth_slope_in_vacuum_lies():
+    """Nothing but gravity acts along such a floor, which turns no coin."""
+    for air, outcome in (({}, LYING), (AIR, NONE)):
+        floor = {"contact": "smooth", "slope": 0.3, "pivoting_friction": 1e-5}
+        case = scenario(coin=IMPERFECT, floor=floor, air=air, ending={"test": "lying"})
+        sliding = touching(case.body, 0.0, v=(0.3, 0.0, 0.0), w=(0.0, 0.0, 2.0))
+        assert final_face(case.body, case.rules, sliding) == outcome
+
+
+def test_conserved_speed_is_left_out_where_a_smooth_floor_resists_in_vacuum():
+    for slope in (0.0, 0.3):
+        case = scenario(floor={"contact": "smooth", "contour_friction": 1e-4, "slope": slope})
+        fast = touching(case.body, 0.1, v=(30.0, 0.0, 0.0))
+        assert final_face(case.body, case.rules, fast) == SETTLED
+
+
+def test_a_coin_on_a_line_is_held_only_where_its_weight_meets_the_floor_between_the_rims():
+    """Its normal points downhill: it topples from tan(slope) = (h/2)/r on, whatever resists rolling."""
+    e = quaternion_from_angles((np.pi / 2, np.pi / 2, 0.0))
+    for part, holds in ((0.99, True), (1.01, False)):
+        slope = np.arctan(part * ZLOTY["thickness"] / 2 / ZLOTY["radius"])
+        body = scenario(floor={**ROUGH, "slope": slope}).body
+        upright = state((0.0, 0.0, body.radius), (0.0, 0.0, 0.0), e, (0.0, 0.0, 0.0))
+        arm = (upright.R[0][2] * body.thickness / 2, 0.0, -body.radius)
+        assert is_held(body, 1e-3, 0.9, upright, arm, True) == holds
 
 
 def test_an_unbalanced_coin_lies_where_friction_outweighs_the_slope_and_its_arm():
