@@ -7,7 +7,7 @@ from cointoss.models.fields import WORDED, WORDS
 
 SPIN = "release.spin"
 """The size of ω about the scenario's own axis of rotation [rad/s]: it stands for the components of ω."""
-MOST_LISTED = 12
+MOST_LISTED = 11
 """Fields of a table that a message lists."""
 _ALIASES = {"height": "release.position.z", "spin": SPIN}
 
@@ -40,20 +40,18 @@ def _accepted(name: str, known: list[str], ends: list[str]) -> str:
     table = name.partition(".")[0]
     of_table = [field for field in known if table in tables and field.startswith(f"{table}.")]
     components = [field for field in known if field.startswith(f"{name}.")]
-    last = {field.rpartition(".")[2]: field for field in known}
-    near = difflib.get_close_matches(name, of_table or known, n=1)
-    near = (
-        []
-        if name in WORDED
-        else near
-        or [
-            last.get(word, _ALIASES.get(word, ""))
-            for word in difflib.get_close_matches(name, [*last, *_ALIASES], n=1)
-        ]
-    )
-    found = ends or components or near
-    others = (
-        of_table if 0 < len(of_table) <= MOST_LISTED else [f"numbers of {', '.join(tables)}, and gravity"]
-    )
+    near = [] if name in WORDED else _near(name, known, of_table)
+    whole = [f"numbers of {', '.join(tables)}, and gravity"]
+    others = of_table if 0 < len(of_table) <= MOST_LISTED else whole
     hint = f" (did you mean {near[0]}?)" if near and not ends else ""
-    return ", ".join(dict.fromkeys([*found, *others])) + hint
+    return ", ".join(dict.fromkeys([*(ends or components or near), *others])) + hint
+
+
+def _near(name: str, known: list[str], of_table: list[str]) -> list[str]:
+    """Return the field whose name is like a wrong one: of its table, or by its last part; none if none is."""
+    rest = {field.partition(".")[2] or field: field for field in of_table or known}
+    if near := difflib.get_close_matches(name.partition(".")[2] or name, rest, n=1):
+        return [rest[near[0]]]
+    last = {field.rpartition(".")[2]: field for field in known}
+    near = difflib.get_close_matches(name, [*last, *_ALIASES], n=1)
+    return [last.get(word, _ALIASES.get(word, "")) for word in near]
