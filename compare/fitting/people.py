@@ -18,9 +18,9 @@ from cointoss.models.hand import same_side_probability
 from cointoss.models.records import Array
 
 PANELS, ORDER = 150, 8
-"""Panels of the quadrature over people by Gauss and Legendre, and its order in each."""
-RESOLVED = 25_000
-"""Flips of a person whose likelihood so many panels resolve; its width shrinks as 1/√n."""
+"""Panels of the quadrature over people by Gauss and Legendre before any is halved, and its order in each."""
+HALVINGS = 60
+"""Of a panel at most, toward a jump of p."""
 SCANNED = 30
 """Spreads that are tried where p is simulated, so that its likelihood may have several peaks."""
 DROP = float(chi2.ppf(LEVEL, 1)) / 2
@@ -113,25 +113,43 @@ def log_binomial(same: ArrayLike, flips: ArrayLike, p: ArrayLike, tosses: float 
 def log_likelihoods(flips: Flips, people: People, parameters: Array) -> Array:
     """Return the logarithm of the likelihood of each person's counts, but for what depends on these, (n,).
 
-    Panels of the quadrature are narrower than any person's likelihood, wherever among all people that lies.
-
     Args:
         flips: the counts.
         people: whose integral over the latent number it is.
         parameters: of the family.
     """
-    latent, weights = _nodes(people.ends, int(flips.flips.max()))
+    latent, weights = _nodes(people, parameters, int(flips.flips.max()))
     p = people.probability(parameters, latent)
     of_latent = people.latent.logpdf(latent) + np.log(weights)
     of_counts = log_binomial(flips.same[:, None], flips.flips[:, None], p, people.tosses)
     return np.asarray(logsumexp(of_counts + of_latent, axis=1))
 
 
-def _nodes(ends: tuple[float, float], flips: int = RESOLVED) -> tuple[Array, Array]:
-    """Return the nodes of the quadrature and their weights, (m,) each, for at most so many flips a person."""
+def _nodes(people: People, parameters: Array, flips: int) -> tuple[Array, Array]:
+    """Return the nodes of the quadrature over the latent number, and their weights, (m,) each.
+
+    Panels are halved until none is wider than two standard deviations of any likelihood of a person. These
+    are equal in asin √p: 1/(2 √flips).
+
+    Args:
+        people: over whom.
+        parameters: of the family.
+        flips: of one person at most.
+    """
+
+    def turned(latent: Array) -> Array:
+        return np.arcsin(np.sqrt(np.clip(people.probability(parameters, latent), 0, 1)))
+
+    widest = (1 / max(flips, 1) + 1 / people.tosses) ** 0.5
+    edges = np.linspace(*people.ends, PANELS + 1)
+    for _ in range(HALVINGS):
+        middles = (edges[:-1] + edges[1:]) / 2
+        at_edges, at_middles = turned(edges), turned(middles)
+        passed = np.abs(at_middles - at_edges[:-1]) + np.abs(at_edges[1:] - at_middles)
+        if not (wide := passed > widest).any():
+            break
+        edges = np.sort(np.append(edges, middles[wide]))
     x, weights = leggauss(ORDER)
-    panels = math.ceil(PANELS * max(1.0, flips / RESOLVED) ** 0.5)
-    edges = np.linspace(*ends, panels + 1)
     half = np.diff(edges)[:, None] / 2
     return (edges[:-1, None] + half * (1 + x)).ravel(), (half * weights).ravel()
 
@@ -174,7 +192,7 @@ def quantiles(people: People, parameters: Array, parts: Array) -> Array:
 
 def spread_of(found: PeopleFit) -> float:
     """Return the standard deviation of p over people."""
-    latent, weights = _nodes(found.people.ends)
+    latent, weights = _nodes(found.people, found.parameters, 1)
     of_latent = weights * found.people.latent.pdf(latent)
     p = found.people.probability(found.parameters, latent)
     return float(np.sqrt(of_latent @ (p - of_latent @ p) ** 2))

@@ -109,6 +109,18 @@ def test_the_fitted_hand_tosses_as_the_people_who_were_counted():
     assert degrees(found.scatter)[0] == pytest.approx(15, abs=1.5)
 
 
+@pytest.mark.parametrize("flips", [2000, 5000, 25_000, 1_000_000])
+@pytest.mark.parametrize(
+    ("shares", "expected"), [((0.8, 0.88, 0.52, 0.96), (38.4, 19.1, 90)), ((0.8,) * 5, (42.0, 22.1, 90))]
+)
+def test_people_who_wobble_much_scatter_as_their_shares_do(shares, expected, flips):
+    """However many flips: the angles of such shares are 42 to 45°, and 20°; their interval ends at 90°."""
+    found = fit(Flips(same=[round(share * flips) for share in shares], flips=[flips] * len(shares)))
+    assert found.is_possible
+    assert found.scatter is not None
+    assert degrees(found.scatter) == pytest.approx(expected, abs=0.3)
+
+
 @pytest.mark.parametrize(
     ("same", "flips", "why"),
     [

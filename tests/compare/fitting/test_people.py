@@ -1,11 +1,12 @@
 """How p is distributed over people: closed forms, and what was drawn is found again."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
-from scipy.special import betaln, comb
-from scipy.stats import betabinom, uniform
+from scipy.special import betaln, comb, logsumexp
+from scipy.stats import betabinom, halfnorm, uniform
 
 from cointoss.compare.fitting.flips import Flips
 from cointoss.compare.fitting.people import (
@@ -31,6 +32,48 @@ def test_the_likelihood_of_uniform_people_is_in_closed_form(same, flips):
     family = People(uniform(), (0.0, 1.0), lambda _, latent: latent, start=(0.5,))
     found = log_likelihoods(Flips(same=[same], flips=[flips]), family, np.array([0.5]))
     assert found[0] == pytest.approx(betaln(same + 1, flips - same + 1), abs=1e-9 * flips**0.5)
+
+
+def log_integral_over_the_angle(scatter, same, flips):
+    """Return a person's log-likelihood by midpoints that are equal in asin √p, and beyond 45° in closed form.
+
+    The same side comes up with p = 1/2 + asin(tan² φ)/π, and always beyond.
+    """
+    turned = np.linspace(np.pi / 4, np.pi / 2, 200_001)
+    middles = (turned[1:] + turned[:-1]) / 2
+    ends, angles = (
+        np.arctan(np.sin(np.pi * (np.sin(at) ** 2 - 1 / 2)).clip(0) ** 0.5) for at in (turned, middles)
+    )
+    of_people = halfnorm.logpdf(angles, scale=scatter) + log_binomial(same, flips, np.sin(middles) ** 2)
+    within: Any = logsumexp(of_people, b=np.diff(ends))
+    return np.logaddexp(within, halfnorm.logsf(np.pi / 4, scale=scatter) + log_binomial(same, flips, 1.0))
+
+
+@pytest.mark.parametrize("scatter", [0.2, 0.67, 1.5])
+@pytest.mark.parametrize(
+    ("same", "flips"),
+    [
+        (13_000, 25_000),
+        (20_000, 25_000),
+        (24_000, 25_000),
+        (24_990, 25_000),
+        (25_000, 25_000),
+        (1600, 2000),
+        (990_000, 1_000_000),
+    ],
+)
+def test_the_likelihood_of_people_who_wobble_much_is_its_integral(same, flips, scatter):
+    """However wide the scatter, and next to 45°, where p comes to 1 with an infinite slope."""
+    found = log_likelihoods(Flips(same=[same], flips=[flips]), WOBBLING, np.array([scatter]))
+    assert found[0] == pytest.approx(log_integral_over_the_angle(scatter, same, flips), abs=1e-4)
+
+
+def test_the_likelihood_of_people_who_wobble_much_has_one_peak():
+    flips = Flips(same=[20_000, 22_000, 13_000, 24_000], flips=[25_000] * 4)
+    scatters = np.radians(np.arange(15, 90))
+    found = [log_likelihoods(flips, WOBBLING, np.array([scatter])).sum() for scatter in scatters]
+    assert np.count_nonzero(np.diff(np.sign(np.diff(found)))) == 1
+    assert np.degrees(scatters[np.argmax(found)]) == pytest.approx(38.4, abs=1)
 
 
 def test_counts_of_a_simulated_probability_are_beta_binomial():
