@@ -123,12 +123,12 @@ def _counts(cells: Mapping[str, tuple[str, str]], n: int) -> tuple[int, int]:
         cells: name of the column and cell, by key.
         n: number of the row.
     """
-    count = {key: _whole(*named, n) for key, named in cells.items() if key != "start"}
+    count = {key: whole(*named, n) for key, named in cells.items() if key != "start"}
     if "start" in cells:
         name, cell = cells["start"]
-        side = _SIDES.get(cell[:1].lower())
-        if side is None:
-            raise ObservationError(f"column {name}: row {n} is {cell!r}, accepted: heads or tails")
+        side = _SIDES.get(cell.lower(), cell.lower())
+        if side not in _SIDES.values():
+            raise ObservationError(f"column {name}: row {n} is {cell!r}, accepted: heads, tails, h or t")
         return count[side], count["heads"] + count["tails"]
     if PAIRS[0] in count:
         return count["heads to heads"] + count["tails to tails"], sum(count.values())
@@ -141,11 +141,19 @@ def _counts(cells: Mapping[str, tuple[str, str]], n: int) -> tuple[int, int]:
     return same, flips
 
 
-def _whole(name: str, cell: str, n: int) -> int:
+def whole(name: str, cell: str, n: int) -> int:
+    """Return a count; refuse one with a point or a comma, which may stand between thousands.
+
+    Args:
+        name: of the column.
+        cell: that has it.
+        n: number of the row.
+    """
     try:
-        number = float(cell)
+        number = -1.0 if "." in cell else float(cell)
     except ValueError:
         number = -1.0
     if not (number >= 0 and number % 1 == 0):
-        raise ObservationError(f"column {name}: row {n} is {cell!r}, accepted: a whole number from 0")
+        accepted = "a whole number from 0, without a point or a comma"
+        raise ObservationError(f"column {name}: row {n} is {cell!r}, accepted: {accepted}")
     return int(number)

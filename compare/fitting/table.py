@@ -15,7 +15,7 @@ from cointoss.compare.fitting.edges import Edges
 from cointoss.compare.fitting.errors import ObservationError, ValueRefusedError
 from cointoss.compare.fitting.flips import Flips
 from cointoss.compare.fitting.flips_table import ACCEPTED as COUNTS
-from cointoss.compare.fitting.flips_table import flips_of, is_of_flips, key_of
+from cointoss.compare.fitting.flips_table import flips_of, is_of_flips, key_of, whole
 from cointoss.compare.fitting.observed import LEAST_SD, Observed
 from cointoss.compare.sweep.axes import number
 from cointoss.compare.sweep.errors import SweepError
@@ -36,6 +36,8 @@ NAMES = {
     "sd_attitude": (("sd_tilt", "sd_theta", "sd_e", "sd_attitude"), "rad"),
 }
 """Columns: the names accepted, in any case, each perhaps with a unit in brackets, and the unit without."""
+OF_EDGES = {"thickness": "thickness", "edge": "edge", "flips": "tosses"}
+"""What a table of edges has, by what counts of flips call it."""
 DEVIATIONS = {"time": "s", "height": "m", "attitude": "rad"}
 """What has a standard deviation, and its unit."""
 EULER = ("e0", "e1", "e2", "e3")
@@ -183,15 +185,13 @@ def _seen(rows: list[list[str]], sd: Mapping[str, float]) -> Seen:
 def _edges_of(head: Sequence[str], keys: Sequence[str | None], rows: Sequence[Sequence[str]]) -> Edges:
     """Return the counts of edges of a table, by thickness."""
     require_whole_rows(rows, len(head), len(head))
-    arrays = {
-        name: Heading.of(head[keys.index(key)]).numbers([row[keys.index(key)] for row in rows], unit)
-        for name, key, unit in (
-            ("thickness", "thickness", "m"),
-            ("edge", "edge", ""),
-            ("tosses", "flips", ""),
-        )
+    at = {key: keys.index(key) for key in OF_EDGES}
+    counts = {
+        key: [whole(head[at[key]], row[at[key]], n) for n, row in enumerate(rows, start=1)]
+        for key in ("edge", "flips")
     }
-    return Edges(**arrays)
+    thickness = Heading.of(head[at["thickness"]]).numbers([row[at["thickness"]] for row in rows], "m")
+    return Edges(thickness=thickness, edge=counts["edge"], tosses=counts["flips"])
 
 
 def _columns(headings: Sequence[Heading]) -> dict[str, tuple[int, Heading]]:
