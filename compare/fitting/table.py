@@ -17,6 +17,7 @@ from cointoss.compare.fitting.flips import Flips
 from cointoss.compare.fitting.flips_table import ACCEPTED as COUNTS
 from cointoss.compare.fitting.flips_table import flips_of, is_of_flips, key_of, whole
 from cointoss.compare.fitting.observed import LEAST_SD, Observed
+from cointoss.compare.output.language import listed
 from cointoss.compare.sweep.axes import number
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.errors import FieldError, shown
@@ -158,12 +159,15 @@ def _deviations(given: Mapping[str, float | str]) -> dict[str, float]:
 
 def _seen(rows: list[list[str]], sd: Mapping[str, float]) -> Seen:
     for at, row in enumerate(rows[:BEFORE_HEADER]):
-        if is_of_flips(row):
+        keys = [key_of(name) for name in row]
+        if "thickness" in keys and {"edge", "flips"} & set(keys):
+            for name, value in sd.items():
+                raise FieldError(name.replace("_", ".", 1), value, "none for counts of edges")
+            return _edges_of(row, keys, rows[at + 1 :])
+        if is_of_flips(row) and not _is_of_a_toss(row):
             for name, value in sd.items():
                 raise FieldError(name.replace("_", ".", 1), value, "none for counts of flips")
-            keys = [key_of(name) for name in row]
-            of_edges = {"thickness", "edge", "flips"} <= set(keys)
-            return _edges_of(row, keys, rows[at + 1 :]) if of_edges else flips_of(row, rows[at + 1 :])
+            return flips_of(row, rows[at + 1 :])
         headings, below = [Heading.of(cell) for cell in row], rows[at + 1 :]
         in_one_row = [i for i, heading in enumerate(headings) if _IN_ONE_ROW.fullmatch(heading.name)]
         if in_one_row:
@@ -182,8 +186,17 @@ def _seen(rows: list[list[str]], sd: Mapping[str, float]) -> Seen:
     raise ObservationError(f"no column of times; accepted: {ACCEPTED}; or of counts of flips: {COUNTS}")
 
 
+def _is_of_a_toss(names: Sequence[str]) -> bool:
+    """Return whether these are the columns of a film, or of numbered touches."""
+    headings = [Heading.of(name) for name in names]
+    keys = {"height" if heading.name.lower() == "y" else heading.key for heading in headings}
+    return "time" in keys and bool(keys & {"touch", "height", "tilt", *EULER})
+
+
 def _edges_of(head: Sequence[str], keys: Sequence[str | None], rows: Sequence[Sequence[str]]) -> Edges:
     """Return the counts of edges of a table, by thickness."""
+    if missing := [name for key, name in OF_EDGES.items() if key not in keys]:
+        raise ObservationError(f"no column {missing[0]}; accepted: {listed(OF_EDGES.values())}")
     require_whole_rows(rows, len(head), len(head))
     at = {key: keys.index(key) for key in OF_EDGES}
     counts = {

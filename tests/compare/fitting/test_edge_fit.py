@@ -121,6 +121,8 @@ def test_the_command_reads_a_table_of_edges(tmp_path, monkeypatch):
         ("thickness,edge,n\n0.01,,3\n", "column edge: row 1 is '', accepted: a whole number from 0"),
         ("thickness;edge;n\n0,01;1;5,000\n", "column n: row 1 is '5.000', accepted: a whole number"),
         ("thickness,edge,n\n", "Edges: 0 thicknesses, accepted: from 1"),
+        ("thickness (mm),edge\n6,3\n", "no column tosses; accepted: thickness, edge and tosses"),
+        ("thickness (mm),N\n6,3\n", "no column edge; accepted: thickness, edge and tosses"),
         ("edge,n\n1,3\n", "column edge: accepted: thickness, edge and tosses, or none"),
     ],
 )

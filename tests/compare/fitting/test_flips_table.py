@@ -5,6 +5,7 @@ import pytest
 from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.fitting.flips import MOST_FLIPS, Flips
 from cointoss.compare.fitting.flips_table import PAIRS, key_of
+from cointoss.compare.fitting.observed import Observed
 from cointoss.compare.fitting.table import read_seen
 from cointoss.models.unused import UnusedFieldWarning
 
@@ -101,6 +102,16 @@ def test_what_no_counts_are_is_refused(read, text, message):
         read(text)
     assert message in str(refused.value)
     assert "\n" not in str(refused.value)
+
+
+@pytest.mark.filterwarnings("ignore::cointoss.models.unused.UnusedFieldWarning")
+@pytest.mark.parametrize("head", ["t,z,heads,tails", "time (s),y,n,same", "t,touch,n,same"])
+def test_a_table_of_times_and_heights_is_a_films(read, head):
+    seen = read(
+        f"{head}\n0.1,1,1,2\n0.2,2,1,2\n",
+        {"time": "1 ms", "height": "1 mm"} if "h," not in head else {"time": "1 ms"},
+    )
+    assert isinstance(seen, Observed)
 
 
 def test_counts_have_no_standard_deviation(read):
