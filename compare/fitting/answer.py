@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from cointoss.compare.fitting.edge_fit import EdgeFit
 from cointoss.compare.fitting.fit import Fit, Fitted
 from cointoss.compare.output.answer import counted
 from cointoss.models.records import Face
@@ -38,8 +39,14 @@ def _value(each: Fitted) -> str:
     if each.interval is None:
         return value
     low, high = each.interval
-    end = "  at the end of its span" if each.at_end else "  cut at the end of its span" if each.is_cut else ""
-    return f"{value}  99 % [{low:.7g}, {high:.7g}]{end}"
+    return f"{value}  99 % [{low:.7g}, {high:.7g}]{end_of(each)}"
+
+
+def end_of(each: Fitted | EdgeFit) -> str:
+    """Return that a value, or its interval, ends where its span does; empty where neither does."""
+    return (
+        "  at the end of its span" if each.at_end else "  cut at the end of its span" if each.is_cut else ""
+    )
 
 
 def _seen(fit: Fit) -> str:

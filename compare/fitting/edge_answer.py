@@ -2,6 +2,7 @@
 
 import math
 
+from cointoss.compare.fitting.answer import end_of
 from cointoss.compare.fitting.edge_fit import EdgeFit
 from cointoss.compare.metrics.estimates import in_words, share_of
 
@@ -10,7 +11,7 @@ def as_lines(found: EdgeFit) -> str:
     """Return a fit of edges as text."""
     value, low, high = found.value.ends
     unit = f" [{found.span.printed_unit}]" if found.span.unit else ""
-    interval = f"  99 % [{low:.4g}, {high:.4g}]" if math.isfinite(low) else ""
+    interval = f"  99 % [{low:.4g}, {high:.4g}]{end_of(found)}" if math.isfinite(low) else ""
     seen = found.edges
     counts = zip(seen.thickness * 1000, seen.edge.tolist(), seen.tosses.tolist(), found.shares, strict=True)
     rows = [
@@ -18,4 +19,8 @@ def as_lines(found: EdgeFit) -> str:
         for mm, edge, tosses, share in counts
     ]
     head = "thickness [mm]  tosses  edge seen [%]       fitted [%]"
-    return "\n".join([f"{found.span.field}{unit}  {value:.4g}{interval}", found.verdict, "", head, *rows])
+    left = (
+        f"left out    {100 * found.left_out:.2g} % of the tosses: they end neither on a face nor on the edge"
+    )
+    verdict = [found.verdict, left] if found.left_out else [found.verdict]
+    return "\n".join([f"{found.span.field}{unit}  {value:.4g}{interval}", *verdict, "", head, *rows])

@@ -26,6 +26,7 @@ VALUES = 9
 TRIED = 401
 """Values of the field at which the likelihood is looked at."""
 _FIELDS = {name: unit for name, unit in FIELDS.items() if name not in (*HAND, "coin.thickness")}
+_LYING = (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE)
 _EXAMPLE = '{"floor.restitution": (0.1, 0.6)}'
 
 
@@ -41,8 +42,20 @@ class EdgeFit:
     """Simulated shares of the edge at this value, (n,)."""
     chi_square: float
     """Sum of the squares of the residuals, in standard deviations of counts and simulation."""
+    left_out: float
+    """Share of the simulated tosses that end neither on a face nor on the edge; they count nowhere."""
     scenario: Scenario
     """The scenario with this value."""
+
+    @property
+    def at_end(self) -> bool:
+        """Whether the value is at an end of its span, where the true one may be outside."""
+        return self.span.ends_at(self.value.value)
+
+    @property
+    def is_cut(self) -> bool:
+        """Whether the interval ends where its span does, and may go on outside."""
+        return any(map(self.span.ends_at, self.value.ends[1:]))
 
     @property
     def degrees(self) -> int:
@@ -72,11 +85,20 @@ class EdgeFit:
         """Return it in the form of `cointoss fit --json`, which has null for what is NaN."""
         value, low, high = self.value.ends
         return {
-            "values": {self.span.field: {"value": value, "interval": [low, high], "unit": self.span.unit}},
+            "values": {
+                self.span.field: {
+                    "value": value,
+                    "interval": [low, high],
+                    "unit": self.span.unit,
+                    "at_end": self.at_end,
+                    "cut": self.is_cut,
+                }
+            },
             "thickness": self.edges.thickness.tolist(),
             "edge": self.edges.edge.tolist(),
             "tosses_seen": self.edges.tosses.tolist(),
             "share": self.shares.tolist(),
+            "left_out": self.left_out,
             "chi_square": self.chi_square,
             "degrees": self.degrees,
             "p_value": self.p_value,
@@ -102,7 +124,7 @@ def fit_edges(
         raise SweepError(f"vary: {1 + len(others)} fields; accepted: one, of counts of edges")
     tossed = np.linspace(min(span.start, span.stop), max(span.start, span.stop), VALUES)
     usual = Hand.people(up="either") if hand is None else hand
-    met, made = np.empty((2, len(edges.thickness), VALUES))
+    met, made, left = np.empty((3, len(edges.thickness), VALUES))
     for n, thickness in enumerate(edges.thickness.tolist()):
         coin = scenario.replace("coin.thickness", thickness)
         ranges = {span.field: (tossed[0], tossed[-1], VALUES)}
@@ -110,7 +132,13 @@ def fit_edges(
         if not counted.attrs["complete"]:
             raise KeyboardInterrupt
         met[n] = counted["count"].sel(outcome=str(Outcome.EDGE))
-        made[n] = counted["count"].sum("outcome")
+        made[n] = counted["count"].sel(outcome=[str(one) for one in _LYING]).sum("outcome")
+        left[n] = counted["count"].sum("outcome") - made[n]
+    if not made.all():
+        accepted = "values and thicknesses of which some do"
+        raise SweepError(
+            f"{span.field}: of one value no toss ends on a face or the edge; accepted: {accepted}"
+        )
     each = (met + 1 / 2) / (made + 1)
 
     def likelihood(values: Array) -> Array:
@@ -126,6 +154,7 @@ def fit_edges(
         span=span,
         value=Estimate(value, low, high, int(edges.tosses.sum())),
         shares=share,
+        left_out=float(left.sum() / (made + left).sum()),
         chi_square=chi_square,
         scenario=scenario.replace(span.field, value),
     )

@@ -32,8 +32,6 @@ from cointoss.models.records import Array, Toss
 from cointoss.models.scenario import Scenario
 
 STARTS, MOST_STARTS = 2048, 1 << 20
-AT_END = 1e-6
-"""A value nearer to an end of its span than this part of it is at the end."""
 MOST_FIELDS = 12
 """The most free fields; more are not found from one toss."""
 FIELDS = {CLOCK: "s"} | {
@@ -62,12 +60,12 @@ class Fitted:
     @property
     def at_end(self) -> bool:
         """Whether the value is at an end of its span, where the true one may be outside."""
-        return _is_at_end(self.value, self.span)
+        return self.span.ends_at(self.value)
 
     @property
     def is_cut(self) -> bool:
         """Whether the interval ends where its span does, and may go on outside."""
-        return any(_is_at_end(end, self.span) for end in self.interval or ())
+        return any(map(self.span.ends_at, self.interval or ()))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -347,7 +345,3 @@ def _fit_of(misfit: Misfit, minimum: Minimum, ends: Array) -> Fit:
         clock=float(misfit.clock_of(minimum.values[None])[0]),
         others=(),
     )
-
-
-def _is_at_end(value: float, span: Span) -> bool:
-    return min(abs(value - span.start), abs(value - span.stop)) < AT_END * abs(span.stop - span.start)

@@ -46,6 +46,10 @@ class Span:
         """Its unit as a person writes it."""
         return printed_unit(self.unit)
 
+    def ends_at(self, value: float) -> bool:
+        """Return whether a value is nearer to one of its ends than a millionth of it."""
+        return min(abs(value - self.start), abs(value - self.stop)) < 1e-6 * abs(self.stop - self.start)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Axis(Span):

@@ -11,6 +11,7 @@ from scipy.stats import binom, chi2
 
 from cointoss import EdgeFit, Edges, Hand, fit, shares
 from cointoss.compare.fitting import edge_fit
+from cointoss.compare.fitting.edge_answer import as_lines
 from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.fitting.table import read_seen
 from cointoss.compare.sweep.errors import SweepError
@@ -25,22 +26,27 @@ COIN = Scenario(
 SPAN = {"restitution": (0.1, 0.5)}
 
 
-@pytest.fixture
-def linear(monkeypatch):
-    """Coins whose share of the edge is 40 times the thickness less the restitution."""
+def counting(perpetual=0.0):
+    """Coins whose share of the edge is 40 times the thickness less the restitution; some go on for ever."""
 
     def counted(coin, ranges, tosses, **_):
         ((field, (start, stop, count)),) = ranges.items()
         values = np.linspace(start, stop, count)
         edge = np.round(tosses * (40 * coin.coin.thickness - values))
-        counts = np.stack([tosses - edge, edge], axis=-1)
+        forever = np.full(count, tosses * perpetual)
+        counts = np.stack([tosses - edge, np.zeros(count), edge, forever], axis=-1)
         return xr.Dataset(
             {"count": ((field, "outcome"), counts)},
-            {field: values, "outcome": ["heads", "edge"]},
+            {field: values, "outcome": ["heads", "tails", "edge", "perpetual"]},
             {"complete": 1},
         )
 
-    monkeypatch.setattr(edge_fit, "shares", counted)
+    return counted
+
+
+@pytest.fixture
+def linear(monkeypatch):
+    monkeypatch.setattr(edge_fit, "shares", counting())
 
 
 @pytest.mark.usefixtures("linear")
@@ -75,6 +81,35 @@ def test_few_simulated_tosses_widen_the_interval():
     edges = Edges(thickness=[0.02], edge=[500], tosses=[1000])
     wide, narrow = (fit(edges, COIN, SPAN, tosses=tosses).value for tosses in (300, 10**7))
     assert wide.high - wide.low > 1.5 * (narrow.high - narrow.low)
+
+
+def test_tosses_that_end_neither_way_are_left_out_and_told(monkeypatch):
+    edges = Edges(thickness=[0.02], edge=[500], tosses=[1000])
+    monkeypatch.setattr(edge_fit, "shares", counting(perpetual=0.25))
+    found = fit(edges, COIN, SPAN, tosses=10**7)
+    assert found.value.value == pytest.approx(0.3, abs=1e-4)
+    assert found.as_dict()["left_out"] == pytest.approx(0.2)
+    assert "left out    20 % of the tosses" in as_lines(found)
+    monkeypatch.setattr(edge_fit, "shares", lambda *_, **__: counting(1)(COIN, {"z": (0.8, 0.8, 9)}, 0))
+    with pytest.raises(SweepError, match="of one value no toss ends on a face or the edge"):
+        fit(edges, COIN, SPAN)
+
+
+@pytest.mark.usefixtures("linear")
+@pytest.mark.parametrize(
+    ("span", "said"),
+    [
+        ((0.1, 0.5), ""),
+        ((0.1, 0.31), "  cut at the end of its span"),
+        ((0.35, 0.5), "  at the end of its span"),
+    ],
+)
+def test_a_value_or_an_interval_at_the_end_of_its_span_is_marked(span, said):
+    edges = Edges(thickness=[0.02], edge=[500], tosses=[1000])
+    found = fit(edges, COIN, {"restitution": span}, tosses=10**7)
+    assert as_lines(found).splitlines()[0].partition("]")[2] == said
+    told = found.as_dict()["values"]["floor.restitution"]
+    assert (told["at_end"], told["cut"]) == (said.startswith("  at"), bool(said))
 
 
 def test_a_restitution_is_found_again():
