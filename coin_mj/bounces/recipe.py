@@ -176,7 +176,8 @@ def solref(
     require_restitution(restitution)
     require_timestep(timestep)
     known = [item.value for item in Backend]
-    require("backend", backend, backend in known, ", ".join(known))
+    physx = "; physx_bounce has the settings of isaaclab" if backend == "isaaclab" else ""
+    require("backend", backend, backend in known, ", ".join(known) + physx)
     genesis = backend == Backend.GENESIS
     spring = spring or genesis
     require(

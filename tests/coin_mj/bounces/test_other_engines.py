@@ -49,6 +49,10 @@ def test_the_threshold_of_physx_is_what_gravity_adds_in_two_steps():
         (lambda: solref(1, 2e-3, backend="genesis"), "restitution = 1: accepted: .* 0.999 by genesis"),
         (lambda: solref(0, 2e-3, backend="genesis"), "restitution = 0: accepted: .* 0.01 to 1 by a spring"),
         (lambda: solref(0.8, 2e-3, backend="brax"), "accepted: mujoco, mjx, warp, newton, genesis$"),
+        (
+            lambda: solref(0.8, 2e-3, backend="isaaclab"),
+            "genesis; physx_bounce has the settings of isaaclab$",
+        ),
     ],
 )
 def test_what_an_engine_does_not_take_is_refused(make, said):
