@@ -6,6 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cointoss.compare.fitting.errors import ObservationError, ValueRefusedError
+from cointoss.models.errors import shown
+from cointoss.models.records import Array
 
 MOST_PEOPLE = 1000
 MOST_FLIPS = 1_000_000
@@ -32,9 +34,8 @@ class Flips:
         Raises:
             ObservationError: naming the argument, its value and what is accepted.
         """
-        most = np.broadcast_to(np.asarray(flips, dtype=float), np.shape(flips))
-        for name, given, bound in (("flips", flips, MOST_FLIPS), ("same", same, most)):
-            values = np.array(given, dtype=float)
+        most = _numbers("flips", flips)
+        for name, values, bound in (("flips", most, MOST_FLIPS), ("same", _numbers("same", same), most)):
             if values.ndim != 1 or values.shape != most.shape or len(values) > MOST_PEOPLE:
                 accepted = f"one of flips and of same for each of at most {MOST_PEOPLE} people"
                 raise ObservationError(f"Flips.{name}: shape {values.shape}, accepted: {accepted}")
@@ -60,3 +61,12 @@ class Flips:
     def __repr__(self) -> str:
         """Return how many there are."""
         return f"<Flips: {self.same.sum()} of {self.flips.sum()} by {len(self.flips)} people>"
+
+
+def _numbers(name: str, given: ArrayLike) -> Array:
+    """Return an argument's numbers; refuse what has none."""
+    try:
+        return np.array(given, dtype=float)
+    except (TypeError, ValueError):
+        accepted = "whole numbers from 0, one for each person"
+        raise ObservationError(f"Flips.{name}: {shown(given)}, accepted: {accepted}") from None

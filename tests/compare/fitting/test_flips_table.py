@@ -125,6 +125,11 @@ def test_counts_have_no_standard_deviation(read):
         ({"same": [3], "flips": [2]}, r"Flips.same: \[0\] is 3, accepted: a whole number from 0 to 2"),
         ({"same": [1, 1], "flips": [2]}, r"Flips.same: shape \(2,\), accepted: one of flips and of same"),
         ({"same": [1], "flips": [2], "people": ("a", "b")}, "2 names, accepted: 1, one a person"),
+        (
+            {"same": ["a"], "flips": [2]},
+            r"^Flips.same: \['a'\], accepted: whole numbers from 0, one for each",
+        ),
+        ({"same": [1], "flips": [[1], 2]}, r"^Flips.flips: \[\[1\], 2\], accepted: whole numbers from 0"),
         ({"same": [float("nan")], "flips": [2]}, r"Flips.same: \[0\] is nan"),
     ],
 )
