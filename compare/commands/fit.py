@@ -111,7 +111,7 @@ def fit(observed: Path, source: Source | None, asked: SoughtValues) -> None:
     if isinstance(seen, Flips):
         _refuse_options(_OF_A_TOSS, asked, "only with the times of touches or frames of a film")
         if source is None:
-            _refuse_options(_OF_COUNTS, asked, "only with a SCENARIO")
+            _refuse_options((*_OF_COUNTS, "device"), asked, "only with a SCENARIO")
         is_possible = _fit_hand(seen, source, asked)
     else:
         if isinstance(seen, Edges):
@@ -153,13 +153,16 @@ def _fit_hand(flips: "Flips", source: Source | None, asked: SoughtValues) -> boo
         seed=asked.seed,
         device=asked.device,
     )
-    if asked.out is not None:
+    if asked.out is not None and found.is_possible:
         write_text(asked.out, found.hand_toml())
     if asked.json:
         print_json({**found.as_dict(), "seed": asked.seed, "tosses": source and asked.tosses}, "analytic")
     else:
         click.echo(as_lines(found))
-        _echo_files(asked, "hand")
+        if found.is_possible:
+            _echo_files(asked, "hand")
+        elif asked.out is not None:
+            click.echo(f"\nhand        {asked.out} is not written: no hand explains these counts")
     return found.is_possible
 
 

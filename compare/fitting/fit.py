@@ -283,11 +283,20 @@ def fit(
     require_whole("seed", seed, 0, MOST_SEED)
     if isinstance(observed, str | PathLike):
         observed = read_seen(observed, sd)
+    if isinstance(observed, Flips | Edges) and starts != STARTS:
+        raise SweepError(f"starts: {starts}, accepted: only where one toss was seen")
     if isinstance(observed, Flips):
         if vary is not None:
             raise SweepError(f"vary: {shown(vary)}, accepted: none for counts of flips")
-        if scenario is None and hand is not None:
-            raise SweepError("hand: accepted: only with a scenario whose coin it tosses")
+        for name, value, usual in (
+            ("hand", hand, None),
+            ("tosses", tosses, TOSSES),
+            ("device", device, Device.CPU),
+        ):
+            if scenario is None and value != usual:
+                raise SweepError(
+                    f"{name}: {shown(value)}, accepted: only with a scenario whose coin is tossed"
+                )
         described = None if scenario is None else scenario_of(scenario)
         return fit_flips(observed, described, hand=hand, tosses=tosses, seed=seed, device=device)
     if not isinstance(observed, Observed | Edges):

@@ -2,6 +2,7 @@
 
 import json
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -181,8 +182,11 @@ def test_the_command_answers_as_python(counts):
 
 def test_the_command_ends_with_1_where_no_wobble_explains_it(counts, tmp_path):
     (tmp_path / counts).write_text("same,flips\n300,1000\n", encoding="utf-8")
-    answered = cointoss("fit", counts, "--json")
+    told = cointoss("fit", counts, "--out", "found.toml")
+    assert "found.toml is not written: no hand explains these counts" in told.stdout
+    answered = cointoss("fit", counts, "--json", "--out", "found.toml")
     assert answered.exit_code == 1
+    assert not (tmp_path / "found.toml").exists()
     assert json.loads(answered.stdout)["people"][0]["psi"] == {
         "value": math.pi / 2,
         "low": None,
@@ -190,10 +194,22 @@ def test_the_command_ends_with_1_where_no_wobble_explains_it(counts, tmp_path):
     }
 
 
+def test_the_command_refuses_a_device_that_tosses_nothing(counts):
+    answered = cointoss("fit", counts, "--device", "auto")
+    assert answered.exit_code == 2
+    assert "--device auto: accepted: only with a SCENARIO" in answered.stderr
+
+
 def test_python_refuses_what_counts_have_no_use_for():
     flips = Flips(same=[1], flips=[2])
     with pytest.raises(SweepError, match=r"vary: .*accepted: none for counts of flips"):
         fit(flips, "fig24a", {"z": (0, 1)})  # pyright: ignore[reportCallIssue, reportArgumentType]
-    with pytest.raises(SweepError, match="hand: accepted: only with a scenario"):
-        fit(flips, hand=Hand())
+    unused: dict[str, Any] = {"hand": Hand(), "tosses": 7, "device": "cuda"}
+    for name, value in unused.items():
+        with pytest.raises(
+            SweepError, match=f"^{name}: .*accepted: only with a scenario whose coin is tossed"
+        ):
+            fit(flips, **{name: value})
+    with pytest.raises(SweepError, match=r"^starts: 7, accepted: only where one toss was seen"):
+        fit(flips, starts=7)  # pyright: ignore[reportCallIssue]
     assert isinstance(fit(flips), HandFit)
