@@ -37,7 +37,9 @@ class PairRest:
     drift: float
     """The mean speed along the other's surface, under the model's gravity as it is [m/s]."""
     rocking: float
-    """The largest angle between two attitudes, without turns about the normal [rad]."""
+    """The largest angle between two attitudes, without turns about the normal [rad]; 0 where it rolls."""
+    rolls: bool
+    """Whether it turns and moves on along the other, rather than to and fro."""
     slope: float
     """The slope on which `slip` was measured: tangential over normal gravity; 0 where it was not."""
     slip: float
@@ -84,16 +86,19 @@ def rest_between(pair: Pair) -> PairRest | str:
     heights, times = places @ normal, EVERY * dt * np.arange(len(poses))
     rise, start = np.polyfit(times, heights, 1)
     hop = float(np.ptp(heights - rise * times - start))
-    along = places[-1] - places[0]
-    drift = float(np.linalg.norm(along - along @ normal * normal))
+    steps = np.diff(places - heights[:, None] * normal, axis=0)
+    drift, path = float(np.linalg.norm(steps.sum(axis=0))), float(np.linalg.norm(steps, axis=1).sum())
     rocking = _rocking(np.array([pose.attitude for pose in poses]), normal)
+    turns = rocking * pair.size > still
+    rolls = turns and drift > max(still, path / 2)
     slope = _slope(pair) if max(hop, drift) <= still else 0.0
     return PairRest(
         depth=float(np.mean([pose.depth for pose in poses])),
         hop=hop if hop > still else 0.0,
         sinking=-float(rise) if abs(rise) * times[-1] > still else 0.0,
         drift=drift / float(times[-1]) if drift > still else 0.0,
-        rocking=rocking if rocking * pair.size > still else 0.0,
+        rocking=rocking if turns and not rolls else 0.0,
+        rolls=rolls,
         slope=slope,
         slip=_slip(pair, slope) if slope else math.nan,
     )

@@ -13,7 +13,7 @@ def rest_lines(found: PairBounce) -> str:
         [
             f"rest        {_rest(rest)}",
             f"creep       {_creep(rest, found)}",
-            f"rocking     {f'leans to and fro by up to {rest.rocking:.2g} rad' if rest.rocking else 'none'}",
+            f"rocking     {_rocking(rest)}",
         ]
     )
 
@@ -23,12 +23,19 @@ def _rest(rest: PairRest) -> str:
         return f"never still: it hops on, by {1e6 * rest.hop:.3g} um"
     if rest.sinking:
         return f"sinks {1e6 * rest.sinking:.3g} um/s"
-    return f"lies still, {1e6 * rest.depth:.3g} um deep"
+    does = "rolls away" if rest.rolls else "moves along the other geom" if rest.drift else "lies still"
+    return f"{does}, {1e6 * rest.depth:.3g} um deep"
+
+
+def _rocking(rest: PairRest) -> str:
+    if rest.rocking:
+        return f"leans to and fro by up to {rest.rocking:.2g} rad"
+    return "none, but it turns as it rolls" if rest.rolls else "none"
 
 
 def _creep(rest: PairRest, found: PairBounce) -> str:
     if rest.drift:
-        return f"moves along the other geom at {1e6 * rest.drift:.3g} um/s"
+        return f"{1e6 * rest.drift:.3g} um/s along the other geom"
     if rest.slope:
         slope = (
             f"on a slope of {rest.slope:g} the points that touch slip at {1e6 * rest.slip:.2g} um/s, "

@@ -3,10 +3,12 @@
 import numpy as np
 import pytest
 
+from cointoss.coin_mj import bounce
 from cointoss.coin_mj.bounces.approach import Pair
 from cointoss.coin_mj.bounces.pair_rest import PairRest, rest_between
 from cointoss.coin_mj.bounces.recipe import recipe_of
 from cointoss.coin_mj.bounces.unlogged import unlogged
+from cointoss.compare.output.rest_lines import rest_lines
 from tests.helpers.two_geoms import DT, FLOOR, HARD, SET, ball, model
 
 ROUGH = f'{HARD.geom} condim="3" priority="1"'
@@ -73,8 +75,21 @@ def test_a_ball_whose_mass_centre_is_off_its_middle_rocks():
     tumbler = ball(ROUGH).replace(
         "<geom", '<inertial pos="0.02 0 -0.05" mass="1" diaginertia="0.004 0.004 0.004"/><geom'
     )
-    rocking = rest(FLOOR + tumbler).rocking
-    assert np.arctan2(0.02, 0.05) < rocking < 1
+    lying = rest(FLOOR + tumbler)
+    assert np.arctan2(0.02, 0.05) < lying.rocking < 1
+    assert not lying.rolls
+
+
+def test_what_rolls_or_creeps_down_a_slope_does_not_lie_still():
+    tilted = FLOOR.replace("/>", ' euler="0 10 0"/>')
+    rolling, creeping = (bounce(model(tilted + body), "b", "a") for body in (ball(ROUGH), BOX.format(ROUGH)))
+    assert isinstance(rolling.rest, PairRest)
+    assert (rolling.rest.rolls, rolling.rest.rocking) == (True, 0)
+    assert rolling.rest.drift > 1
+    assert "rest        rolls away, " in rest_lines(rolling)
+    assert "none, but it turns" in rest_lines(rolling)
+    assert "rest        moves along the other geom, " in rest_lines(creeping)
+    assert rest_lines(creeping).endswith("rocking     none")
 
 
 @pytest.mark.parametrize(
