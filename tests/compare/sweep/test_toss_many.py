@@ -235,8 +235,8 @@ def test_rows_of_another_form_are_refused_or_taken():
     assert np.array_equal(analytic.toss_rows(rows[::-1]).end_time, due[::-1])
     assert np.array_equal(analytic.toss_rows(np.asfortranarray(rows)).end_time, due)
     for engine in (analytic, coin_mj):
-        with pytest.raises(ValueError, match=r"rows: shape \(6, 46\), accepted: \(n, 47\)"):
-            engine.toss_rows(rows[:, :46])
+        with pytest.raises(ValueError, match=r"rows: shape \(6, 53\), accepted: \(n, 54\)"):
+            engine.toss_rows(rows[:, :53])
         with pytest.raises(ValueError, match=r"answers: shape \(3, 7\), accepted"):
             engine.toss_rows(rows, answers=np.empty((3, 7)))
 
