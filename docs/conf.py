@@ -16,7 +16,7 @@ author = copyright = "The cointoss authors"
 version = release = cointoss.__version__
 root_doc = "index"
 extensions = ["myst_nb", "sphinx_design", "sphinx.ext.autodoc", "docstrings", "pages", "figures"]
-exclude_patterns = ["extensions", "paper", "templates", "**.ipynb"]
+exclude_patterns = ["extensions", "made", "paper", "templates", "**.ipynb"]
 # Quotes stay as they are written.
 smartquotes_action = "D"
 nitpicky = True

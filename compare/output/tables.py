@@ -31,14 +31,12 @@ def paragraphs(*blocks: str) -> str:
     return "\n\n".join(filter(None, blocks))
 
 
-def folded(text: str, folder: str) -> str:
-    """Return Markdown in which each long table is folded under its first heading, with a link to its file.
+def folded(text: str) -> str:
+    """Return Markdown in which each long table is folded under its first heading.
 
-    Args:
-        text: Markdown.
-        folder: of the files named in `sheets`, relative to the page.
+    Each has a link to its file of `sheets`, which lies beside the page.
     """
-    return "\n\n".join(_folded(block, f"{folder}/{name}") if name else block for block, name in _named(text))
+    return "\n\n".join(_folded(block, name) if name else block for block, name in _named(text))
 
 
 def sheets(text: str) -> dict[str, str]:

@@ -18,7 +18,7 @@ BY = "law | analytic | MuJoCo, spring | MuJoCo, one step | native cone, spring |
 
 
 def blocks(out: Path) -> dict[str, str]:
-    """Return the tables by the names of their places on the page; `out` has all that was reproduced."""
+    """Return the tables by the names of their files; `out` has all that was reproduced."""
     return {"laws": laws(out), "ports": ports(out)}
 
 

@@ -15,7 +15,7 @@ from cointoss.compare.conform.case import cases
 from cointoss.compare.output.style import GREY, PALE, STYLE
 from cointoss.study import table
 
-PAGE, PICTURE = "OTHER_ENGINES.md", "other_engines.png"
+PICTURE = "other_engines.png"
 LEVELS = (0.0, 0.01, 0.1, 1.0)
 """Errors at which the colour changes; the last is for all above."""
 COLORS = ("#cfe8dc", "#fff3c9", "#fbd9b4", "#f4b6a6")
@@ -33,7 +33,7 @@ def cards(adapters: Path) -> list[dict[str, Any]]:
 
 
 def blocks(docs: Path) -> dict[str, str]:
-    """Return the tables by the names of their places on the page."""
+    """Return the tables by the names of their files."""
     known = cards(docs.parent / "adapters")
     return {
         "errors": errors(known),

@@ -17,10 +17,12 @@ NOTEBOOK = re.compile(r"\[([^\]]+)\]\(([^)\s]+\.ipynb)\)")
 
 
 def read(_app: Sphinx, docname: str, source: list[str]) -> None:
-    """Change the text of a page before it is parsed; the page of verdicts gets a page for each figure."""
+    """Change the text of a page before it is parsed; the page of verdicts has those of all figures and studies below it."""
     text = NOTEBOOK.sub(r"{download}`\1 <\2>`", source[0]).replace("](../README.md", "](OVERVIEW.md")
     if docname == "REPRODUCTION":
-        names = [f"{runner.find(name).paper} <reproduction/{name}/index>" for name in gallery.of_paper()]
+        places = {name: runner.find(name).paper for name in gallery.of_paper()}
+        places |= {name: f"Study {name}" for name in runner.names() if name not in places}
+        names = [f"{place} <reproduction/{name}/index>" for name, place in places.items()]
         text = "\n".join([text, "```{toctree}", ":hidden:", "", *names, "```", ""])
     source[0] = text
 

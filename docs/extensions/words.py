@@ -36,7 +36,9 @@ def counted(docs: Path) -> dict[Path, int]:
     """Return the words of README and of each page below docs/ that a person wrote."""
     pages = [docs.parent / "README.md", *sorted(docs.rglob("*.md"))]
     return {
-        page: words(page.read_text(encoding="utf-8")) for page in pages if "reproduction" not in page.parts
+        page: words(page.read_text(encoding="utf-8"))
+        for page in pages
+        if not {"made", "reproduction"} & set(page.parts)
     }
 
 

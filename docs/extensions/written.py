@@ -1,6 +1,5 @@
 """Write what docs/ holds that is made of other files, as `make pages` does; nothing is computed."""
 
-import re
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -19,16 +18,11 @@ from cointoss_reproduction.frame.files import PAGE, SHEETS, folder_of
 DOCS = Path(__file__).parents[1]
 
 
-def fill(path: Path, blocks: Mapping[str, str]) -> None:
-    """Write the blocks of a page, by the names of their places, where it has these."""
-    page = written = path.read_text(encoding="utf-8")
+def write_blocks(folder: Path, blocks: Mapping[str, str]) -> None:
+    """Write blocks of Markdown, by the names of their files, which pages include."""
+    folder.mkdir(exist_ok=True)
     for name, block in blocks.items():
-        place = rf"(<!-- written by: make pages, {name} -->\n).*?(\n<!-- end -->\n)"
-        written = re.sub(
-            place, lambda found, new=block: f"{found[1]}\n{new}\n{found[2]}", written, flags=re.DOTALL
-        )
-    if written != page:
-        write_text(path, written)
+        write_text(folder / f"{name}.md", f"{block}\n")
 
 
 def write_results(out: Path) -> None:
@@ -40,7 +34,6 @@ def write_results(out: Path) -> None:
             with written_together(folder, ("claims.json", PAGE, *SHEETS)) as aside:
                 (aside / "claims.json").write_text(to_json(result.claims), encoding="utf-8")
                 pages.write(aside, name, runner.find(name), result)
-            pages.write_blocks(out, name, result)
     gallery.write(out, gallery.of_paper(), quick=False)
 
 
@@ -67,9 +60,8 @@ def notebook_of(page: Path) -> str:
 def write(docs: Path) -> None:
     """Write all of it."""
     write_results(docs)
-    fill(docs / "GALLERY.md", {"figures": figures()})
-    fill(docs / engines.PAGE, engines.blocks(docs))
-    fill(docs / others.PAGE, others.blocks(docs))
+    blocks = {"figures": figures()} | engines.blocks(docs) | others.blocks(docs)
+    write_blocks(docs / "made", blocks)
     others.draw(docs)
     benchmarks.draw(docs)
     (docs / "house.svg").write_text(pictures.house(), encoding="utf-8")

@@ -1,6 +1,5 @@
 """A study run, what it says of a table, and what a page of docs/ shows of it."""
 
-import re
 import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -56,12 +55,6 @@ def result_of(study: str, cells: pd.DataFrame) -> Result:
 def missed(study: str, cells: pd.DataFrame) -> tuple[str, ...]:
     """Return the claims of a study that found these cells whose verdict is not the known one."""
     return unexpected(result_of(study, cells).claims)
-
-
-def pictures(page: str, study: str) -> set[str]:
-    """Return the names of a study's pictures that a page shows."""
-    text = (DOCS / page).read_text(encoding="utf-8")
-    return set(re.findall(rf"\]\(reproduction/{study}/([\w-]+\.png)\)", text))
 
 
 def saved(study: str) -> Path:

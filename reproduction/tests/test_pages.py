@@ -1,6 +1,4 @@
-"""What pages show of results: claims unfold, long tables fold, with CSV beside; docs/ shows what was kept."""
-
-import re
+"""The pages of results: long tables fold, with CSV beside; docs/ shows what was kept."""
 
 import pytest
 
@@ -8,43 +6,31 @@ from cointoss.compare.output.tables import OPEN, table
 from cointoss_reproduction.frame import pages, runner
 from cointoss_reproduction.frame.claim import Claim, Criterion, unexpected
 from cointoss_reproduction.frame.result import Result
-from saved import DOCS, pictures, saved
+from saved import DOCS, saved
 
-WRITTEN = {
-    name
-    for page in DOCS.glob("*.md")
-    for name in re.findall(
-        r"^<!-- written by: cointoss reproduce ([\w-]+) -->", page.read_text(encoding="utf-8"), re.MULTILINE
-    )
-}
 KEPT = [name for name in runner.names() if runner.is_whole(name, DOCS)]
+STUDIES = [name for name in KEPT if not runner.find(name).paper]
 
 
-def test_results_are_written_into_the_pages_that_have_a_place_for_them(tmp_path):
-    place = "# A\n\n<!-- written by: cointoss reproduce {} -->\n\n{}\n\n<!-- end -->\n\nB\n"
-    (tmp_path / "a.md").write_text(place.format("one", "old\n\nold") + place.format("two", "old"))
+def test_the_page_of_a_study_shows_its_tables_and_claims(tmp_path):
     claim = Claim(claim="1 < 2", criteria=[Criterion("one [m]", 1, "<", 2, "it <is> so")])
     long = table(["coin", "tosses"], [["thin", f"{n}"] for n in range(OPEN + 1)])
-    result = Result(claims=[claim], data={}, tables=long)
-    pages.write_blocks(tmp_path, "one", result)
-    block = pages.block_of("one", result)
-    assert (tmp_path / "a.md").read_text() == place.format("one", block) + place.format("two", "old")
-    assert "](reproduction/one/table-1.csv)" in block
-    assert "1 &lt; 2" in block
+    found = runner.find("rotor")
+    pages.write(tmp_path, "one", found, Result(claims=[claim], data={}, tables=long))
+    page = (tmp_path / "index.md").read_text(encoding="utf-8")
+    assert page.startswith("# Study one: 1 &lt; 2\n")
+    assert "](table-1.csv)" in page
+    assert (tmp_path / "table-1.csv").exists()
+    assert page.index("| thin |") < page.index("## holds: 1 &lt; 2")
 
 
-def test_every_study_that_was_kept_has_a_place_on_a_page_and_only_those():
-    of_project = {name for name in KEPT if not runner.find(name).paper}
-    # ENGINES has a table of its own of what mujoco-laws finds; edge, of the paper, has a page of its own.
-    assert WRITTEN == of_project - {"mujoco-laws"} | {"edge"}
-
-
-@pytest.mark.parametrize("name", sorted(WRITTEN))
-def test_the_verdicts_of_a_kept_study_are_the_known_ones_and_a_page_shows_its_pictures(name):
+@pytest.mark.parametrize("name", STUDIES)
+def test_the_verdicts_of_a_kept_study_are_the_known_ones_and_a_page_leads_to_them(name):
     assert unexpected(runner.kept(name, DOCS).claims) == ()
-    drawn = {f"{picture}.png" for picture in runner.find(name).draw}
-    assert drawn in [pictures(page.name, name) for page in DOCS.glob("*.md")]
-    assert all((saved(name) / picture).stat().st_size < 150_000 for picture in drawn)
+    texts = [page.read_text(encoding="utf-8") for page in DOCS.glob("*.md")]
+    assert any(f"](reproduction/{name}/index.md)" in text for text in texts)
+    drawn = [saved(name) / f"{picture}.png" for picture in runner.find(name).draw]
+    assert all(picture.stat().st_size < 150_000 for picture in drawn)
 
 
 @pytest.mark.parametrize("name", KEPT)
@@ -58,7 +44,3 @@ def test_docs_shows_what_was_kept(name, tmp_path):
     }
     for path in tmp_path.iterdir():
         assert (there / path.name).read_text(encoding="utf-8") == path.read_text(encoding="utf-8")
-    if name in WRITTEN:
-        texts = [page.read_text(encoding="utf-8") for page in DOCS.glob("*.md")]
-        block = f"reproduce {name} -->\n\n{pages.block_of(name, result)}\n\n<!-- end -->\n"
-        assert sum(text.count(block) for text in texts) == 1

@@ -10,7 +10,9 @@ import pytest
 TOP = Path(__file__).parents[2]
 DOCS, SITE = TOP / "docs", TOP / "out" / "site"
 SOURCES = sorted(
-    path for path in DOCS.rglob("*.md") if path.name != "OVERVIEW.md" and path.parent.name != "paper"
+    path
+    for path in DOCS.rglob("*.md")
+    if path.name != "OVERVIEW.md" and path.parent.name not in ("made", "paper")
 )
 MARKUP = re.compile(
     r"""

@@ -1,4 +1,4 @@
-"""What `make pages` writes: blocks in their places alone, and the notebooks of the site's pages."""
+"""What `make pages` writes: blocks that pages include, and the notebooks of the site's pages."""
 
 import re
 import sys
@@ -13,13 +13,15 @@ sys.path.append(str(DOCS / "extensions"))
 written = import_module("written")
 
 
-@pytest.mark.parametrize("old", ["\nold\n", ""])
-def test_blocks_are_written_into_their_places_alone(tmp_path, old):
-    page = tmp_path / "page.md"
-    place = "A\n\n<!-- written by: make pages, laws -->\n{}\n<!-- end -->\n\nB\n\n<!-- end -->\n"
-    page.write_text(place.format(old))
-    written.fill(page, {"laws": "new\\1", "ports": "elsewhere"})
-    assert page.read_text() == place.format("\nnew\\1\n")
+def test_every_block_that_is_written_is_included_by_one_page(tmp_path):
+    included = re.findall(
+        r"^```\{include\} made/(\w+)\.md$",
+        "".join(page.read_text(encoding="utf-8") for page in DOCS.glob("*.md")),
+        re.MULTILINE,
+    )
+    assert sorted(included) == sorted(path.stem for path in (DOCS / "made").glob("*.md"))
+    written.write_blocks(tmp_path / "made", {"laws": "a", "ports": "b"})
+    assert (tmp_path / "made" / "ports.md").read_text(encoding="utf-8") == "b\n"
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)

@@ -2,13 +2,13 @@
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from pathlib import Path
 
-from cointoss.study import folded, sheets, table, unfolding, write_text
+from cointoss.study import folded, sheets, table, unfolding
 from cointoss_reproduction.frame.claim import VERDICTS, Claim
-from cointoss_reproduction.frame.files import PAGE, folder_of
+from cointoss_reproduction.frame.files import PAGE
 from cointoss_reproduction.frame.result import Reproduction, Result
 
 MOST_IN_TITLE = 100
@@ -19,29 +19,29 @@ _PLURAL = {True: "hold", False: "do not hold", None: "cannot be tested"}
 
 
 def write(folder: Path, name: str, found: Reproduction, result: Result, *, quick: bool = False) -> None:
-    """Write the page of a figure of the paper, and the long tables of every result, into its folder."""
+    """Write the page of a figure or a study, and its long tables, into its folder."""
     for sheet, text in sheets(result.tables).items():
         (folder / sheet).write_text(text, encoding="utf-8")
-    if found.paper:
-        (folder / PAGE).write_text(page_of(name, found, result, quick=quick), encoding="utf-8")
+    (folder / PAGE).write_text(page_of(name, found, result, quick=quick), encoding="utf-8")
 
 
 def page_of(name: str, found: Reproduction, result: Result, *, quick: bool = False) -> str:
-    """Return the page of a figure of the paper, which lies beside its pictures.
+    """Return the page of a figure or a study, which lies beside its pictures.
 
     Args:
-        name: of the figure.
+        name: of the figure or study.
         found: what can be reproduced.
         result: what a run found.
         quick: whether it was made at its quick size.
     """
     return "\n\n".join(
         [
-            f"# {found.paper}: {_decided_first(result.claims) or found.title}",
+            f"# {found.paper or f'Study {name}'}: {_decided_first(result.claims) or found.title}",
             f"*{found.title[0].upper()}{found.title[1:]}.*",
             *(f"![{found.title}]({picture}.png)" for picture in found.draw),
             *([f"**Assumed.** {found.assumed}"] if found.assumed else []),
-            claims_of(result.claims, are_apart=True),
+            *filter(None, [folded(result.tables)]),
+            *_claims(result.claims),
             "One command computes this page again:",
             f"    cointoss reproduce {name} {'--quick ' if quick else ''}--out docs",
             "[All figures and claims](../../REPRODUCTION.md)\n",
@@ -49,49 +49,17 @@ def page_of(name: str, found: Reproduction, result: Result, *, quick: bool = Fal
     )
 
 
-def block_of(name: str, result: Result) -> str:
-    """Return what a page in the folder of all that is reproduced shows of a study."""
-    tables = folded(result.tables, folder_of(name, Path()).as_posix())
-    return "\n\n".join([*filter(None, [tables]), claims_of(result.claims, are_apart=False)])
-
-
-def write_blocks(out: Path, name: str, result: Result) -> None:
-    """Write a study's results into the pages in `out` that have a place for them.
-
-    Raises:
-        UnwritableError: naming the page and why.
-    """
-    place = rf"(<!-- written by: cointoss reproduce {name} -->\n).*?(\n<!-- end -->\n)"
-    block = f"\n{block_of(name, result)}\n"
-    for path in sorted(out.glob("*.md")):
-        page = path.read_text(encoding="utf-8")
-        written = re.sub(place, lambda found: found[1] + block + found[2], page, flags=re.DOTALL)
-        if written != page:
-            write_text(path, written)
-
-
-def claims_of(claims: Sequence[Claim], *, are_apart: bool) -> str:
-    """Return the claims and their verdicts, with what decides them.
-
-    Args:
-        claims: of one figure or study.
-        are_apart: whether each has a heading, and what decides it below; else all that folds together.
-    """
+def _claims(claims: Sequence[Claim]) -> Iterator[str]:
+    """Yield the claims and their verdicts, each with a heading, and what decides them below it."""
     made, kept = ([claim for claim in claims if claim.regression is flag] for flag in (False, True))
     heads = {
         f"**Claims:** {verdicts_of(made)}.": made,
         "**Regression tests:** written after their numbers, so that a change is seen.": kept,
     }
-    shown = {head: group for head, group in heads.items() if group}
-    parts = []
-    for head, group in shown.items():
-        if are_apart:
-            parts.append(head)
-            parts += [f"## {_sentence(one)}\n\n{_measured(one, is_folded=False)}" for one in group]
-        else:
-            parts += [head, "\n".join(f"- {_sentence(one)}" for one in group)]
-    measured = [f"**{_sentence(one)}**\n\n{_measured(one, is_folded=True)}" for one in (*made, *kept)]
-    return "\n\n".join(parts if are_apart else [*parts, unfolding("What was measured", *measured)])
+    for head, group in heads.items():
+        if group:
+            yield head
+            yield from (f"## {_sentence(claim)}\n\n{_measured(claim)}" for claim in group)
 
 
 def verdicts_of(claims: Iterable[Claim]) -> str:
@@ -128,12 +96,12 @@ def _escaped(text: str) -> str:
     return escape(text, quote=False)
 
 
-def _measured(claim: Claim, *, is_folded: bool) -> str:
-    """Return what decides a claim, a long table being folded unless all of it `is_folded`."""
+def _measured(claim: Claim) -> str:
+    """Return what decides a claim; a long table is folded."""
     told = {"Analytic": claim.analytic, "MuJoCo": claim.mujoco, "Open": claim.wanted or "-"}
     words = "\n".join(_listed(who, what) for who, what in told.items() if what != "-")
     rows = [[each.quantity, each.value, each.accepted, each.reason] for each in claim.criteria]
     criteria = table(["measured", "found", "threshold", "its reason"], rows, words=True) if rows else ""
-    if len(rows) > MOST_ROWS and not is_folded:
+    if len(rows) > MOST_ROWS:
         criteria = unfolding(f"{len(rows)} measured quantities", criteria)
     return "\n\n".join(filter(None, [words, criteria]))
