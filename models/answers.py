@@ -1,4 +1,4 @@
-"""What many tosses answer: how each ended, as arrays of codes and numbers."""
+"""The results of many tosses: how each ended, as arrays of codes and numbers."""
 
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
@@ -13,22 +13,22 @@ from cointoss.models.rows import NOT_TOSSED as NOT_TOSSED
 from cointoss.models.rows import REFUSED as REFUSED
 
 Trust = Literal["impacts", "certain"]
-"""How many impacts of a toss can be trusted; or that, and whether its outcome is certain."""
+"""What `trust` asks for: the number of trusted impacts, or also whether the outcome is certain."""
 ANSWER = ("outcome", "ending", "impacts", "last_face", "end_time", "trusted_impacts", "outcome_certain")
-"""Columns of what compiled code answers of a toss; -1 where that was not asked for."""
+"""The columns of the results that compiled code writes; -1 in a column that was not asked for."""
 _MISSING = {NOT_TOSSED: "not_tossed", REFUSED: "refused"}
 
 
 @dataclass(frozen=True, kw_only=True)
 class AnswerColumn:
-    """What one of the answers is: its type, and its attributes in a dataset."""
+    """A column of the results: its type, and its attributes in a dataset."""
 
     kind: type[np.generic]
     attributes: dict[str, Any]
     words: dict[int, str] | None = None
-    """What its codes mean; None for numbers."""
+    """The meaning of each code; None for a column of numbers."""
     missing: float = NOT_TOSSED
-    """What it holds where no toss was made."""
+    """The value in a row whose toss was not made."""
 
 
 def _worded(name: str, words: dict[int, str]) -> AnswerColumn:
@@ -49,11 +49,11 @@ COLUMNS = {
         kind=np.int8, attributes={"long_name": "whether the engine's own errors can't change the outcome"}
     ),
 }
-"""Of the answers, by name, in the order of `ANSWER`."""
+"""The columns of the results by name, in the order of `ANSWER`."""
 
 
 def names_of(trust: Trust | None) -> tuple[str, ...]:
-    """Return the names of the answers that there are where this is asked for."""
+    """Return the names of the columns that tosses with this `trust` have."""
     return ANSWER[: {None: 5, "impacts": 6, "certain": 7}[trust]]
 
 
@@ -63,21 +63,21 @@ class Answers(NamedTuple):
     outcome: NDArray[np.int8]
     """`Outcome`, or `NOT_TOSSED` or `REFUSED`, (n,)."""
     ending: NDArray[np.int8]
-    """`Ending`, or likewise, (n,)."""
+    """`Ending`, or `NOT_TOSSED` or `REFUSED`, (n,)."""
     impacts: NDArray[np.int32]
     """Number of impacts, (n,)."""
     last_face: NDArray[np.int8]
     """The `Face` up at the last touch, (n,); 0 where there was none."""
     end_time: Array
-    """When the toss stopped, (n,) [s]; NaN where there is none."""
+    """The time at which the toss stopped, (n,) [s]; NaN where no toss was made."""
     trusted_impacts: NDArray[np.int32] | None = None
-    """How many of the leading impacts can be trusted, (n,); None where that was not asked for."""
+    """The number of leading impacts that can be trusted, (n,); None if not asked for."""
     outcome_certain: NDArray[np.int8] | None = None
-    """1 where the engine's own errors can't change the outcome, else 0, (n,); None where not asked for."""
+    """1 if the engine's own errors can't change the outcome, else 0, (n,); None if not asked for."""
 
     @classmethod
     def of_table(cls, table: Array, trust: Trust | None = None) -> "Answers":
-        """Return the answers that compiled code wrote into a table, (n, 7), in the order of `ANSWER`."""
+        """Return the results that compiled code wrote into a table, (n, 7), in the order of `ANSWER`."""
         columns: Any = (table[:, i].astype(COLUMNS[name].kind) for i, name in enumerate(names_of(trust)))
         found = cls(*columns)
         found.end_time[found.outcome < 0] = np.nan
@@ -87,11 +87,12 @@ class Answers(NamedTuple):
         """Return the face at the touch after n impacts, the outcome where the toss ended before, (n,).
 
         Args:
-            impacts: n; 0 for the first touch. The tosses must have been made with n + 1 as `max_impacts`, so
-                that none goes on after that touch.
+            impacts: n; 0 for the first touch. The tosses must have n + 1 as `max_impacts`, so that all stop
+            at that
+                touch.
 
         Raises:
-            ValueError: if a toss went on.
+            ValueError: if a toss has more impacts than n + 1.
         """
         most = int(self.impacts.max(initial=0))
         if most > impacts + 1:
@@ -103,11 +104,11 @@ class Answers(NamedTuple):
 
 
 def unanswered(n: int, table: Array | None = None) -> Array:
-    """Return the table in which compiled code writes the answers of n tosses, (n, 7), none of them made yet.
+    """Return the table for the results of n tosses that are not made yet, (n, 7).
 
     Args:
         n: number of tosses.
-        table: that is used, by default a new one.
+        table: the table to use, by default a new one.
 
     Raises:
         ValueError: for a table of another shape or kind, naming its shape and what is accepted.
@@ -121,5 +122,5 @@ def unanswered(n: int, table: Array | None = None) -> Array:
 
 
 def tally(outcomes: NDArray[np.integer]) -> NDArray[np.int64]:
-    """Return how many of some outcomes there are of each, by the code of `Outcome`, (6,)."""
+    """Return the count of each outcome, by the code of `Outcome`, (6,)."""
     return np.bincount(outcomes.ravel(), minlength=len(Outcome))

@@ -1,4 +1,4 @@
-"""The energy that a coin has, and that which it needs to turn over."""
+"""The energy of a coin, and the energy that it needs to turn over."""
 
 import math
 
@@ -9,9 +9,9 @@ from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector, apply, dot
 from cointoss.models.state import State
 
-# Tilts at which what a coin needs is computed, from just off a face to upright: their sines and cosines.
+# Sines and cosines of the tilts at which the energy needed is computed, from just off a face to upright.
 _COSINES, _SINES = (part[1:].copy() for part in on_circle(4 * 128, 129))
-# A bound times it stays a bound whatever rounding does.
+# A bound times this factor is still a bound after rounding.
 BEYOND_ROUNDING = 1 + 1e-12
 
 
@@ -32,7 +32,7 @@ def energy(body: Body, z: float, v: Vector, w: Vector) -> float:
 
 @compiled
 def energy_without_spin(body: Body, state: State) -> float:
-    """Return the energy without that of horizontal motion and of spin about the normal, eq. (20) [J].
+    """Return the energy less the energies of horizontal motion and of spin about the normal, eq. (20) [J].
 
     Args:
         body: the coin.
@@ -78,7 +78,7 @@ def highest_on_floor(body: Body) -> float:
 def spin_barrier(body: Body, up: Vector, w: Vector) -> float:
     """Bound from below the energy at which a coin on a smooth floor in vacuum can turn over [J].
 
-    It leaves the horizontal motion out, and counts what the conserved spin needs.
+    The bound omits the horizontal motion, and includes the energy of the conserved spin.
 
     Args:
         body: the coin.
@@ -106,7 +106,7 @@ def _top_barrier(body: Body, up: Vector, w: Vector) -> float:
 
     There L_z and L_ζ are conserved, through impacts too, so that at tilt s the coin needs at least
     m g (r sin s + (h/2) cos s) + (L_z - L_ζ cos s)²/(2 J_ξ sin² s), beside L_ζ²/(2 J_ζ). To turn over it
-    must pass every tilt from today's to π/2: the largest over a set of these tilts is needed for sure.
+    must pass every tilt from the present one to π/2, so the largest energy over some of them is a bound.
     """
     J_across, J_normal = body.inertia[0][0], body.inertia[2][2]
     L = apply(body.inertia, w)
@@ -126,8 +126,8 @@ def _top_barrier(body: Body, up: Vector, w: Vector) -> float:
 def _top_bound(body: Body, up: Vector, w: Vector) -> float:
     """Bound `_top_barrier` from above without trying tilts [J].
 
-    What the spin needs has no maximum inside: it is largest at today's tilt, where L_z - L_ζ cos s is the
-    part of L_z across the normal, or upright.
+    The energy of the spin has no maximum between: it is largest at the present tilt, where L_z - L_ζ cos s
+    is the part of L_z across the normal, or upright.
     """
     J = body.inertia
     L = apply(J, w)
@@ -142,8 +142,8 @@ def _general_barrier(body: Body, up: Vector, w: Vector) -> float:
     """Bound from below the energy at which a coin on a smooth floor in vacuum can turn over [J].
 
     Vertical impulses keep L_z, with which the coin has at least the energy L_z²/(2 uᵀ J u), u the upward unit
-    vector in the body frame. To turn over it must pass every tilt from today's to π/2, in some direction:
-    the largest over a set of these tilts, of the least over all directions, is needed for sure.
+    vector in the body frame. To turn over it must pass every tilt from the present one to π/2, in some
+    direction: so the largest, over some of these tilts, of the least energy over all directions is a bound.
     """
     J = body.inertia
     L_z = dot(up, apply(J, w))
@@ -155,7 +155,7 @@ def _general_barrier(body: Body, up: Vector, w: Vector) -> float:
         sine, cosine = _SINES[i], _COSINES[i]
         if sine < today:
             continue
-        # The lowest height and the largest moment of inertia of all directions, each for itself.
+        # The lowest height and the largest moment of inertia over all directions, each taken by itself.
         z = (body.radius - c_across) * sine + (body.thickness / 2 + upper * body.center[2]) * cosine
         moment = J_across * sine * sine + J[2][2] * cosine * cosine
         moment += 2 * sine * cosine * math.hypot(J[0][2], J[1][2])

@@ -30,12 +30,12 @@ _INERTIA = [PLACE[field] for field in FIELDS if field.startswith("coin.inertia."
 
 
 def rows_of(scenario: Scenario, n: int, changed: Mapping[str, ArrayLike] | None = None) -> Array:
-    """Return n copies of a scenario as rows, some of whose fields have other values, (n, 54).
+    """Return n copies of a scenario as rows, with other values of some fields, (n, 54).
 
-    The angles and the quaternion of a release replace each other. Nothing is checked, see `refused`.
+    The angles and the quaternion of a release replace each other. `refused` checks the rows; this does not.
 
     Args:
-        scenario: what is copied.
+        scenario: the scenario to copy.
         n: number of copies.
         changed: values by field, numbers in SI or the integers of words, (n,) each or one for all.
     """
@@ -81,7 +81,7 @@ def states_of(rows: Array) -> Array:
 
 
 def scenario_of_row(row: Array) -> Scenario:
-    """Return the scenario of a row, checked as that of a file is.
+    """Return the scenario of a row, checked like a scenario file.
 
     Raises:
         ScenarioError: naming field, value and what is accepted.
@@ -102,7 +102,7 @@ def _as_given(field: str, value: float) -> float | int | str:
 
 
 def _put(tables: dict[str, object], place: tuple[str | int, ...], value: object) -> None:
-    """Put a value into its place in tables and lists, which are made where they are missing."""
+    """Put a value into its place in tables and lists, creating those that are missing."""
     node: dict[str | int, object] = tables  # pyright: ignore[reportAssignmentType]
     for step in place[:-1]:
         node = node.setdefault(step, {})  # pyright: ignore[reportAssignmentType]
@@ -123,11 +123,11 @@ MOST = np.array([ends.get("le", math.inf) for ends in _ENDS])
 
 
 def refused(rows: Array, changed: Collection[str]) -> NDArray[np.bool_]:
-    """Return which rows are no scenario, (n,).
+    """Return which rows are not valid scenarios, (n,).
 
     Args:
-        rows: of a scenario, but for some fields, (n, 54).
-        changed: these fields, whose numbers may be any.
+        rows: copies of a scenario with some fields changed, (n, 54).
+        changed: the changed fields, which may have any numbers.
     """
     wrong = np.zeros(len(rows), dtype=bool)
     for field in changed:

@@ -15,9 +15,9 @@ class AirLaw(NamedTuple):
     """The air's resistance: the force on dA is -λ |v|^b v; see `cointoss.models.scenario.Air`."""
 
     exponent: float | None
-    """b, from 0 to 1; None or 0 in vacuum as for b = 0. To numba None is a type of its own: linear air is
-    compiled apart. Beside the quadrature that b > 0 needs, it would not be inlined, and every toss slower.
-    MuJoCo's coin has 0 instead, and is compiled once for all air."""
+    """b, from 0 to 1; None or 0 for linear air and for vacuum. To numba None is a type of its own, so the
+    analytic engine compiles linear air apart from the quadrature for b > 0, which would prevent inlining and
+    slow every toss. MuJoCo's coin has 0 instead, and is compiled once for all air."""
     normal: float
     """λ_n [kg m^(-2-b) s^(b-1)]."""
     tangential: float
@@ -25,7 +25,7 @@ class AirLaw(NamedTuple):
 
 
 class Body(NamedTuple):
-    """What the equations of motion and of impact need to know of a scenario; SI units, body frame."""
+    """The numbers of a scenario that the equations of motion and of impact need; SI units, body frame."""
 
     mass: float
     radius: float
@@ -39,9 +39,9 @@ class Body(NamedTuple):
     inertia_largest: float
     air: AirLaw
     drag: Drag
-    """The coefficients of linear air; they are used where `is_linear`."""
+    """The coefficients of linear air; used if `is_linear`."""
     sliding_share: float
-    """The share of `cointoss.models.drag.sliding_share`; it is used where `drag` is."""
+    """The share `cointoss.models.drag.sliding_share`; used if `drag` is."""
     gravity: float
     """The part of g along the floor's normal, downwards [m/s²]."""
     downhill: float
@@ -52,16 +52,16 @@ class OwnCode(NamedTuple):
     """A contact law of one's own, as compiled code calls it."""
 
     address: int
-    """The address of its machine code, see `cointoss.models.kernel.address`; 0 where there is none."""
+    """The address of the law's machine code, see `cointoss.models.kernel.address`; 0 for no such law."""
     may_add_energy: bool
     may_pull: bool
     """Whether S_z may be negative."""
     tolerance: float
-    """The error of the law's impulses, at most, against |S|, |K S| and |S| |v_A|."""
+    """The largest error of the law's impulses, relative to |S|, |K S| and |S| |v_A|."""
 
 
 EXACT = 1e-10
-"""The tolerance of a law that errs by rounding: an impulse that solves K S = v_A' - v_A is good to less."""
+"""The tolerance of a law that errs only by rounding; solving K S = v_A' - v_A has a smaller error."""
 NO_CODE = OwnCode(0, False, False, EXACT)
 
 
@@ -83,12 +83,12 @@ class Rules(NamedTuple):
     contour_friction: float
     contour_viscosity: float
     viscosity: float
-    """Of the air in the gap under a nearly flat coin [Pa s]."""
+    """η of the air in the gap under a nearly flat coin [Pa s]."""
     test: Annotated[EndingTest, int]
     max_impacts: int
     max_time: float
     caught: float
-    """Height at which the toss ends as C comes down to it; infinite where it is not caught."""
+    """Height of the catch, at which the toss ends when C comes down to it; infinite without a catch."""
 
 
 def _replacing(name: str) -> Callable[[Rules, Any], Rules]:
@@ -134,7 +134,7 @@ def with_floor(rules: Rules, chi: float, mu: float) -> Rules:
 
 @compiled
 def never_adds_energy(rules: Rules) -> bool:
-    """Return whether no impact adds energy: by proof, or as each is checked, of an exact law of one's own."""
+    """Return whether no impact adds energy: proved, or for an exact law of one's own checked each time."""
     if rules.own.address != 0:
         return not rules.own.may_add_energy and rules.own.tolerance <= EXACT
     return never_adds(rules.law) or rules.restitution_kind == RestitutionKind.ENERGETIC
@@ -149,7 +149,7 @@ def resists(rules: Rules) -> bool:
 
 @compiled
 def whole_gravity(body: Body) -> float:
-    """Return g, of both parts [m/s²]."""
+    """Return g, from its two components [m/s²]."""
     return body.gravity if body.downhill == 0 else math.hypot(body.gravity, body.downhill)
 
 
@@ -157,8 +157,8 @@ def whole_gravity(body: Body) -> float:
 def slope_feeds(body: Body, smooth: bool) -> bool:
     """Return whether a slope may give energy to the motion that turns the coin over.
 
-    On a smooth floor in vacuum nothing but the slope acts along the floor: the motion of C there is that of a
-    stone, and all other motion is that over a level floor with the normal part of gravity.
+    On a smooth floor in vacuum only the slope acts along the floor. There C accelerates steadily downhill,
+    and all other motion is as on a level floor with the normal part of gravity.
 
     Args:
         body: the coin.
@@ -189,7 +189,7 @@ def is_ideal(body: Body) -> bool:
 
 @compiled
 def is_linear(air: AirLaw) -> bool:
-    """Return whether the air's force is linear in the velocity, or none."""
+    """Return whether the air's force is linear in the velocity, or zero."""
     return air.exponent is None or air.exponent == 0
 
 

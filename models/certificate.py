@@ -1,8 +1,8 @@
-"""What a toss measures of itself: the residuals of its impacts, the energy of its flights and contacts.
+"""The certificate of a toss: the residuals of its impacts, and the energy of its flights and contacts.
 
-Both engines measure by the same functions, from the record and the path alone; none of them solves an impact
-or integrates a motion. Of sustained contacts the gap is measured and the energy that they gain, none on a
-passive floor, and not the work of friction in them.
+Both engines measure by the same functions, from the record and the path alone; these functions solve no
+impact and integrate no motion. In sustained contacts they measure the gap and the energy gained, which is
+zero on a passive floor, but not the work of friction.
 """
 
 from collections.abc import Callable
@@ -31,13 +31,13 @@ NORM = "largest deviation of the norm of the Euler parameters from 1"
 GAP = "smallest gap, at impacts, sampled in flight and in sustained contacts"
 OF_ENERGY = (IMPACT_ENERGY, FLIGHT_ENERGY, CONTACT_ENERGY)
 NAMES = (LAW, MOMENTUM, *OF_ENERGY, GAIN, NORM, GAP)
-"""The lines of a certificate that are measured."""
+"""The names of the measured lines of a certificate."""
 FLIGHTS = 10
-"""Flights that are sampled: the longest ones. The energy of every flight in vacuum is measured without it."""
+"""The number of flights that are sampled, the longest ones. In vacuum their energy needs no samples."""
 VACUUM_SAMPLES = 4
 """Samples of a flight in vacuum; in air, where they are also the nodes of a quadrature, there are
 `AIR_SAMPLES` and two more for each radian of turn, at most `MOST_SAMPLES`. The energy of a flight that would
-need more of them, for its turning or for the drag that slows it many times over, is not measured."""
+need more samples, because it turns often or drag slows it many times over, is not measured."""
 AIR_SAMPLES = 20
 MOST_SAMPLES = 200
 
@@ -46,7 +46,7 @@ Air = Callable[[Body, Vector, Vector], tuple[Vector, Vector]]
 
 
 class InContact(NamedTuple):
-    """What an engine finds of the sustained contacts of a toss."""
+    """An engine's measurements of the sustained contacts of a toss."""
 
     energies: Array
     """The energies at start and end of stretches of sustained contact, (n, 2) [J]."""
@@ -63,16 +63,16 @@ def measurements(
     air: Air,
     residuals: Array | None = None,
 ) -> tuple[Setting, ...]:
-    """Return what is measured of a toss, one line each; what did not happen has none.
+    """Return the measured lines of a toss's certificate, without lines for events that did not occur.
 
     Args:
-        scenario: what was tossed.
-        impacts: its impacts.
+        scenario: the scenario of the toss.
+        impacts: the impacts of the toss.
         contacts: start and end of every sustained contact, (n, 2) [s].
-        in_contact: energies and gaps there.
-        path: its path.
-        air: of the engine; measured where b > 0.
-        residuals: of a contact law of one's own, (n,), in place of those of the scenario's.
+        in_contact: energies and gaps in the contacts.
+        path: the path of the toss.
+        air: the engine's force of the air, which is measured if b > 0.
+        residuals: of a contact law of one's own, (n,), in place of the residuals by the scenario's law.
     """
     body = scenario.body
     if residuals is None:
@@ -109,7 +109,7 @@ def measurements(
 
 
 def law_residuals(body: Body, rules: Rules, impacts: Impacts) -> Array:
-    """Return by how much each impact misses its contact law, (n,).
+    """Return how far each impact violates its contact law, (n,).
 
     Velocities relative to |v_A| before the impact, impulses relative to |S|. Newton's v_Az' = -χ v_Az, χ by
     the speed of approach, or with energetic restitution that no energy is gained, and the law's own
@@ -134,7 +134,7 @@ def law_residuals(body: Body, rules: Rules, impacts: Impacts) -> Array:
 
 
 def restitution_residuals(rules: Rules, impacts: Impacts) -> Array:
-    """Return by how much the normal velocity of the contact point misses Newton's law, (n,).
+    """Return how far the normal velocity of the contact point violates Newton's law, (n,).
 
     Relative to the change (1 + χ)|v_Az| that the law asks for: on a smooth floor that is the relative error
     of an impulse that acts at the contact point. `law_residuals` takes it relative to |v_A|, which fast slip
@@ -179,16 +179,16 @@ def gaps(body: Body, states: States) -> Array:
 
 
 def energies(body: Body, states: States) -> Array:
-    """Return the mechanical energy of each of the states, of height over the floor alone, (n,) [J]."""
+    """Return the mechanical energy of each state, with height measured from the floor only, (n,) [J]."""
     v, w = states.velocity, states.angular_velocity
     turning = _dot(w, w @ np.array(body.inertia))
     return body.mass * (_dot(v, v) / 2 + body.gravity * states.position[:, 2]) + turning / 2
 
 
 def conserved_energies(body: Body, states: States) -> Array:
-    """Return the energy of each of the states with that of its place along a slope, (n,) [J].
+    """Return the energy of each state, including its potential energy along a slope, (n,) [J].
 
-    It is zero at rest with C on the floor at x = 0. Nothing but the air and the floor's friction changes it.
+    It is zero at rest with C on the floor at x = 0. Only the air and the floor's friction change it.
     """
     return energies(body, states) - body.mass * body.downhill * states.position[:, 0]
 

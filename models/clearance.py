@@ -1,4 +1,4 @@
-"""How long a flying coin surely stays clear of the floor: bounds on its motion over a time."""
+"""Bounds on the motion of a flying coin, and a time during which it certainly stays clear of the floor."""
 
 import math
 from typing import NamedTuple
@@ -140,7 +140,7 @@ def acceleration_bounds(body: Body, v: Vector, up: Vector, w: Vector, window: fl
 
 @compiled
 def clear_time(body: Body, z: float, v: Vector, up: Vector, w: Vector, window: float) -> float:
-    """Return a time during which a flying coin surely does not reach the floor [s].
+    """Return a time during which a flying coin certainly does not reach the floor [s].
 
     The rim of the face at ζ = ±h/2, whose centre is at height q, is clear while F = q² - r² (1 - n_z²) > 0.
     F has no kinks, and F'' >= -K with K = 2 q_max (bound on -q'') + 2 r² (bound on |n_z''|); so F stays
@@ -178,7 +178,7 @@ def clear_time(body: Body, z: float, v: Vector, up: Vector, w: Vector, window: f
 
 @compiled
 def useful_window(body: Body, v: Vector, w: Vector, window: float) -> float:
-    """Return a window no longer than half of the drag's own time: beyond, bounds are too wide."""
+    """Return a window of at most half the drag's time constant; in longer windows the bounds are too wide."""
     rate = damping_rate(body, v, w, window)
     return 0.5 / rate if rate * window > 0.5 else window
 
@@ -187,7 +187,7 @@ def useful_window(body: Body, v: Vector, w: Vector, window: float) -> float:
 def first_root(F: float, rate: float, K: float) -> float:
     """Return the positive root of F + rate t - K t²/2, or 0 where F = 0 falls; F >= 0 and K > 0."""
     root = (rate * rate + 2 * K * F) ** 0.5
-    # Of its two forms, each sign of the rate takes the one without cancellation.
+    # Each sign of the rate uses that form of the root which has no cancellation.
     if rate > 0:
         return (rate + root) / K
     return 2 * F / (root - rate) if F > 0 else 0.0
@@ -206,11 +206,11 @@ def grazing_time(body: Body, v: Vector, up: Vector, w: Vector, sink: float) -> t
         v: velocity of C, space frame, (3,) [m/s].
         up: the upward unit vector in the body frame, Rᵀ z, (3,).
         w: angular velocity, body frame, (3,) [rad/s].
-        sink: by how much each of the three may lower the gap [m].
+        sink: by how much the acceleration and each of the two kinks may lower the gap [m].
 
     Returns:
         time: the time [s].
-        acceleration: the largest downward acceleration of the gap in it, but for the passing of 0 [m/s²].
+        acceleration: the largest downward acceleration of the gap in that time, apart from the kinks [m/s²].
     """
     bounds = acceleration_bounds(body, v, up, w, 0.0)
     acceleration = bounds.of_height + body.radius * bounds.of_normal

@@ -33,9 +33,9 @@ from cointoss.models.records import Ending, Face, Outcome
 from cointoss.models.state import State
 
 REST_WAIT = 60.0
-"""A coin is followed for at most so long after its toss until it is at rest [s]: some never are."""
-# What is left of the energy of tilting, against m g r, in a coin that lies flat; and in one that lies still
-# to the eye, where that is waited for.
+"""The longest time for which a coin is followed after its toss [s]: some coins never come to rest."""
+# The largest energy of tilting, relative to m g r, of a coin that counts as flat; and of a coin that looks
+# still, for the test "lying".
 WOBBLE, STILL = 1e-9, 1e-3
 
 
@@ -68,7 +68,7 @@ def classify_ending(
 
 @compiled
 def cannot_be_caught(body: Body, rules: Rules, state: State) -> bool:
-    """Return whether the coin is to be caught at a height to which its energy can never lift it.
+    """Return whether the energy of the coin can never lift it to the height of its catch.
 
     On a slope nothing bounds the energy, see `slope_feeds`.
 
@@ -85,12 +85,12 @@ def cannot_be_caught(body: Body, rules: Rules, state: State) -> bool:
 
 @compiled
 def unless_caught(rules: Rules, outcome: Outcome, ending: Ending) -> tuple[Outcome, Ending]:
-    """Return how a toss ends: of a coin that is to be caught its face on the floor is not asked for.
+    """Return how a toss ends; if a hand is to catch the coin, its face on the floor is no outcome.
 
     Args:
         rules: floor and ending.
         outcome: in the hand or on the floor.
-        ending: there.
+        ending: the ending with this outcome.
     """
     lies = outcome == Outcome.HEADS or outcome == Outcome.TAILS or outcome == Outcome.EDGE
     if is_to_be_caught(rules) and lies and ending != Ending.CAUGHT:
@@ -102,7 +102,7 @@ def unless_caught(rules: Rules, outcome: Outcome, ending: Ending) -> tuple[Outco
 def endless(body: Body, rules: Rules, state: State, ending: Ending) -> tuple[Outcome, Ending]:
     """Return how a toss ends whose coin goes on for ever without meeting the test of its scenario.
 
-    Where one of the paper's tests never comes true, the face may still be settled.
+    If a test of the paper is never met, the face may still be settled.
 
     Args:
         body: the coin.
@@ -120,7 +120,7 @@ def endless(body: Body, rules: Rules, state: State, ending: Ending) -> tuple[Out
 def out_of_steps(body: Body, rules: Rules, state: State, history: EnergyHistory) -> tuple[Outcome, Ending]:
     """Return how a toss ends whose steps in contact are spent: in a long transient, or undecided.
 
-    Where the test of its scenario has not come true, the face may still be settled.
+    If the test of the scenario is not met, the face may still be settled.
 
     Args:
         body: the coin.
@@ -140,7 +140,7 @@ def out_of_steps(body: Body, rules: Rules, state: State, history: EnergyHistory)
 def followed_until(rules: Rules, ending: Ending, end_time: float, until: float) -> float:
     """Return the time up to which a coin is followed after its toss [s]; `end_time` where it is not.
 
-    It is not where a budget has ended the toss, or a law that goes no further.
+    A coin is not followed if a budget ended the toss, or a contact law that cannot go on.
 
     Args:
         rules: floor and ending.
@@ -203,14 +203,14 @@ def settled_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Endin
     """Return the face that is proved to stay up and why, or the edge; UNDECIDED and NONE where none is.
 
     The energy is below the pass to the other face and the tilt is on this face's side of it. On a smooth
-    floor, energies that cannot lift the coin are left out: in vacuum those of the conserved v_h and L_z, in
-    linear air most of that of v_h, and of a balanced coin that of its spin. A thick coin may also be caught
-    on its edge. docs/ENDINGS.md has the proofs.
+    floor, energies that cannot lift the coin are left out: in vacuum the energies of the conserved v_h and
+    L_z, in linear air most of the energy of v_h, and for a balanced coin the energy of its spin. A thick coin
+    may also be caught on its edge. docs/ENDINGS.md has the proofs.
 
-    On a slope neither the energy nor the spin is bounded, but on a smooth floor in vacuum: see `slope_feeds`.
+    On a slope energy and spin are bounded only on a smooth floor in vacuum: see `slope_feeds`.
 
-    Only the smooth law, `coulomb` with energetic restitution, and a law of one's own that may not, never add
-    energy; for every other the same test ends the toss as `Ending.PAPER`.
+    The smooth law, `coulomb` with energetic restitution, and a law of one's own that is checked for it never
+    add energy. For every other law the same test ends the toss as `Ending.PAPER`.
 
     Args:
         body: the coin.
@@ -232,7 +232,8 @@ def settled_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Endin
             return Outcome.EDGE, ending
     if smooth and in_vacuum(body) and not resists(rules):
         E_turning = E - body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
-        # Off the face's side of the pass a coin may be just upright, within rounding of what it needs.
+        # On the other side of the pass a coin may be just upright, within rounding of the energy that it
+        # needs.
         E_turning += 0.0 if on_face else WOBBLE * body.mass * body.gravity * body.radius
         if not E_turning > spin_barrier_bound(body, up, w) and E_turning < spin_barrier(body, up, w):
             return face, Ending.SETTLED
@@ -245,9 +246,10 @@ def settled_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Endin
 def idle_energy(body: Body, rules: Rules, v: Vector, w: Vector) -> float:
     """Return energy that a coin in air on a smooth floor never turns into height [J].
 
-    (1 - a) m v_h²/2, a the `sliding_share`, 0 in vacuum, and of a balanced coin J_ζ ω_ζ²/2: without them its
-    energy never grows, in linear air; in other air none is known. Where the floor resists rolling or
-    pivoting, its moment turns spin about ζ into other spin, and only the first is left out.
+    In linear air it is (1 - a) m v_h²/2, with a the `sliding_share`, 0 in vacuum, and for a balanced coin
+    also J_ζ ω_ζ²/2: the coin's energy without these never grows. In other air no such energy is known. If the
+    floor resists rolling or pivoting, its moment turns spin about ζ into other spin, and only the first term
+    is returned.
 
     Args:
         body: the coin.
@@ -282,12 +284,11 @@ def _beyond_the_pass(body: Body, up: Vector, tilt_sine: float) -> bool:
 
 @compiled
 def lies(body: Body, rules: Rules, state: State, left: float) -> bool:
-    """Return whether the coin lies flat for good, whatever it has of sliding and of spin about its normal.
+    """Return whether the coin lies flat for good, however fast it slides and spins about its normal.
 
-    What is left of its tilt, of its turning about diameters and of its vertical motion is nothing, and the
-    floor can balance all moments that spin, drag and friction make about diameters by pressing inside the
-    rim. As sliding and spinning never grow, neither do these moments. On a slope they may: see
-    `moments_may_grow`.
+    Its tilt, its turning about diameters and its vertical motion are negligible. The floor can balance all
+    moments that spin, drag and friction make about diameters by pressing inside the rim. Sliding and spinning
+    never grow, so neither do these moments, except on a slope: see `moments_may_grow`.
 
     Args:
         body: the coin.
@@ -303,10 +304,11 @@ def lies(body: Body, rules: Rules, state: State, left: float) -> bool:
         body.mass * (v[2] * v[2] / 2 + body.gravity * abs(z - flat_z)) + dot(across, apply(J, across)) / 2
     )
     weight = body.mass * body.gravity
-    # Upright a coin as thick as wide is as high as flat.
+    # A coin as thick as wide is as high upright as flat.
     if wobble > left * weight * body.radius or not _is_on_face(body, up):
         return False
-    # On a face no law without the floor's friction acts on the slip, and resistance to pivoting on the spin.
+    # On a face, laws without the floor's friction do not act on the slip; resistance to pivoting acts on the
+    # spin.
     mu = rules.friction if uses_friction(rules.law) else 0.0
     feeds = slope_feeds(body, is_smooth(rules.law))
     if not is_followed(rules.law) or (feeds and moments_may_grow(body, mu)):

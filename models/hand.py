@@ -28,26 +28,27 @@ QUANTITIES = {
     "scatter": ("scatter", ""),
     "psi_scatter": ("scatter of ψ", "rad"),
 }
-"""What a person calls the numbers of a hand that may vary, and their SI units in pint's spelling."""
+"""The hand's numbers that may vary, in a person's words, and their SI units in pint's spelling."""
 UPWARDS = ("heads", "either")
-"""Sides that may be up at the release."""
+"""The sides that may be up at the release."""
 MOST = 10_000_000
-"""Releases that are drawn at a time: a gigabyte."""
+"""The number of releases drawn at a time, which take a gigabyte."""
 PEOPLE = math.radians(10.0)
 """Root of the mean square of 90° - ψ over 48 people who flipped 350,757 times [rad].
 
 From the counts of F. Bartoš et al., J. Am. Stat. Assoc. 120 (2025) 2118, by `cointoss reproduce same-side`.
 """
 OF_A_TOSS = ("height", "speed", "caught")
-"""What a coin that is spun on its edge has no use for."""
+"""The fields that a coin spun on its edge does not use."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Hand:
-    """How a hand releases a coin: flat and tossed, or spun on its edge; roughly alike each time.
+    """A hand, which tosses a coin flat or spins it on its edge, with some scatter in each release.
 
-    The normal of a tossed coin keeps the angle ψ to the angular momentum L in flight: at 90° it turns over as
-    Keller's coin does, at less it wobbles (P. Diaconis, S. Holmes, R. Montgomery, SIAM Review 49 (2007) 211).
+    The normal of a tossed coin keeps the angle ψ to the angular momentum L in flight. At 90° the coin turns
+    over as Keller's coin does; at a smaller angle it wobbles (P. Diaconis, S. Holmes, R. Montgomery, SIAM
+    Review 49 (2007) 211).
     A spun coin touches the floor with its rim and turns about the vertical, to which its normal has the
     angle ψ.
     """
@@ -57,15 +58,15 @@ class Hand:
     speed: float = 2.0
     """The speed of C upwards at the release [m/s]."""
     spin: float = 120.0
-    """L/J_ξ, the rate at which the normal goes round L; of a spun coin its angular velocity [rad/s]."""
+    """L/J_ξ, the rate at which the normal goes round L; for a spun coin, its angular velocity [rad/s]."""
     psi: float = math.pi / 2
     """ψ [rad]."""
     scatter: float = 0.1
-    """Standard deviation of height, speed and spin, relative to each."""
+    """Relative standard deviation of height, speed and spin."""
     psi_scatter: float = 0.0
     """Standard deviation of ψ [rad]."""
     up: Literal["heads", "either"] | Word = "heads"
-    """The side that is up at the release; "either": both are as likely."""
+    """The side that is up at the release; "either": both sides are equally likely."""
     spun: bool = False
     """Whether the coin is spun on its edge, not tossed."""
     caught: float | None = None
@@ -73,10 +74,10 @@ class Hand:
 
     @classmethod
     def people(cls, **others: Any) -> "Hand":
-        """Return a hand whose coins wobble as those of people: ψ = 90° ± `PEOPLE`.
+        """Return a hand whose coins wobble as people's coins do: ψ = 90° ± `PEOPLE`.
 
         Args:
-            others: fields that are other than by default.
+            others: fields with other values than the default.
 
         Raises:
             ValueError: naming the field, its value and what is accepted.
@@ -84,7 +85,7 @@ class Hand:
         return cls(psi_scatter=PEOPLE, **others)
 
     def __post_init__(self) -> None:
-        """Refuse what no hand does.
+        """Refuse values that no hand can have.
 
         Raises:
             ValueError: naming the field, its value and what is accepted.
@@ -114,7 +115,7 @@ class Hand:
 
     @property
     def in_words(self) -> str:
-        """What the hand does, for a person."""
+        """A description of the hand, in words."""
         side = "heads up" if self.up == "heads" else "either side up"
         psi = f"ψ = {math.degrees(self.psi):.6g}° ± {math.degrees(self.psi_scatter):.6g}°"
         if self.spun:
@@ -153,7 +154,7 @@ class Hand:
     def states(self, body: Body, rng: np.random.Generator, count: int) -> Array:
         """Draw the states at release, (n, 13): position, velocity, Euler parameters, angular velocity.
 
-        L is as likely to point to any side, and any point of the rim to be the lowest.
+        All horizontal directions of L, and all points of the rim as the lowest, are equally likely.
 
         Args:
             body: the coin.
@@ -207,7 +208,7 @@ class Hand:
         return (rng.random(count) < 1 / 2 if self.up == "either" else np.zeros(count, dtype=bool))[:, None]
 
     def scenario(self, described: Scenario) -> Scenario:
-        """Return a scenario whose coin this hand catches, where it catches any.
+        """Return the scenario with this hand's catch, if the hand catches coins.
 
         Raises:
             ScenarioError: for a catch below the coin, or one of a coin that is spun on its edge.
@@ -261,10 +262,10 @@ def _known() -> str:
 
 
 def same_side_probability(psi: Array | float) -> Array:
-    """Return how likely an ideal coin is caught with the side up that was up at its release.
+    """Return the probability that an ideal coin is caught with the same side up as at its release.
 
-    It was released flat, and turns often: 1/2 + asin(cot² ψ)/π for ψ from 45° to 135°, else 1 (Diaconis,
-    Holmes and Montgomery 2007, theorem 2).
+    For a coin that is released flat and turns many times it is 1/2 + asin(cot² ψ)/π for ψ from 45° to 135°,
+    else 1 (Diaconis, Holmes and Montgomery 2007, theorem 2).
 
     Args:
         psi: ψ, of any shape [rad].

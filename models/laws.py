@@ -16,7 +16,7 @@ class ContactLaw(Word):
 
 
 class EndingTest(Word):
-    """When the face that is up counts as final."""
+    """The test by which the face that is up counts as final."""
 
     RIGOROUS = 1
     """The energy is below the lowest pass to the other face."""
@@ -29,9 +29,9 @@ class EndingTest(Word):
 
 
 class RestitutionKind(Word):
-    """What the restitution χ compares, before and after an impact of the law `coulomb`."""
+    """The quantities that the restitution χ compares, before and after an impact by the law `coulomb`."""
 
     KINEMATIC = 1
     """The normal speeds of A: Newton's v_Az' = -χ v_Az."""
     ENERGETIC = 2
-    """The work of the normal impulse: χ² of that taken in compression is given back (Stronge)."""
+    """The work of the normal impulse: the part χ² of the work of compression is returned (Stronge)."""

@@ -14,14 +14,14 @@ from cointoss.models.laws import EndingTest
 from cointoss.models.records import Array
 from cointoss.models.state import State
 
-# The energy is checked so many √(r/g) after the first sustained contact, then whenever the time since it has
-# doubled.
+# The energy is first checked this many √(r/g) after the first sustained contact, then whenever the time since
+# that contact has doubled.
 FIRST_CHECK = 64.0
-# For ever: so many doublings of √(r/g), which takes a coin on Earth longer than the universe is old.
+# "For ever" is this many doublings of √(r/g): for a coin on Earth, longer than the age of the universe.
 _DOUBLINGS = 64
-# What an engine cannot tell from no loss is never taken for more than this part of the energy.
+# A loss that an engine cannot tell from none counts as at most this part of the energy.
 _LARGEST_NONE = 2e-2
-# So many checks are remembered, of which the last few are enough to tell a loss that does not grow.
+# The number of checks remembered, and of the last ones that suffice to tell a loss that does not grow.
 _REMEMBERED, _FEW = 6, 4
 
 
@@ -64,12 +64,12 @@ def energy_loss_converges(
 ) -> bool:
     """Return whether a coin in vacuum keeps enough energy to turn over for ever, as its losses suggest.
 
-    Where the floor resists rolling or pivoting it never does: a small loss there goes on. Where a slope feeds
-    it nothing is said.
+    Where the floor resists rolling or pivoting, it never does: a small loss continues there. Where a slope
+    feeds the coin, the answer is no.
 
     The energy is checked whenever the time since the first sustained contact has doubled, and `loss_to_come`
-    must leave enough; on a smooth floor, where horizontal velocity and angular momentum about the vertical
-    never change, without the energy of the one and with what the other needs.
+    must leave enough. On a smooth floor the horizontal velocity and the angular momentum about the vertical
+    never change: the energy of the first is left out, and the energy that the second needs is included.
 
     Args:
         body: the coin.
@@ -122,7 +122,7 @@ def loss_to_come(energies: Array, none: float, doublings: float) -> float:
 
     The loss of the last doubling grows in each that comes as it grew at most in the last few; it shrinks
     only where it shrank in all that are remembered. So a coin that loses ever less in the same time loses
-    little. Energy gained is no evidence of anything: the loss to come is infinite.
+    little. If the coin gained energy, the loss to come is infinite.
 
     Args:
         energies: after each doubling up to now, the oldest first, infinite where there was none, (n,) [J].

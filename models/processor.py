@@ -1,4 +1,4 @@
-"""What tosses the rows of a job: the CPU, or a card that hands some of them over to it."""
+"""The processor of a job: the CPU, or a card, which hands some rows over to the CPU."""
 
 import warnings
 from collections.abc import Iterator
@@ -10,12 +10,12 @@ from cointoss.models.kernel import cuda
 from cointoss.models.records import UnsupportedError
 
 LEAST_TOSSES = 1 << 12
-"""Tosses of a job from which on "auto" takes a card."""
+"""The number of tosses in a job from which on "auto" uses a card."""
 
 
 @contextmanager
 def usual(processor: "Processor") -> Iterator[None]:
-    """Let this process toss rows so where no device is named, as while a study is made."""
+    """Set the device that this process uses where none is named, as while a study runs."""
     _usual.append(processor)
     try:
         yield
@@ -30,16 +30,16 @@ class Processor:
     """The device of one job, which counts what a card tossed of it."""
 
     def __init__(self, device: Device | str = Device.CPU) -> None:
-        """Begin with no toss.
+        """Make the processor, which has tossed nothing yet.
 
         Raises:
             ValueError: for another name of a device.
         """
         self.device = Device(device)
         self.card = ""
-        """The name of the card that tossed; empty where none did."""
+        """The name of the card that tossed; empty if no card did."""
         self.tossed, self.handed_over = 0, 0
-        """Tosses that the card was given, and those of them that it handed over to the CPU."""
+        """The number of tosses that the card was given, and the number that it handed over to the CPU."""
         self.failure = ""
         """Why the CPU tosses in place of a card."""
         self._expected = 0
@@ -53,12 +53,12 @@ class Processor:
 
     @property
     def attributes(self) -> dict[str, str | int]:
-        """What a dataset says of it."""
+        """The attributes of a dataset that name the processor."""
         return {"device": self.card or str(Device.CPU), "handed_over": self.handed_over}
 
     @property
     def in_words(self) -> str:
-        """What tossed, for a person."""
+        """The processor, in words."""
         if self.card:
             handed = f"{self.handed_over:,d} of {self.tossed:,d} tosses handed over to the CPU"
             return f"{self.card}, {handed}"
@@ -79,7 +79,7 @@ class Processor:
             raise UnsupportedError(f"`device` cuda: accepted {where}: cpu, auto")
 
     def expect(self, count: int) -> None:
-        """Take the number of tosses of the whole job, which decides whether a card pays."""
+        """Set the number of tosses in the whole job, which decides whether a card pays."""
         self._expected = count
 
     def card_for(self, count: int) -> cuda.GraphicsCard | None:
@@ -106,7 +106,7 @@ class Processor:
         self.tossed, self.handed_over = self.tossed + tossed, self.handed_over + handed_over
 
     def lose(self, error: cuda.CardError) -> None:
-        """Give a card up that failed while it tossed; for the device "auto" the CPU goes on.
+        """Stop using a card that failed; for the device "auto" the CPU continues.
 
         Raises:
             DeviceError: for the device "cuda".

@@ -1,4 +1,4 @@
-"""What a toss gives: its impacts, how it ended, and its path; the same record from both engines."""
+"""The record of a toss, the same for both engines: its impacts, how it ended, and its path."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 _DRAWN = 600
-"""Times at which a path is drawn."""
+"""The number of times at which a path is drawn."""
 _PROVED, _NO_PROOF = "", "by a test that is no proof"
 
 
@@ -51,7 +51,7 @@ class Outcome(Word):
 
     @property
     def is_decided(self) -> bool:
-        """Whether it says what becomes of the coin."""
+        """Whether the outcome is known."""
         return self not in (Outcome.UNDECIDED, Outcome.TRANSIENT)
 
 
@@ -59,9 +59,9 @@ class Ending(Word):
     """Why a toss stopped."""
 
     sentence: str
-    """What the ending means."""
+    """The meaning of the ending, in words."""
     proviso: str
-    """The reserve with which the outcome is said; empty where the ending proves it."""
+    """The reservation about the outcome, in words; empty if the ending proves the outcome."""
 
     def __new__(cls, value: int, sentence: str, proviso: str = "so far") -> "Ending":
         """Make a member of its integer and its words."""
@@ -109,12 +109,12 @@ class TrustEnd(Word):
 
     @classmethod
     def of(cls, trusted: int, *, before_contact: int, count: int) -> "TrustEnd":
-        """Return why no more are trusted of impacts that all meet the contact law.
+        """Return why the trust ends, for impacts that all obey the contact law.
 
         Args:
-            trusted: how many are.
-            before_contact: how many come before the first sustained contact.
-            count: how many there are.
+            trusted: the number of trusted impacts.
+            before_contact: the number of impacts before the first sustained contact.
+            count: the number of impacts.
         """
         if trusted >= count:
             return cls.NONE
@@ -271,7 +271,7 @@ class States:
 
 
 class Flag(StrEnum):
-    """What an impact does that no passive floor with Coulomb friction could do."""
+    """A property of an impact that no passive floor with Coulomb friction could cause."""
 
     GAINS_ENERGY = "gains_energy"
     """The coin has more energy after it than before."""
@@ -324,13 +324,13 @@ class Setting:
 
 @dataclass(frozen=True, kw_only=True)
 class OtherOutcome:
-    """Another outcome that a toss might have had, and how little leads to it."""
+    """Another outcome that a toss might have had, and the small change that leads to it."""
 
     outcome: Outcome
     change: float
     """The size of the change against the scales of the coin's state: r, √(g r) + |v|, 1 and √(g/r) + |ω|."""
     impact: int
-    """The number of impacts after which the change is made; 0 for the release."""
+    """The number of impacts before the change; 0 for a change of the release."""
 
     @property
     def told(self) -> str:
@@ -344,7 +344,7 @@ class Later:
     """How a coin goes on after its toss is decided, see `ending.until`; arrays are read-only."""
 
     end: float = 0.0
-    """The time at which its path ends [s]; where it is no later than the toss, nothing goes on."""
+    """The time at which the coin's path ends [s]; no later than the toss if the coin is not followed."""
     times: Array = field(default_factory=lambda: np.empty(0))
     """The times at which it touches and bounces, (n,) [s]."""
     contacts: Array = field(default_factory=lambda: np.empty((0, 2)))
@@ -370,7 +370,7 @@ class Toss:
     end_time: float
     """The time at which the toss stopped [s]."""
     outcome_certain: bool | None
-    """Whether the engine's own errors can't change the outcome; None where it does not find that out."""
+    """Whether the engine's own errors can't change the outcome; None if the engine does not compute it."""
     other_outcome: OtherOutcome | None
     """Another outcome that the engine's own errors may lead to; None where none was found."""
     trusted_impacts: int
@@ -404,8 +404,8 @@ class Toss:
         """The times at which the coin touches and bounces after `end_time`, (n,) [s]."""
         return self.later.times
 
-    # What ended the toss, whether the engine's errors can change its outcome, and which impacts they can
-    # change, are three things. No two of the words below deny each other.
+    # The ending, the certainty of the outcome, and the trusted impacts are three separate facts. The texts
+    # below must not contradict each other.
 
     @property
     def is_sure(self) -> bool:
@@ -440,7 +440,7 @@ class Toss:
 
     @property
     def trust(self) -> str:
-        """How many leading impacts are trusted, why no more, and whether it matters, in words."""
+        """The number of trusted impacts, why the trust ends, and whether that matters, in words."""
         trusted, count = self.trusted_impacts, len(self.impacts)
         impacts = f"{count} impact" if count == 1 else f"{count} impacts"
         if trusted >= count:
@@ -450,7 +450,7 @@ class Toss:
 
     @property
     def flags(self) -> tuple[frozenset[Flag], ...]:
-        """What each impact does that no passive floor could do."""
+        """The flags that each impact raises."""
         raised = raised_flags(self.impacts, self.scenario.floor.friction)
         return tuple(frozenset(flag for flag in Flag if raised[flag][i]) for i in range(len(self.impacts)))
 

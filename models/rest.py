@@ -8,12 +8,12 @@ from cointoss.models.kernel.vectors import Matrix, Vector, apply, dot
 from cointoss.models.state import State
 
 SLOW = 1e-3
-"""A spin slower than this part of √(g/r) is as good as none."""
+"""A spin slower than this part of √(g/r) counts as none."""
 
 
 @compiled
 def slow_spin(body: Body) -> float:
-    """Return the spin that is as good as none [rad/s]."""
+    """Return the spin below which a coin counts as not spinning [rad/s]."""
     return SLOW * (body.gravity / body.radius) ** 0.5
 
 
@@ -21,7 +21,8 @@ def slow_spin(body: Body) -> float:
 def holding_arm(rolling: float, contour: float, on_line: bool) -> float:
     """Return the arm over the normal force of the moment that holds a coin on its edge from rolling [m].
 
-    Contour friction resists that roll alone: of a coin on one rim point, which may fall, it holds nothing.
+    Contour friction resists only the roll of a coin that stands on a line. It cannot hold a coin on one rim
+    point, which may fall.
 
     Args:
         rolling: δ [m].

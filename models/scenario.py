@@ -1,4 +1,4 @@
-"""What is tossed: a coin, its air, floor, release and ending, told once; frozen, and validated when made."""
+"""A scenario: a coin, its air, floor, release and ending; frozen, and validated when made."""
 
 import math
 from functools import cached_property
@@ -36,7 +36,7 @@ MOST_KEPT, KEPT_BYTES = MOST_LOSSLESS, 416
 
 
 class Scenario(Part):
-    """One toss, told once for both engines."""
+    """The description of one toss, for both engines."""
 
     gravity: Gravity = 9.81
     """g [m/s²]."""
@@ -47,7 +47,7 @@ class Scenario(Part):
     ending: EndingCriteria = EndingCriteria()
 
     def __init__(self, **fields: Any) -> None:
-        """Make it of its parts, checked as a scenario file is.
+        """Make the scenario from its parts, checked like a scenario file.
 
         Raises:
             ScenarioError: naming field, value and what is accepted.
@@ -71,7 +71,7 @@ class Scenario(Part):
 
             scenario.replace("floor.restitution", 0.5, "release.position.z", "40 cm", "air", Air())
 
-        Values take their places in turn. `release.angles` and `release.quaternion` replace each other.
+        Values are set one after another. `release.angles` and `release.quaternion` replace each other.
 
         Args:
             field: a dotted path, components by name; without a dot, gravity or a whole part.
@@ -95,7 +95,7 @@ class Scenario(Part):
 
     @classmethod
     def checked(cls, tables: dict[str, Any]) -> "Scenario":
-        """Return the scenario of tables, checked as a scenario file is, without a word of unused fields.
+        """Return the scenario of tables, checked like a scenario file, without warnings of unused fields.
 
         Raises:
             ScenarioError: naming field, value and what is accepted.
@@ -106,11 +106,11 @@ class Scenario(Part):
             raise ScenarioError(describe(error, cls)) from None
 
     def as_tables(self) -> dict[str, Any]:
-        """Return the scenario as a file has it: numbers in SI, lists, words for what has a name."""
+        """Return the scenario as tables, as in a file: numbers in SI, lists, and words."""
         return self.model_dump(mode="json", exclude_none=True)
 
     def to_toml(self) -> str:
-        """Return the text of a scenario file, defaults included, that `parse` reads as this very scenario."""
+        """Return the text of a scenario file, defaults included, that `parse` reads as the same scenario."""
         return toml(self.as_tables())
 
     @cached_property

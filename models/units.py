@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 LONGEST = 200
 """Characters of a quantity."""
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
-# Pint works out what it is given: the power of a power could take for ever. So a name has one small power.
+# Pint computes what it is given, and the power of a power could take for ever. So a name has one small power.
 _SIZE = r"[+-]?[0-9]{1,2}(?:\.[0-9]+)?"
 _POWER = rf"\s*(?:\*\*|\^)\s*(?:{_SIZE}|\({_SIZE}(?:/[0-9]{{1,2}})?\))|⁻?[¹²³⁴-⁹]{{1,2}}"
 _NAME = r"(?!sq(?:uared?)?\b|cub(?:ic|ed)\b)[^\W\d_][^\W⁰-⁹¹²³]*|[%‰°]|1(?=\s*/)"
