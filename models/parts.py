@@ -260,13 +260,13 @@ class Floor(Part):
     )
     """Normal speed of approach up to which a touch is plastic, χ = 0 [m/s]."""
     restitution_speed: Annotated[float, quantity("m/s"), SIZE, Label("speed v₀ of restitution")] = 1.0
-    """v₀, the normal speed of approach at which χ equals `restitution` [m/s]."""
+    """v₀, the normal speed of approach at which χ is `restitution` [m/s]."""
     restitution_exponent: Annotated[Number, Field(ge=0, le=1), Label("exponent p of restitution")] = 0.0
-    """p: at the speed v of approach χ is min(1, χ (v/v₀)^-p); 1/4 for plastic flow, 0 for a constant χ."""
+    """p: at the speed v of approach χ is min(1, χ (v/v₀)^-p); 1/4 of plastic, 0 of constant restitution."""
     restitution_viscous: Annotated[
         float, quantity("s**0.2*m**-0.2"), NOT_NEGATIVE, Label("viscous loss a of restitution")
     ] = 0.0
-    """a of a viscoelastic contact, a further factor 1 - a v^(1/5) + O(v^(2/5)) of χ [(s/m)^(1/5)]."""
+    """a of a viscoelastic contact, whose χ is 1 - a v^(1/5) + O(v^(2/5)) [(s/m)^(1/5)]; both factors act."""
     contact: Annotated[ContactLaw, BeforeValidator(named(ContactLaw)), AS_WORD]
     """The contact law."""
     friction: Annotated[Number, NOT_NEGATIVE, Label("friction μ")] = 0.0
@@ -280,7 +280,7 @@ class Floor(Part):
     contour_viscosity: Annotated[
         float, quantity("m*s"), NOT_NEGATIVE, Label("contour viscosity", unit="m*s")
     ] = 0.0
-    """c_v: the power lost over the normal force and the square of that rate [m s]."""
+    """The power lost over the normal force and the square of that rate [m s]."""
     slope: Annotated[float, quantity("rad"), Field(ge=0, le=1.5), Label("slope of the floor")] = 0.0
     """The floor's angle to the horizontal [rad]: x is downhill, and z the floor's normal."""
     restitution_kind: Annotated[RestitutionKind, BeforeValidator(named(RestitutionKind)), AS_WORD] = (
@@ -347,7 +347,7 @@ class EndingCriteria(Part):
     """The conditions that end a toss."""
 
     test: Annotated[EndingTest, BeforeValidator(named(EndingTest)), AS_WORD] = EndingTest.RIGOROUS
-    """The test that decides whether the face up is final."""
+    """What decides that the face up is final."""
     max_impacts: Annotated[int | None, Field(ge=1, le=MOST_IMPACTS), Label("most impacts")] = None
     """The toss stops after so many impacts; by default see
     `cointoss.models.making.most_impacts`."""
@@ -363,5 +363,5 @@ class EndingCriteria(Part):
         Label("path until"),
         PlainSerializer(lambda time: "rest" if time == AT_REST else time, when_used="json"),
     ] = None
-    """The path continues to this time after the toss is decided [s], or until the coin is at rest, `AT_REST`.
-    By default the path ends with the toss. The outcome is not affected."""
+    """The path goes on to this time after the toss is decided [s], or until the coin is at rest, `AT_REST`.
+    By default it ends with the toss. The answers are those of the toss."""
