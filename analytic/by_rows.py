@@ -32,9 +32,9 @@ from cointoss.models.rows import (
 IMPACT = ("time", "face", "energy", "impulse_x", "impulse_y", "impulse_z")
 """Columns of an impact, in SI."""
 PIECE = 2 + STATE_SIZE
-"""Numbers of a piece of a path: when it starts, its `Mode`, and the state there."""
+"""The length of a row for a piece of a path: start time, `Mode`, and state at the start."""
 NO_TRUST, TRUST, CERTAIN = range(3)
-"""What is found beside the outcome: nothing, the trusted impacts, and whether the outcome is certain, too."""
+"""Beside the outcome a toss finds: nothing; the trusted impacts; or also whether the outcome is certain."""
 _LIMITS = contact_limits(MANY)
 
 
@@ -87,12 +87,13 @@ def _toss_run(body, rows, own, limits, wanted, impacts, y, answers):
 
 @compiled
 def toss_each(rows: Table, wanted: int, answers: Table) -> None:
-    """Toss each of many scenarios, of which some may be none.
+    """Toss each of many rows, some of which may be invalid scenarios.
 
     Args:
         rows: of their fields, (n, m).
         wanted: `NO_TRUST`, `TRUST` or `CERTAIN`.
-        answers: where they go, (n, 7), see `cointoss.models.answers.ANSWER`; of what is no scenario `REFUSED`
+        answers: where they go, (n, 7), see `cointoss.models.answers.ANSWER`; an invalid scenario gets
+        `REFUSED`
             in place of the outcome.
     """
     faults = np.empty(1, np.int8)
@@ -129,7 +130,7 @@ def _answer(body, rules, limits, wanted, impacts, y, answer):
     n, impacts, pieces, outcome, ending, end_time = toss_coin(body, rules, limits, y, impacts, keep_all)
     if keep_all:
         _write_trust(body, rules, impacts[:n], pieces, TossEnd(outcome, ending), wanted, answer)
-    # The outcome last: where it is, the answer is whole.
+    # The outcome is written last: a row that has it is complete.
     _write_end(n, impacts, TossEnd(outcome, ending), end_time, answer)
     return impacts
 

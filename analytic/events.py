@@ -36,16 +36,16 @@ from cointoss.models.laws import EndingTest
 from cointoss.models.perpetual import EnergyHistory, energy_history, start_history
 from cointoss.models.records import Array, Ending, Outcome
 
-# A step that takes less than this part of √(r/g) counts as so many, or changes without time could go on.
+# A step shorter than this part of √(r/g) counts as this many, or changes in no time could go on for ever.
 _NO_TIME, _STALLED = 1e-12, 1000
 EVENT = 4
-"""An event after the first sustained contact takes as long as so many steps."""
+"""An event after the first sustained contact counts as this many steps."""
 NO_LOSS = 1e-12
 """A loss in the time √(r/g) that rounding may cause, against the energy; steps of contact come on top."""
 
 
 class Setup(NamedTuple):
-    """What a toss depends on beside its release, and its energies so far."""
+    """The data of a toss beside its release, and its energies so far."""
 
     body: Body
     rules: Rules
@@ -268,16 +268,16 @@ def ends(spent: Spent, outcome: Outcome, ending: Ending) -> Passage:
 def hold_to_event(setup: Setup, mode: int, y: Array, spent: Spent) -> Passage:
     """Follow a sustained contact to the end of its mode, or of the toss.
 
-    After each step these are asked, in this order:
+    After each step these checks follow, in this order:
 
-    1. no step: nothing was computed of which to ask the others.
-    2. falls flat: the reset comes first, and the others are asked of the coin that lies flat.
-    3. decided by energy: the cheapest, and a proof whatever the contact does next.
-    4. at rest: resistance holds the coin, which would else be said to stand or to roll on.
-    5. periodic: only within a mode, whose end is the end of the period's proof.
-    6. standing: before the coin comes upright, for on both rims it could stand as well.
-    7. comes upright: before the budget, which is asked for again when both rims are down.
-    8. out of budget: before the mode's end, for what has spent it is no longer followed.
+    1. no step: nothing was computed, so the other checks have no state to test.
+    2. falls flat: the reset comes first, and the other checks test the coin that lies flat.
+    3. decided by energy: the cheapest check, and a proof whatever the contact does next.
+    4. at rest: resistance holds the coin; the next checks would report that it stands or rolls on.
+    5. periodic: only within a mode, because the mode's end also ends the proof.
+    6. standing: before the coin comes upright, because it could also stand on both rims.
+    7. comes upright: before the budget, which is checked again when both rims are down.
+    8. out of budget: before the mode's end, because a coin without budget is not followed further.
     9. the mode's end: a landing, or the event of a margin that is zero.
 
     Args:

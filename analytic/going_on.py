@@ -40,7 +40,7 @@ from cointoss.models.perpetual import energy_history
 from cointoss.models.records import IMPACT_ROW, Array, Ending
 
 FOLLOWED = 4
-"""A coin is followed for so many times the steps in contact that its toss may take."""
+"""A coin is followed for this many times the steps in contact that its toss may take."""
 
 
 @compiled
@@ -115,7 +115,7 @@ def mode_at_end(pieces: Table, ending: int) -> int:
 
 @compiled
 def can_lie(mode: int) -> bool:
-    """Return whether a coin in this `Mode` may lie flat and not be known to: in flight or on a rim."""
+    """Return whether a coin in this `Mode` may lie flat unnoticed: in flight or on a rim."""
     return mode < Mode.ENDED
 
 

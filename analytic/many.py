@@ -24,7 +24,7 @@ from cointoss.models.scenario import MOST_KEPT, keeping_all
 from cointoss.models.tiles import in_tiles
 
 TILE, SLOW_TILE = 512, 8
-"""Most tosses that a thread makes at a time, in air with b > 0 the second."""
+"""The most tosses that a thread makes at a time; the second number holds for air with b > 0."""
 _WANTED = {None: NO_TRUST, "impacts": TRUST, "certain": CERTAIN}
 
 
@@ -98,12 +98,12 @@ def toss_rows(
         rows: of the scenarios, in the order of `models.fields.FIELDS`, (n, 54). Each must be a scenario's:
             `cointoss.models.batch.refused` finds those that are none.
         settings: of the engine.
-        trust: "impacts" finds how many impacts of each toss can be trusted, as `toss` does, in two to three
-            times the time; "certain" finds that, and whether the outcome of each is certain, in two to seven.
+        trust: "impacts" also counts the impacts of each toss that can be trusted, as `toss` does, in two to
+            three times the time; "certain" also finds whether each outcome is certain, in two to seven.
         law: a contact law of one's own, in place of the scenarios'.
         workers: number of threads, by default one for each core.
-        answers: where the answers are written as they come, (n, 7), see `models.answers.ANSWER`; what an
-            interruption leaves undone is `NOT_TOSSED`.
+        answers: where the results are written as they come, (n, 7), see `models.answers.ANSWER`; tosses that
+            an interruption prevents are `NOT_TOSSED`.
         device: "cpu", "cuda" or "auto"; or a `Processor` of one, which counts what a card hands over to the
             CPU. By default the CPU.
 

@@ -1,4 +1,4 @@
-"""What each of many tosses shows: its first touches, and its states at times."""
+"""The first touches of each of many tosses, and its states at given times."""
 
 from typing import Annotated, NamedTuple
 
@@ -33,13 +33,13 @@ class Sightings(NamedTuple):
     """What tosses show, a row for each toss."""
 
     touch_times: Table
-    """Times of the first touches, (n, most) [s]; the toss's end stands for those that it does not make."""
+    """Times of the first touches, (n, most) [s]; the toss's end in place of touches that do not occur."""
     up: Table
     """The vertical part of the normal ζ at each touch, (n, most); 0 where there is none."""
     states: Cube
     """The states at the times asked for, in the order of a state vector, (n, m, 13)."""
     impacts: LongCounts
-    """How many the toss makes, (n,)."""
+    """The number of touches of each toss, (n,)."""
 
 
 @compiled

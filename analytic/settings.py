@@ -54,4 +54,4 @@ def contact_limits(settings: AnalyticSettings) -> ContactLimits:
 
 
 FINE = MANY = AnalyticSettings()
-"""The settings of one toss, and of many tosses: here the same."""
+"""The settings of one toss, and of many tosses, which are the same for this engine."""

@@ -21,7 +21,7 @@ def sightings(
     Args:
         rows: of the scenarios, in the order of `models.rows.FIELDS`, (n, 54).
         times: when their states are asked for, rising, (n, m) [s]; before and after a toss its ends count.
-        most: how many touches are told; where no times are asked for, no scenario has more impacts.
+        most: the number of touches to return; if no times are given, no scenario may have more impacts.
         settings: of the engine.
         workers: number of threads, by default one for each core.
     """

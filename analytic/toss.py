@@ -95,12 +95,12 @@ def toss(scenario: ScenarioSource, *, settings: AnalyticSettings = FINE, law: Ow
     through the impact.
 
     `trusted_impacts` counts the leading impacts that the engine's own errors, carried forward by the tangent
-    map of the toss, cannot change. Up to there time is good to `horizon.TIME_ERROR` and impulse to
+    map of the toss, cannot change. Their times are accurate to `horizon.TIME_ERROR`, their impulses to
     `horizon.IMPULSE_ERROR`.
 
     `outcome_certain` says whether these errors cannot change the outcome either: neighbours of the toss end
-    as it does, see `cointoss.analytic.horizon.certainty`. Where one of them has another outcome,
-    `other_outcome` says which, and about how little leads to it.
+    as it does, see `cointoss.analytic.horizon.certainty`. If a neighbour has another outcome, `other_outcome`
+    gives that outcome and about the smallest change that leads to it.
 
     Args:
         scenario: what to toss; or a file's path, or a name such as "fig24a".
@@ -184,7 +184,7 @@ def _with_later(path: Pieces, later: Started) -> Pieces:
 def _of_own_law(
     law: OwnLaw, body: Body, rules: Rules, impacts: Impacts, answer: EventLog
 ) -> Iterator[Setting]:
-    """Yield what a certificate says of a law of one's own."""
+    """Yield the lines of a certificate about a law of one's own."""
     yield Setting(name="contact law of one's own, in place of the scenario's", value=law.name)
     if not never_adds_energy(rules):
         gained = np.maximum(impacts.energy_change, 0).sum() / (body.mass * body.gravity * body.radius)

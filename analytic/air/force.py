@@ -36,7 +36,7 @@ def force_and_moment(body: Body, v: Vector, w: Vector) -> tuple[Vector, Vector]:
 
 @compiled
 def _force_and_moment(exponent: float | None, body: Body, v: Vector, w: Vector) -> tuple[Vector, Vector]:
-    """Return them by the exponent: only of an argument that is None numba leaves out what it rules out."""
+    """Return force and moment by the exponent: only for an argument that is None numba omits a branch."""
     if exponent is not None:
         return _by_quadrature(body, exponent, v, w)
     drag = body.drag

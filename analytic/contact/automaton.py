@@ -1,8 +1,8 @@
 """A toss as a hybrid automaton: its modes with flow and projection, its events, and the mode after each.
 
-A flow gives the rate of change of the state and a margin: how far the mode is from its end. A guard finds the
-event that ends it and never writes. The table names the mode after it, and a reset
-(`cointoss.analytic.contact.resets`) maps the state to that in which this mode starts.
+A flow returns the rate of change of the state and a margin: how far the mode is from its end. A guard finds
+the event that ends the mode and never writes. The table names the next mode, and a reset
+(`cointoss.analytic.contact.resets`) maps the state to the one in which that mode starts.
 """
 
 from enum import IntEnum
@@ -151,7 +151,8 @@ def inlined_flow(contact: SustainedContact, y: Array, dy: Array) -> float:
 def project(contact: SustainedContact, y: Array) -> None:
     """Bring the points in contact to the floor, and their velocities to what the mode allows.
 
-    The velocities by an impulse there, without resistance. A reset, and the last part of a step.
+    An impulse at these points, without resistance, changes the velocities. This is a reset, and the last part
+    of a step.
     """
     if contact.mode == Mode.STICKING:
         sticking.project(contact, y)
@@ -169,8 +170,8 @@ def project(contact: SustainedContact, y: Array) -> None:
 def margin_event(contact: SustainedContact, y: Array) -> Event:
     """Return the event of a mode whose margin is zero where nothing lands, or of a coin that is `TOUCHING`.
 
-    A guard. Which mode comes next is asked in the order of what rules the others out: a coin that lifts off
-    has no slip, one that slides no choice, and incipient slip is what friction on slow slip cannot hold.
+    This is a guard. Its tests come in an order in which each excludes the later ones: first whether the coin
+    lifts off, then whether it slides fast, then whether friction can hold a slow slip.
 
     Args:
         contact: the contact.

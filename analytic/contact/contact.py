@@ -15,14 +15,14 @@ BOTH_RIMS = 0.0
 
 
 class SustainedContact(NamedTuple):
-    """What the functions that follow a sustained contact share, made once for each step."""
+    """The data that the functions of a sustained contact share, made once for each step."""
 
     body: Body
     friction: FloorFriction
     mode: int
     """Number of the `Mode`."""
     rim: float
-    """The one that touches: -1 tails', 1 heads', as `cointoss.models.geometry.lower_rim`; 0 for both, or a
+    """The rim that touches: -1 tails', 1 heads', see `cointoss.models.geometry.lower_rim`; 0 for both or a
     face."""
 
 

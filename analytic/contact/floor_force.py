@@ -1,7 +1,7 @@
 """The floor's force on a rim point A that keeps its height: with slip, where slip starts, and without.
 
 The floor holds v_Az at 0; where A sticks, it holds all of v_A. Each force is linear in the acceleration b
-that it meets: of v_A in the place of b it is the impulse that stops the motion.
+that it opposes; with v_A in place of b it is the impulse that stops the motion.
 """
 
 import math
@@ -76,9 +76,9 @@ class SlipGrowth(NamedTuple):
 def starting_slip(K: Matrix, b: Vector, mu: float) -> tuple[float, float]:
     """Return the direction in which a point starts to slip that friction cannot hold, (2,).
 
-    Slip keeps the direction s that its own acceleration has, b_t + N (K_tz - μ K_tt s) = λ s, with the N
-    that holds v_Az; against all others friction turns it at once. A Newton iteration for the direction,
-    from the best of a few.
+    Slip keeps a direction s in which it also accelerates, b_t + N (K_tz - μ K_tt s) = λ s, with the N that
+    holds v_Az; friction turns it out of every other direction at once. A Newton iteration finds s, starting
+    from the best of a few directions.
 
     Args:
         K: Delassus matrix of A [1/kg].

@@ -27,7 +27,7 @@ _END, _ROUNDING, _MOST_TRIES = 0.5**50, 1e-16, 150
 _SHORT = 1e-2
 # A step goes on by this part beyond the time at which a landing is in sight, and is not short for it alone.
 _BEYOND, _NOT_SHORT = 1.1, 1e-6
-# A step shorter than this part of one that is short against the coin's motion is none.
+# Below this part of a step that is short against the coin's motion, a step counts as failed.
 _NO_STEP = 1e-30
 # The largest step of contact, in units of one that is short against the coin's motion.
 _LONGEST = 4
@@ -35,7 +35,7 @@ _LONGEST = 4
 _FIRST, _FIRST_OF_SLIP = 0.3, 0.15
 # Lengths of steps are said to go on changing by a factor within these bounds.
 _LEAST_TREND, _MOST_TREND = 0.5, 1.5
-# The next step is this part of what is so expected: the errors made are those of steps without that guess.
+# The next step is this part of the expected length, so that its error is as small as without the guess.
 _CAUTION = 0.94
 # The end of a mode is first sought on the cubic through both ends of a step, to this part of it.
 _CUBIC = 1e-4
@@ -166,7 +166,7 @@ def accepted_step(
         if error <= 1 and (dt <= short or inside > 0):
             suited = dt * step_factor(error)
             stages[_LENGTH_ROW, 0] = suited
-            # As the lengths that suit have changed, they are taken to change again.
+            # The suitable length is extrapolated from its last change.
             trend = min(max(suited / last, _LEAST_TREND), _MOST_TREND) if last > 0 else 1.0
             return dt, _CAUTION * suited * trend, inlined_flow(contact, y_new, stages[END_ROW])
         dt = max(short, dt / 2) if error <= 1 else dt * step_factor(error)

@@ -38,7 +38,7 @@ _SMALL, _LARGE = 1e-3, 30.0
 def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
     """Write the rate of change of the state y into dy, and return the margin; see `automaton.flow`.
 
-    The mode ends where the coin is at rest, but on a slope too steep for friction.
+    The mode ends when the coin is at rest, except on a slope too steep for friction.
     """
     body, friction = contact.body, contact.friction
     derivative(body, y, dy)

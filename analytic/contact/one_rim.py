@@ -1,4 +1,4 @@
-"""Contact at one rim point A: what sliding, incipient slip and sticking have in common."""
+"""Contact at one rim point A: the functions that sliding, incipient slip and sticking share."""
 
 from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.resistance import FRICTIONLESS

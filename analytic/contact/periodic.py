@@ -23,7 +23,7 @@ class TiltHistory(NamedTuple):
     periodic: bool
     """Whether the tilt is periodic while the mode lasts."""
     slowest: float
-    """Slower changes of n_z are none [1/s]."""
+    """Slower changes of n_z count as zero [1/s]."""
     rate: Array
     """The last rate of n_z that was not slower, (1,) [1/s]."""
     turns: Array
@@ -37,8 +37,8 @@ def start_tilt_history(contact: SustainedContact) -> TiltHistory:
     An ideal coin in vacuum that slides without friction, or rolls without slip, has one degree of freedom,
     its tilt: L_z and L_ζ, or what takes their place in rolling, are functions of it (S. A. Chaplygin 1897;
     P. Appell and D. J. Korteweg 1900). Its energy is kept, so the tilt goes to and fro between two extremes
-    for ever, if the contact holds from the one to the other and back. So it does while it slides down a slope
-    without friction, but not where it rolls.
+    for ever, if the contact holds from one extreme to the other and back. This is also true while the coin
+    slides down a slope without friction, but not while it rolls there.
     """
     body, friction, mode = contact.body, contact.friction, contact.mode
     lossless = mode == Mode.STICKING or (mode == Mode.SLIDING and friction.sliding == 0)

@@ -38,7 +38,7 @@ _TIP = 1e-12
 
 
 class ResolvedImpact(NamedTuple):
-    """What the floor does to a coin that touches it."""
+    """An impact of the floor on a coin, before it is applied."""
 
     point: Vector
     """A from B, body frame [m]."""

@@ -133,21 +133,21 @@ def start_slow_slip(contact: SustainedContact, y: Array) -> None:
 def _gripping(
     contact: SustainedContact, held: RimContact, other: RimContact, along: Vector, motion: Vector, fall: float
 ) -> tuple[Vector, float]:
-    """Return what takes all motion from one rim's lowest point, and the vertical one from the other's.
+    """Return the forces that stop the lowest point of one rim, and the vertical motion of the other's.
 
     Args:
         contact: the contact.
-        held: of the one rim.
-        other: of the other.
+        held: the rim whose motion is stopped.
+        other: the other rim.
         along: a force at the other with the vertical part 1, (3,).
-        motion: acceleration, or velocity, of the one, (3,).
-        fall: vertical acceleration, or velocity, of the other.
+        motion: acceleration, or velocity, of the point of `held`, (3,).
+        fall: vertical acceleration, or velocity, of the point of `other`.
 
     Returns:
-        The force, or impulse, on the one, space frame, (3,), and the vertical one on the other.
+        The force, or impulse, on `held`, space frame, (3,), and the vertical force on `other`.
     """
     body, friction, K = contact.body, contact.friction, held.delassus
-    # The force on the one for its own motion, and for each unit of the other's.
+    # The force on `held` for its own motion, and for each unit of the force on `other`.
     by_other = _velocity_gained(body, friction, other, along, held.arm)
     F, more = holding_force(K, motion), holding_force(K, by_other)
     rise = dot(other.delassus[2], along) + _velocity_gained(body, friction, held, more, other.arm)[2]

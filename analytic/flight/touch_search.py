@@ -1,4 +1,4 @@
-"""The search for the first touch of a flight that is integrated, and what the lowest point does there."""
+"""The search for the first touch of an integrated flight, and the motion of the lowest point there."""
 
 from typing import NamedTuple
 
@@ -28,7 +28,7 @@ _MANY = 4
 
 
 class LeastFlight(NamedTuple):
-    """A flight too low to be told from contact."""
+    """The shortest flight that differs from contact."""
 
     time: float
     """The time in which a touching coin hardly sinks [s]."""

@@ -17,7 +17,7 @@ from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, apply, cross, dot, norm, scale, subtract
 from cointoss.models.state import State
 
-# Turning slower than that is none [rad/s]: the squares of its parts would be below the range of numbers.
+# Slower turning counts as none [rad/s]: the squares of its components would underflow.
 _STILL = 1e-150
 
 

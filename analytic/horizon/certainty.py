@@ -36,7 +36,7 @@ they would repeat its errors, and agree with it where those have changed its out
 FOLLOWED = 50_000
 """Steps of contact up to which neighbours are followed; more would take seconds."""
 _CLOSER, _CLOSER_STEPS = 0.1, 16
-"""A change that gives another outcome is made smaller by this factor, at most so often: down to rounding."""
+"""A change that gives another outcome is reduced by this factor at most this often: down to rounding."""
 
 # An error vector has the state from its height on, and the time, which changes nothing.
 _FIRST, _ERRORS = 2, STATE_SIZE - 1
@@ -57,7 +57,7 @@ class NeighbourStart(NamedTuple):
 
 
 class Certainty(NamedTuple):
-    """Whether an outcome is certain, and the first neighbour that says it is not."""
+    """Whether an outcome is certain, and the first neighbour with another outcome."""
 
     certain: bool
     outcome: Outcome
@@ -76,7 +76,7 @@ def start_of(rules: Rules, rows: NDArray[Any], started: Started, horizon: Horizo
     landing start before it.
     """
     ended = started.modes[horizon.impacts] == Mode.ENDED
-    # What passes a hand may do so on any flight.
+    # A coin may pass a hand on any flight.
     first = 0 if is_to_be_caught(rules) else horizon.impacts - (1 if ended else 0)
     for i in range(first):
         e = rows[i].quaternion
@@ -168,8 +168,8 @@ def closest_other(
 ) -> tuple[Outcome, float, int]:
     """Return the outcome of a neighbour that ends otherwise, about the least change to it, and where that is.
 
-    The change is relative to the scales of the coin, at the start of the neighbours, which is after so many
-    impacts; it is 0 where none was found.
+    The change is relative to the scales of the coin, and made after the returned number of impacts, where the
+    neighbours start. A change of 0 means that none was found.
 
     Args:
         body: the coin.
@@ -181,7 +181,7 @@ def closest_other(
     """
     start, size, least = start_of(rules, rows, started, horizon), certainty.side, 0.0
     scales = _scales(body, start.state)
-    # The toss itself, made again from here, may end otherwise: its times are counted from another start.
+    # Even the toss itself, repeated from here, may end otherwise: its times start from another origin.
     for _ in range(_CLOSER_STEPS):
         y, change = neighbour(body, start, horizon, certainty.pair, size), 0.0
         for i in range(STATE_SIZE - _FIRST):

@@ -50,14 +50,14 @@ CLOSED_TOUCH = 2e-16
 """A touch in closed form is found up to this part of the radius, and up to the rounding of its time. Against
 extended precision the root mean square of what the gap was then is 0.74 of that, in 580 flights."""
 SAFETY = 2.0
-"""The carried standard deviations are taken so many times."""
+"""The factor by which the carried standard deviations are multiplied."""
 TIME_ERROR = 1e-7
 """The time of an impact within the horizon is good to this [s]."""
 IMPULSE_ERROR = 1e-5
 """An impulse within the horizon is good to this part of it."""
 MOST_CARRIED, TOUCH_COST, DRAG_COST = 3e6, 20.0, 400.0
-"""Errors are carried through so many steps, which takes seconds. An impact costs as much as the second; a
-step in air with b > 0 as much as the third number of others."""
+"""The most steps through which errors are carried, which takes seconds. An impact costs as much as the second
+number of steps; a step in air with b > 0 as much as the third."""
 LINEAR_RANGE = 1e-3
 """Tilt, closing speed and time of flight must be known to this part of theirs, so that the tangent map holds;
 the tilt's direction is the place on the rim."""
@@ -129,7 +129,7 @@ def find_horizon(body: Body, rules: Rules, rows: ImpactRows, started: Started, m
         if closed:
             early -= TIME_STEP * duration
         sinking, delay = _sinking(body, errors), _delay_errors(touch, early, errors)
-        # The first touch has none before it with which to change places.
+        # The first touch has no touch before it with which it could change places.
         in_order = sinking < started.grazes[i] / 2 and (i == 0 or delay <= LINEAR_RANGE * duration)
         if not (in_order and _holds(rules, row, touch, errors)):
             return Horizon(i, kept)

@@ -36,12 +36,12 @@ STEP = 1e-5
 V = √(g r) + |v| + r |ω| of velocities, V/r of angular velocities. Truncation and rounding then err by 1e-10
 of the derivative; where Coulomb friction is integrated, by 1e-8."""
 TO_KINK = 1e-2
-"""A change stays below this part of the distance to a state at which the impact is not smooth."""
+"""The change is at most this part of the distance to a state at which the impact is not smooth."""
 LEAST_STEP = 1e-11
 """The least change of the state: smaller ones drown in rounding."""
 WIDER, AGREES = 4.0, 1e-3
-"""What a law of one's own does beside a touch is trusted where differences by wider changes give its
-derivatives to this part: it may have a kink that this engine knows nothing of."""
+"""The derivatives of a law of one's own are trusted if wider differences agree with them to this part: it
+may have a kink that this engine does not know."""
 
 # A touch as numbers: the gap, the upward unit vector, the velocity of A, the impulse, and the state after, or
 # the spin gained.

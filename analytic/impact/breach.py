@@ -1,4 +1,4 @@
-"""What a contact law of one's own must not do at an impact."""
+"""The conditions that every impulse of a contact law of one's own must meet."""
 
 import math
 from enum import IntEnum

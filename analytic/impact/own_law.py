@@ -28,7 +28,7 @@ from cointoss.models.scenario import Scenario, euler_parameters, vector
 FORM = "a function (K, v_A, tau, chi, mu) -> (S_x, S_y, S_z) of plain arithmetic"
 _DECORATE = " (decorate that function with @numba.njit)"
 AGREES = 1e-9
-"""Part of |S| up to which the compiled law gives what its function gives, where its tolerance is no more."""
+"""The largest relative difference of the compiled law from its function, unless its tolerance is larger."""
 COARSEST = 1e-3
 """The largest tolerance accepted."""
 _ACCEPTED = {
@@ -40,7 +40,7 @@ _ACCEPTED = {
 
 
 class LawArguments(NamedTuple):
-    """What a law is asked at an impact."""
+    """The arguments of a contact law at an impact."""
 
     K: Matrix
     velocity: Vector
@@ -59,7 +59,7 @@ class OwnLaw:
     frame, (3,) [N s]. Its arguments are K, the Delassus matrix of A, inverse effective mass, space frame, a
     tuple of three rows [1/kg], an impulse S changing v_A by K S; v_A, the velocity of A before the impact,
     space frame, a tuple of three numbers, the third negative [m/s]; tau, the unit vector along the coin's
-    edge at A, horizontal, likewise; chi, the restitution of this impact; mu, the scenario's friction.
+    edge at A, horizontal, a tuple; chi, the restitution of this impact; mu, the scenario's friction.
     Where a coin lands flat without turning, S acts at C: K is 1/m times the identity, and tau is zero.
 
     The function is compiled by numba, with the sine and the logarithm of the system, and tried at impacts of
@@ -89,7 +89,7 @@ class OwnLaw:
     max_restitution: float = field(default=1.0, kw_only=True)
     tolerance: float = field(default=EXACT, kw_only=True)
     code: OwnCode = field(init=False, repr=False, compare=False)
-    """The law as compiled code of this process calls it."""
+    """The law in the form that compiled code of this process calls."""
 
     def __post_init__(self) -> None:
         """Compile the function and try it."""
@@ -129,7 +129,7 @@ class OwnLaw:
         return getattr(self.function, "__name__", "law")
 
     def breach(self, contact: LawArguments) -> str:
-        """Return what the law must not do and does at a contact, in words; empty where it does nothing."""
+        """Return the condition that the law breaks at a contact, in words; empty if it breaks none."""
         S = call_at(self.code.address, *contact)
         breach = Breach(breach_of(self.code, contact.K, contact.velocity, S))
         if breach == Breach.NONE:
@@ -187,7 +187,7 @@ def contact_in(body: Body, rules: Rules, R: Matrix, v: Array, w: Array) -> LawAr
 
 
 def rules_by(law: OwnLaw | None, scenario: Scenario) -> Rules:
-    """Return a scenario's rules, with a law of one's own in place of its own where there is one.
+    """Return a scenario's rules, with a law of one's own, if given, in place of the scenario's law.
 
     Raises:
         TypeError: for what is no such law.

@@ -1,4 +1,4 @@
-"""Where the analytic engine draws the line: what counts as touching, as slow, as upright, and why."""
+"""The tolerances of the analytic engine: what counts as touching, as slow, as upright, and why."""
 
 from cointoss.models import rest
 
@@ -22,10 +22,10 @@ CHATTERING = 1e-2
 of its tilt [rad]. Contact has their impulse and mean force: it errs by the third power of the angle."""
 
 SLOW = rest.SLOW
-"""Against √(g r): slip slower than this is stopped where friction can hold it, and is incipient elsewhere:
-there friction would turn it in the time of slip/(μ g). Sliding is kept down to half of it."""
+"""Relative to √(g r): slower slip is stopped where friction can hold it, and is incipient elsewhere, where
+friction would turn it in the time slip/(μ g). A sliding point goes on sliding down to half of this speed."""
 BORDER = 1e-6
-"""Friction holds a part more than it starts with, or a coin on the border would for ever start and stop."""
+"""Friction holds a point up to this part above its limit, or a coin at the limit would start and stop always."""
 ON_EDGE = 1e-3
 """A thick coin is on its edge where it leans by less than this part of h/(2 r), which tips it over, and turns
 off its edge by less than this part of h/(2 r) √(g/r)."""

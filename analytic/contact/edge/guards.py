@@ -12,7 +12,7 @@ from cointoss.models.body import slope_feeds
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import Array
 
-# An upright coin is tried for whether it stands once in so many steps.
+# The number of steps between two trials of whether an upright coin stands.
 _BETWEEN_TRIALS = 64
 
 
@@ -20,7 +20,7 @@ _BETWEEN_TRIALS = 64
 def stands_for_good(contact: SustainedContact, steps: int, early: bool, y: Array) -> bool:
     """Return whether a coin in contact is proved to stand on its edge for good.
 
-    A coin without thickness is not, nor one that a slope may give energy.
+    A coin without thickness is not proved to stand, nor is a coin that a slope may give energy.
 
     Args:
         contact: the contact.

@@ -28,10 +28,10 @@ def rocks_on_edge(contact: SustainedContact, y: Array) -> bool:
 
     In every phase of its roll that it can reach, C lowest among them, the floor must turn it back from
     either rim up to `steady_lean`. The least work of that must be more than the energy of its rocking can
-    become: now it is at most that of n_z's rate, and what the strongest turning back gives it from its lean.
-    As its rims land it loses energy, and on a rough floor L_z: there all of its energy may go into its roll.
-    Nothing is said while friction acts on slip, for across the rim it tips the coin as soon as slip turns
-    there.
+    become. That is now at most the energy of n_z's rate plus the work of the strongest restoring force over
+    its lean. As its rims land the coin loses energy, and on a rough floor also L_z: there all of its energy
+    may go into its roll. The answer is no while friction acts on slip, because friction tips the coin across
+    the rim as soon as the slip turns that way.
 
     Args:
         contact: the contact, at one rim.

@@ -23,7 +23,7 @@ from cointoss.models.rest import is_slowing
 
 @compiled
 def on_edge(body: Body, y: Array) -> bool:
-    """Return whether a coin in contact is on its edge, and does not turn off it; see `ON_EDGE`."""
+    """Return whether a coin in contact is on its edge, and does not turn away from it; see `ON_EDGE`."""
     n_z, n_z_rate = lean_and_rate(y)
     most = ON_EDGE * body.thickness / (2 * body.radius)
     return abs(n_z) < most and abs(n_z_rate) < most * (body.gravity / body.radius) ** 0.5
@@ -57,9 +57,9 @@ def stands(contact: SustainedContact, y: Array) -> bool:
     """Return whether a coin on its edge is held there however it rolls on.
 
     Rolling brings C up and down, and so changes the roll rate: the floor must hold the coin in every phase
-    that it can reach. It rolls at most as fast as its energy leaves it there: just so fast in vacuum on a
-    smooth floor or without slip, slower and either way where it loses energy. It turns about the vertical as
-    L_z has it, unless it `rolls`: then not at all.
+    that it can reach. Its energy bounds its roll rate there: it reaches the bound in vacuum on a smooth floor
+    or without slip, and is slower, in either direction, where it loses energy. L_z determines its rate about
+    the vertical, which is 0 if the coin `rolls`.
 
     Args:
         contact: the contact, at one rim or upright.
