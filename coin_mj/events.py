@@ -38,7 +38,7 @@ ROUNDED_FLAT = 1e-13
 STILL = 1e-4
 """A coin in contact is at rest where it moves slower than this part of √(g r)."""
 AIR_STEPS = 50
-"""A step in air with b > 0 counts as so many: its quadratures take up to 1 ms for each force."""
+"""A step in air with b > 0 counts as this many: its quadratures take up to 1 ms for each force."""
 
 
 @compiled
@@ -134,8 +134,8 @@ def go_on(
         until: the time up to which the coin is followed [s]; `AT_REST`: until it is at rest.
 
     Returns:
-        Knots of the whole path, (m, 15); and start and end of what the floor does after the toss, (n, 3) [s]:
-        an impact, or a sustained contact where the third number is 1.
+        Knots of the whole path, (m, 15); and start and end of each impact or sustained contact after the
+        toss, (n, 3) [s], with 1 as the third number for a sustained contact.
     """
     k, time = len(knots) - 1, knots[-1, 0]
     touches, n = np.empty((FIRST_ROOM, 3)), 0
@@ -186,7 +186,7 @@ def go_on(
 
 @compiled
 def record(body: Body, time: float, touch: State, impulse: Vector, release: State, row: ImpactRow) -> None:
-    """Record an impact; that of a coin flat but for rounding is at the point under C.
+    """Record an impact; if the coin is flat within rounding, at the point under C.
 
     Args:
         body: the coin.

@@ -19,7 +19,7 @@ from cointoss.models.records import UnsupportedError
 from cointoss.models.tiles import in_tiles
 
 TILE = 8
-"""Most tosses that a thread makes at a time."""
+"""The most tosses that a thread makes at a time."""
 _FLOOR = [i for field, i in PLACE.items() if field.startswith("floor.")]
 _OF_MACHINE = PLACE["release.position.x"]
 """What is before it in a row, MuJoCo's model is made of."""
@@ -66,15 +66,15 @@ def toss_rows(
 ) -> Answers:
     """Toss many scenarios by the event loop of `toss`.
 
-    Each toss is that of `toss` with the same settings, to the bit. By default they are coarser than those of
-    one toss: docs/MUJOCO.md says what error they give.
+    Each toss is the same, to the bit, as by `toss` with the same settings. The default settings are coarser
+    than those of `toss`: docs/MUJOCO.md states their error.
 
     Args:
         rows: of the scenarios, in the order of `models.fields.FIELDS`, (n, 54). Each must be a scenario's:
             `cointoss.models.batch.refused` finds those that are none.
         settings: how MuJoCo realises the floor, and how finely it steps.
-        trust: this engine finds it for one `toss` alone: None.
-        law: this engine has none of one's own: None.
+        trust: None; this engine finds trust only for a single `toss`.
+        law: None; this engine has no contact laws of one's own.
         workers: number of threads, by default one for each core.
         answers: where the answers are written as they come, (n, 7), see `models.answers.ANSWER`; what an
             interruption leaves undone is `NOT_TOSSED`.
@@ -90,7 +90,7 @@ def toss_rows(
     rows = checked_table("rows", rows, len(FIELDS))
     require_rows(rows, settings=settings, law=law, trust=trust, device=device)
     found = unanswered(len(rows), answers)
-    # NaN, which stands for what is left out, equals itself here.
+    # NaN, for a field that is left out, counts as equal to itself here.
     machines = np.nan_to_num(rows[:, :_OF_MACHINE], nan=np.inf)
     _, coins = np.unique(machines, axis=0, return_inverse=True)
     order, of_thread = np.argsort(coins, kind="stable"), threading.local()

@@ -46,10 +46,10 @@ from cointoss.models.stages import stage
 
 REALISABLE = laws_that(lambda law: law.is_in_mujoco)
 SOFTER = (10.0, 30.0)
-"""How many times softer the contacts are that tell how far a toss can be trusted."""
+"""The factors by which contacts are softened to find how far a toss can be trusted."""
 _INTEGRATORS = "Tsitouras 5, in sustained contact RK4"
 CONTACTS_MEASURED, PARTS_MEASURED = 32, 16
-"""The energy is measured in so many contacts, the longest, at the ends of so many parts of each."""
+"""The energy is measured in this many contacts, the longest, at the ends of this many parts of each."""
 
 
 class MujocoRun(NamedTuple):
@@ -81,7 +81,7 @@ def run(machine: Machine, rules: Rules) -> MujocoRun:
 
 
 def require_supported(scenario: Scenario, *, settings: MujocoSettings) -> None:
-    """Refuse what this engine doesn't realise.
+    """Refuse scenarios that this engine can't realise.
 
     Raises:
         UnsupportedError: naming field, value and what is accepted.
@@ -116,8 +116,8 @@ def toss(scenario: ScenarioSource, *, settings: MujocoSettings = FINE) -> Toss:
     `trusted_impacts` counts the leading impacts that meet Newton's law for the point that touched, see
     `cointoss.coin_mj.trust`, and that keep their faces, and their impulses to `IMPULSE_ERROR` there, when the
     contact is softer, or its one step longer, by each of `SOFTER`: that makes a spring's error three and five
-    times larger. It is an estimate, no bound. Whether the outcome is certain this engine does not find out:
-    `outcome_certain` is None.
+    times larger. The count is an estimate, no bound. This engine does not find whether the outcome is
+    certain: `outcome_certain` is None.
 
     Args:
         scenario: what to toss; or a file's path, or a name such as "fig24a".
@@ -183,7 +183,7 @@ def _toss(scenario: Scenario, rules: Rules, settings: MujocoSettings) -> Toss:
 
 
 def _followed(machine: Machine, rules: Rules, answer: MujocoRun, until: float | None) -> tuple[Array, Later]:
-    """Return the knots of a path that goes on after the toss as it is asked to, and what happens there."""
+    """Return the knots of the path, continued after the toss if asked for, and the events there."""
     if until is None:
         return answer.knots, Later()
     knots, touches = go_on(
@@ -194,7 +194,7 @@ def _followed(machine: Machine, rules: Rules, answer: MujocoRun, until: float | 
 
 
 def warn_of_approximation(scenario: Scenario) -> None:
-    """Warn of what this engine tosses by something near to it."""
+    """Warn of properties that this engine approximates."""
     law = scenario.floor.contact
     if is_rough(law):
         warnings.warn(
@@ -270,13 +270,13 @@ def _force_and_moment(body: Body, v: Vector, w: Vector) -> tuple[Vector, Vector]
 def _trust(
     scenario: Scenario, settings: MujocoSettings, impacts: Impacts, contacts: Array
 ) -> tuple[int, TrustEnd]:
-    """Count the leading impacts that meet the law, and that coins further from the hard limit share.
+    """Count the leading impacts that meet the contact law and stay the same with softer contacts.
 
-    Their contacts are softened by `SOFTER`; where a thin coin's shape is made up it is ten times as thick.
-    None is counted after the first sustained contact.
+    The contacts are softened by `SOFTER`; a thin coin's shape, which is invented, is made ten times as thick.
+    No impact after the first sustained contact is counted.
 
     Returns:
-        The count, and why no more are trusted.
+        The count, and why the trust ends.
     """
     before_contact = int(np.sum(impacts.time < contacts[0, 0])) if len(contacts) else len(impacts)
     trusted, end = lawful_impacts(scenario, impacts, before_contact)

@@ -23,15 +23,16 @@ HALVINGS = 60
 CLOSED = 1e-10
 """Error of an equality constraint that is met [m or rad]."""
 HELD = 1e-6
-"""Two geoms come nearer at less than this part of a speed: equality constraints hold them."""
+"""If two geoms approach at less than this part of a speed, equality constraints hold them."""
 
 
 class Pair:
     """Two geoms of a model, alone, that one joint or a free body brings together.
 
-    Other geoms touch nothing. A geom on a free body comes straight along the normal, without turning; where
-    neither geom is on one, the joints move as an impulse between the two geoms would move them. What active
-    equality constraints couple moves along with it. On a height field a body comes along the field's own z.
+    Other geoms touch nothing. A geom on a free body approaches straight along the normal, without turning. If
+    neither geom is on a free body, the joints move as an impulse between the two geoms would move them.
+    Bodies that active equality constraints couple move along. On a height field a body comes along the
+    field's own z.
     """
 
     def __init__(self, model: mujoco.MjModel, one: int, two: int) -> None:
@@ -234,7 +235,7 @@ class Pair:
     def acceleration(self, velocity: Array) -> tuple[float, float]:
         """Return by how much the speed at which the geoms come nearer grows at a velocity, (nv,) [m/s²].
 
-        By what moves the joints, and with what the turning of bodies adds.
+        Both the forces on the joints and the turning of the bodies contribute.
         """
         _, normal, point = self._nearest()
         self.data.qvel[:] = velocity

@@ -1,4 +1,4 @@
-"""What steps a model, and what of the settings for a bounce it takes."""
+"""The back ends that step a model, and the settings for a bounce that each accepts."""
 
 from enum import StrEnum
 
@@ -29,7 +29,7 @@ class Backend(StrEnum):
 
     @property
     def remark(self) -> str:
-        """What was found of it on a CPU, of mujoco-mjx 3.17, mujoco-warp 4.0 and Newton 1.8."""
+        """Findings about the back end on a CPU, with mujoco-mjx 3.17, mujoco-warp 4.0 and Newton 1.8."""
         return {
             Backend.MUJOCO: "in double precision",
             Backend.MJX: "in float32 e errs by up to 3e-3, with jax_enable_x64 by no more than MuJoCo's",

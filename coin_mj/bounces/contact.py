@@ -12,7 +12,7 @@ DEFAULT = "0.9 0.95 0.001 0.5 2"
 INTEGRATORS = ("Euler", "RK4", "implicit", "implicitfast", "discrete")
 """MuJoCo's integrators, by their names in a model and in the order of its numbers."""
 STIFFENED = 1e-3
-"""k dt² of the stiffness beside the damping of a contact of one step, which lifts what would sink."""
+"""k dt² of a stiffness beside the damping of a one-step contact, which keeps a body at rest from sinking."""
 CARRIED = 0.1 * math.pi
 """(1 - d) n (1 - e) of a spring of n steps that lets a body come to rest, d its impedance; found by trial."""
 GRAVITY = 9.81
@@ -71,8 +71,8 @@ def one_step_solref(restitution: float, dt: float) -> tuple[float, float]:
 def resting_solref(restitution: float, dt: float) -> tuple[float, float]:
     """Return that with a stiffness beside it: v' = -e v to half of `STIFFENED`, and a body at rest is held.
 
-    A touch x deep gives v' = (1 - b dt) v + k dt x. As x is anything from 0 to v dt, half of what k adds at
-    most is taken from b. What never loses energy never rests, so k vanishes with 1 - e.
+    A touch of depth x gives v' = (1 - b dt) v + k dt x. Since x is anything from 0 to v dt, b is reduced by
+    half of the most that k adds. A body that never loses energy never rests, so k vanishes with 1 - e.
     """
     part = min(STIFFENED, 1 - restitution)
     return -_rounded(part / dt**2), -_rounded((1 + restitution - part / 2) / dt)
@@ -86,7 +86,8 @@ def spring_solref(restitution: float, dt: float, steps: int) -> tuple[float, flo
 def spring_solimp(restitution: float, steps: int) -> str:
     """Return the solimp with which a spring of so many steps carries a part of the weight.
 
-    With solimp 0.9999 the contact carries it all, and the spring pushes a body off that should lie still.
+    With solimp 0.9999 the contact carries the whole weight, and the spring pushes off a body that should lie
+    still.
     """
     soft = CARRIED / (steps * (1 - restitution)) if restitution < 1 else SOFTEST
     impedance = round(1 - min(max(soft, 1e-4), SOFTEST), 4)

@@ -28,14 +28,14 @@ SPEED = 2.0
 
 @dataclass(frozen=True)
 class Drops:
-    """What a body did that came down on a plane, for each of the `PHASES` of its touch."""
+    """The bounces of a body on a plane, one for each of the `PHASES` of its touch."""
 
     restitutions: Array
-    """Speed after over that before, both where the body meets the plane; 0 where it does not leave, (n,)."""
+    """Ratio of the speeds after and before, where the body meets the plane; 0 if it does not leave, (n,)."""
     durations: Array
     """The times for which the contacts push, (n,) [s]."""
     depth: float
-    """The greatest [m]."""
+    """The greatest depths [m]."""
 
 
 def drops_of(contact: ContactSettings, body: FlatBody = BALL, gravity: float = 0.0) -> Drops:

@@ -32,7 +32,7 @@ _PAIR = """<mujoco>
 
 @dataclass(frozen=True, kw_only=True)
 class Formula:
-    """What a damped spring, or one step of it, does by theory."""
+    """The bounce that theory predicts for a damped spring, or for one step of it."""
 
     restitution: float
     duration: float
@@ -40,12 +40,12 @@ class Formula:
     depth: float
     """The depth at 1 m/s [m]."""
     rest: float
-    """Depth at rest [m]; infinite where nothing holds a body there."""
+    """Depth at rest [m]; infinite if the contact does not hold a body at rest."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Rebounds:
-    """What a ball does on a plane with given settings of MuJoCo."""
+    """The bounces and the rest of a ball on a plane, with given settings of MuJoCo."""
 
     solref: tuple[float, float]
     """The solref that MuJoCo mixes from those of both geoms."""
@@ -72,7 +72,7 @@ class Rebounds:
     rest: Rest
     """What the ball does when its bounces have ended."""
     formula: Formula | None
-    """What theory says; None where no formula is known: of a contact of about a step by RK4 or discrete."""
+    """The prediction of theory; None without a formula, as for contacts of about a step by RK4 or discrete."""
 
 
 def solref_of(
@@ -90,8 +90,8 @@ def solref_of(
     Args:
         solref: of one geom, two numbers.
         timestep: dt of the simulation [s].
-        other: the solref of the other geom, of equal priority, with MuJoCo's own solimp; None where `solref`
-            and `solimp` hold alone, as those of a geom with priority="1" do.
+        other: the solref of the other geom, of equal priority, with MuJoCo's own solimp; None if `solref` and
+            `solimp` hold alone, as for a geom with priority="1".
         integrator: of MuJoCo, by its name in a model; Euler is MuJoCo's own choice.
         solimp: of the geom with `solref`; by default MuJoCo's own.
         mass: of the ball [kg].

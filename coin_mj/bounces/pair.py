@@ -39,7 +39,7 @@ SHARE = 0.1
 
 
 class PairOutcome(StrEnum):
-    """What two geoms do that come together."""
+    """The result of a touch of two geoms."""
 
     REBOUNDS = "rebound"
     """They part; only then the restitution is a number above 0."""
@@ -53,7 +53,7 @@ class PairOutcome(StrEnum):
     OTHER_SPEED = "come at another speed"
     """Something else brakes or accelerates them by more than `SHARE` of their speed on the way."""
     CHANGES = "change speed in a step"
-    """The points' speed changes by more than `SHARE` in a step beside the touch, so that it is none."""
+    """The points' speed changes by more than `SHARE` in a step beside the touch, and is not defined."""
     UNSTABLE = "become unstable"
 
 
@@ -85,17 +85,17 @@ class PairBounce:
     """What came of each touch under the model's gravity, (n, `PHASES`)."""
     energy_kept: Array
     """Share of the model's kinetic energy that is left after the contact, without gravity, (n, `PHASES`);
-    NaN where the geoms do not part. Of a turning body it is what the restitution of a point does not show."""
+    NaN if the geoms do not part. For a turning body it shows what the restitution of a point does not."""
     durations: Array
     """The time for which the geoms push, without gravity, (n, `PHASES`) [s]."""
     depths: Array
     """The greatest depths, without gravity, (n,) [m]."""
     rest: PairRest | None
-    """What one geom does on the other when the bounces have ended, under the model's gravity."""
+    """The motion of one geom on the other after the bounces, under the model's gravity."""
     no_rest: str
     """Why `rest` was not measured, in words."""
     notes: tuple[str, ...]
-    """What else of the model the numbers depend on, in words."""
+    """Other properties of the model on which the numbers depend, in words."""
 
 
 class _Touch(NamedTuple):
@@ -113,10 +113,10 @@ def bounce(
 ) -> PairBounce:
     """Return how two geoms of a model bounce off each other, by plain `mj_step` and the model's own options.
 
-    Other geoms are kept out of it. A geom on a free body comes straight along the normal of the contact,
-    without turning; where neither geom is on one, the joints move as an impulse between both would move them.
-    What active equality constraints couple moves along. All else of the model acts: its joints, springs,
-    actuators and limits. Nothing is written.
+    Other geoms do not touch these two. A geom on a free body approaches straight along the normal of the
+    contact, without turning. If neither geom is on a free body, the joints move as an impulse between both
+    would move them. Bodies that active equality constraints couple move along. The model's joints, springs,
+    actuators and limits act. Nothing is written.
 
     Args:
         model: of MuJoCo, or the path of its XML.
@@ -166,7 +166,7 @@ def bounce(
 
 
 def _notes(pair: Pair) -> tuple[str, ...]:
-    """Return that soft constraints go on acting after the contact, where they do."""
+    """Return a note that soft constraints go on acting after the contact, if they do."""
     if not pair.soft:
         return ()
     return (
@@ -208,7 +208,7 @@ def _touch(pair: Pair, speed: float, phase: float) -> _Touch:
 
 
 def _nothing(outcome: PairOutcome) -> _Touch:
-    """Return a touch of which nothing was measured."""
+    """Return a touch without measurements."""
     return _Touch(outcome, math.nan, math.nan, math.nan, math.nan)
 
 
@@ -265,7 +265,7 @@ def _part(pair: Pair, came: _Come) -> _Touch:
     for step in range(LONGEST):
         mujoco.mj_forward(model, data)
         touches, gap, before = pair.touches(), came.points.gap(data), deep
-        # Of the geoms, not of the points that touched first: what rolls stays.
+        # This compares the geoms, not the points that touched first: a geom that rolls stays.
         deep = max((-float(contact.dist) for contact in touches.values()), default=-gap)
         depth = max(depth, deep) if touches else depth
         middle = deep if step == LONGEST // 2 else middle

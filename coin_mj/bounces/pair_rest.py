@@ -1,4 +1,4 @@
-"""What a geom of a user's own model does on another when the bounces have ended: whether it lies still."""
+"""The rest of a geom on another in a user's model, after the bounces: whether it lies still."""
 
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
@@ -19,14 +19,14 @@ FALL = 10.0
 SLOPE = 0.01
 """The slope on which the slip is measured, or half of the friction where that is less."""
 EVERY = 5
-"""Steps from one look at the geoms to the next: an odd number, as some hop every other step."""
+"""Steps between two measurements of the geoms: an odd number, because some geoms hop every other step."""
 SLIDING, AVERAGED = 2000, 500
 """Steps on the slope, and the last of them, over which the slip is averaged."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PairRest:
-    """What a geom does on another under the model's gravity, over the last 5000 of 20,000 steps."""
+    """The motion of a geom on another under the model's gravity, over the last 5000 of 20,000 steps."""
 
     depth: float
     """The greatest depth of a contact, in the mean over the steps [m]."""
@@ -129,7 +129,7 @@ def _pose(pair: Pair) -> _Pose:
 
 
 def _normal(pair: Pair) -> Array:
-    """Return the normal from the geom that lies below to that which moves, as the former sees it, (3,)."""
+    """Return the normal from the lower geom to the moving geom, in the frame of the lower, (3,)."""
     moving, other = _moving_first(pair)
     away = pair.normal if moving == pair.one else -pair.normal
     return pair.data.geom_xmat[other].reshape(3, 3).T @ away

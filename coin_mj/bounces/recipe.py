@@ -1,4 +1,4 @@
-"""Settings of MuJoCo that give a restitution, with what they do to bodies that bounce, rest and tumble."""
+"""Settings of MuJoCo that give a restitution, and their effect on bodies that bounce, rest and tumble."""
 
 import math
 import warnings
@@ -40,7 +40,7 @@ STEP_ACCEPTED = "a number of seconds from 1e-7 to 0.1, such as 0.002"
 
 @dataclass(frozen=True, kw_only=True)
 class Bounce:
-    """Settings of MuJoCo that give a restitution, and what a body does with them."""
+    """Settings of MuJoCo that give a restitution, and the measured motion of a body with them."""
 
     restitution: float
     """The restitution asked for, e."""
@@ -53,7 +53,7 @@ class Bounce:
     """-stiffness and -damping."""
     solimp: str
     backend: Backend
-    """What steps the model; what follows was measured by MuJoCo itself."""
+    """The back end for which the settings are. MuJoCo itself measured the numbers below."""
     body: str
     """The body that comes down flat on a plane: its type and size in a <geom>."""
     mass: float
@@ -63,18 +63,18 @@ class Bounce:
     error: float
     """Largest |e' - e| over `PHASES` touches without weight, anywhere between two steps."""
     error_with_weight: float
-    """Largest error of a body which touches at `SPEED` under `gravity`, as its heights have it; at others as
-    1/v, see `weight_cost`."""
+    """Largest error of a body that touches at `SPEED` under `gravity`, by its heights; at other speeds v the
+    error goes as 1/v, see `weight_cost`."""
     depth: float
     """The depth to which a body goes into the floor at 1 m/s, at most, whatever its mass [m]."""
     rest: Rest
-    """What the body does when its bounces have ended."""
+    """The rest of the body after its bounces."""
     flight: float
     """Change of a tumbling brick's energy, over itself, in half a second at ten turns a second."""
 
     @property
     def settings(self) -> str:
-        """What to set, in the words of the backend."""
+        """The settings in the terms of the back end."""
         write = {Backend.NEWTON: newton_settings, Backend.GENESIS: genesis_settings}.get(self.backend)
         return write(self.contact) if write else f"{self.option}\n<geom {self.geom}/>"
 
@@ -96,7 +96,7 @@ class Bounce:
 
     @property
     def thickest_passed(self) -> float:
-        """Thickness of the floor, no plane, that the body just goes through at `SPEED` [m]; below 0: none.
+        """Largest thickness of a floor, but no plane, that the body passes at `SPEED` [m]; below 0: none.
 
         A contact deeper than half of both thicknesses sends the body out on the other side.
         """
@@ -104,7 +104,7 @@ class Bounce:
 
     @property
     def weight_cost(self) -> float:
-        """What weight takes from e in one step, over g dt/v, to first order: (1 - e)(2 + e)/(2 e).
+        """The loss of e by weight in one step, over g dt/v, to first order: (1 - e)(2 + e)/(2 e).
 
         A ball that comes at v touches s v dt deep, s from 0 to 1, and is e v dt higher after the step. By its
         heights before and after, e' = √(h'/h) = e + ((1 - e)/2 - s (1/e - e)) g dt/v. Where e² is not far
@@ -147,11 +147,11 @@ def solref(
     mass: float = BALL.mass,
     gravity: float = GRAVITY,
 ) -> Bounce:
-    """Return the settings with which contacts have a restitution, and what they do, measured by MuJoCo now.
+    """Return settings with which contacts have a restitution, with their effects measured by MuJoCo now.
 
-    By default a contact takes one step, v' = -e v, with a small stiffness that holds a body at rest; a spring
-    takes `steps`, in which its force can be seen, and can be stepped by RK4, which keeps the energy of a body
-    that tumbles. docs/MUJOCO.md derives both. They hold for every mass, and for every shape that hardly turns
+    By default a contact takes one step, v' = -e v, with a small stiffness that holds a body at rest. A spring
+    takes `steps` steps, which resolve its force, and works with RK4, which keeps the energy of a tumbling
+    body. docs/MUJOCO.md derives both. They hold for every mass, and for every shape that hardly turns
     in the contact, without MuJoCo's own friction.
 
     Args:
@@ -161,8 +161,8 @@ def solref(
         steps: of the simulation in the contact of a spring.
         body: that is measured, by its type and size in a <geom>, such as "box 0.1 0.1 0.002"; by default a
             ball of 1 cm.
-        backend: what steps the model: mujoco, mjx, warp, newton or genesis. MuJoCo alone takes the flag
-            diagexact, and Genesis takes springs alone.
+        backend: mujoco, mjx, warp, newton or genesis. Only MuJoCo accepts the flag diagexact, and Genesis
+            accepts only springs.
         mass: of the body [kg].
         gravity: downward, of what is measured with weight and at rest [m/s²].
 
@@ -274,7 +274,7 @@ def require_timestep(timestep: float) -> None:
 
 
 def require_weight(mass: float, gravity: float, timestep: float) -> None:
-    """Refuse a mass or a gravity that no measurement bears.
+    """Refuse a mass or a gravity with which nothing can be measured.
 
     In a step gravity may change the speed by half of that of a touch.
     """

@@ -1,4 +1,4 @@
-"""What a body does that lies on a plane: how deep it lies, whether it hops, and whether it sinks."""
+"""The rest of a body on a plane: its depth, and whether it hops or sinks."""
 
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
@@ -58,7 +58,7 @@ def _response(model: mujoco.MjModel, data: mujoco.MjData, touch: Any) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class Rest:
-    """What a body does under its own weight; under n times its weight it lies or sinks n times as deep."""
+    """The rest of a body under its own weight; under n times its weight it lies or sinks n times as deep."""
 
     depth: float
     """The depth in the plane, in the mean over the last quarter of the steps [m]."""

@@ -1,4 +1,4 @@
-"""A model of the user's own: loaded, checked for what no measurement bears, its geoms by name."""
+"""A user's own model: loaded, checked, and its geoms by name."""
 
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false

@@ -1,4 +1,4 @@
-"""A floor as contact settings of MuJoCo: its restitution as a solref, and who makes its friction."""
+"""A floor as contact settings of MuJoCo: its restitution as a solref, and the source of its friction."""
 
 import math
 from dataclasses import dataclass, replace
@@ -28,7 +28,7 @@ class Realisation(StrEnum):
 
 
 class Friction(StrEnum):
-    """Who makes the friction of a contact."""
+    """The source of a contact's friction."""
 
     EXPLICIT = "explicit"
     """A frictionless contact, and Coulomb's force against the slip, μ times the normal force measured."""
@@ -129,8 +129,8 @@ MANY = MujocoSettings(stiffness=1e11, steps=3, flight_angle=0.8)
 LARGE = 44.0
 """Rate √(g/r) up to which a coin is large: the stiffness of its spring is as asked for [1/s]."""
 LOSS = 0.08
-"""An impact that takes 1 - χ² of the normal motion's energy hides errors of a few hundredths of that. One
-that takes less than `LOSS` gets a harder spring, up to `HARDEST`, and smaller steps, down to the least of
+"""An impact that takes 1 - χ² of the normal motion's energy hides errors of a few hundredths of that loss. An
+impact that takes less than `LOSS` gets a harder spring, up to `HARDEST`, and smaller steps, down to those for
 `LEAST_LOSS`."""
 LEAST_LOSS = 2.5e-3
 LEAST_SPRING = 0.01
