@@ -72,7 +72,7 @@ class Rebounds:
     rest: Rest
     """What the ball does when its bounces have ended."""
     formula: Formula | None
-    """The prediction of theory; None without a formula, as for contacts of about a step by RK4 or discrete."""
+    """The prediction of theory; None without a formula, as for one-step contacts by RK4 or discrete."""
 
 
 def solref_of(

@@ -1,1 +1,1 @@
-"""What `cointoss reproduce` makes: the paper's figures and claims, and studies; imports the rooms below."""
+"""The paper's figures and claims, and studies, for `cointoss reproduce`; imports the rooms below."""

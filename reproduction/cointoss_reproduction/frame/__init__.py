@@ -1,1 +1,1 @@
-"""What every study is run, checked and shown by."""
+"""The frame that runs, checks and shows every study."""

@@ -1,4 +1,4 @@
-"""A study's cells over its axes, as one long table: names on the axes, and what was found there."""
+"""A study's cells over its axes, as one long table: a row has names on the axes, and the cell's results."""
 
 import csv
 import hashlib
@@ -22,12 +22,12 @@ from cointoss_reproduction.frame.provenance import sources
 Rows = Mapping[str, Any] | Iterable[Mapping[str, Any]] | pd.DataFrame | None
 """A row of a table, several, or none."""
 Cell = Callable[..., Rows]
-"""Answers for a value of each axis, and for the sizes of the run that it names."""
+"""Computes the row for one value of each axis, and for the sizes of the run that its arguments name."""
 Axis = Sequence[Any] | Mapping[Any, Any]
 """The values of an axis, by names where they have some."""
 _WORDS = {"": None, "True": True, "False": False}
 ENDS = (" low", " high", " count", " counted")
-"""End the names of columns: of an estimate's interval, the size of its sample, and what that is of."""
+"""Suffixes of column names: an estimate's interval, the size of its sample, and what the sample counts."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ def table_of(
         parts: what is computed.
         progress: called after each cell.
         sizes: of the run; a cell is given those that it names.
-        kept: folder of the cells that an earlier run has computed; those are taken from it, others put there.
+        kept: folder with the cells of an earlier run, which are read; new cells are written there.
 
     Raises:
         ValueError: for a name that is both an axis and a column.
@@ -92,7 +92,7 @@ def read_table(path: Path) -> pd.DataFrame:
 
 
 def kept_rows(study: str, out: Path | None, where: str) -> list[dict[Any, Any]]:
-    """Return what another study has kept in the folder of all results; none if it has not run.
+    """Return the table of another study in the folder of all results; empty if that study has not run.
 
     Args:
         study: its name.
@@ -110,13 +110,13 @@ def text_of(table: pd.DataFrame) -> str:
 
 
 def column(cells: pd.DataFrame, name: str, where: str = "") -> NDArray[Any]:
-    """Return what the rows that `where` selects, of pandas' query, have in a column; others are left out."""
+    """Return a column of the rows that `where`, a pandas query, selects."""
     rows = cells.query(where, engine="python") if where else cells
     return np.array(rows[name].dropna().tolist())
 
 
 def estimate(row: Mapping[str, Any], column: str) -> Any:
-    """Return what a row has in a column, with its interval where there is one."""
+    """Return a row's value in a column, with its interval if it has one."""
     value = row[column]
     if f"{column}{ENDS[0]}" not in row or pd.isna(row[f"{column}{ENDS[-1]}"]):
         return value

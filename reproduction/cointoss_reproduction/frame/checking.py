@@ -1,4 +1,4 @@
-"""Whether a run finds the numbers of an earlier one: each with what it may differ by, and why."""
+"""The comparison of a run with an earlier run: each number with its tolerance and a reason."""
 
 import math
 from collections import Counter
@@ -27,12 +27,12 @@ BESIDE = "within a thousandth of the largest number beside it"
 SMALL = "within a hundredth of the threshold: rounding"
 SAME = "equal"
 _TOLD = ("analytic", "mujoco", "headline")
-"""What a claim says in words."""
+"""The texts of a claim."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Run:
-    """What a run left in its folder."""
+    """The results of a run, read from its folder."""
 
     claims: tuple[Claim, ...]
     cells: pd.DataFrame
@@ -65,27 +65,27 @@ class Compared:
     """A number of two runs."""
 
     place: str
-    """Where it stands."""
+    """The place of the number."""
     there: Any
     here: Any
     reason: str
-    """What it may differ by, and why."""
+    """The tolerance and its reason, in words."""
     agrees: bool
 
 
 @dataclass(frozen=True, kw_only=True)
 class Check:
-    """What two runs have in common."""
+    """The result of comparing two runs."""
 
     unlike: str
-    """By what their sources, versions and machines differ, in words; empty where by nothing."""
+    """The differences of sources, versions and machines, in words; empty if there are none."""
     verdicts: int
     """How many claims were compared."""
     changed: tuple[str, ...]
     """Claims whose verdict changes, in words."""
     numbers: tuple[Compared, ...]
     words: tuple[str, ...] = ()
-    """What the claims say in words, where that differs; its numbers have no tolerance of their own."""
+    """Texts of claims that differ; the numbers in them have no tolerance of their own."""
 
     @property
     def off(self) -> tuple[Compared, ...]:
@@ -94,7 +94,7 @@ class Check:
 
     @property
     def agrees(self) -> bool:
-        """Whether no verdict changes and all numbers agree; the words too, where the bits should."""
+        """Whether no verdict changes and all numbers agree; and the texts, if the bits should be the same."""
         return not self.changed and not self.off and (bool(self.unlike) or not self.words)
 
 
@@ -187,7 +187,7 @@ def _columns(
 
 
 def _as_many(place: str, there: Any, here: Any, what: str) -> Iterator[Compared]:
-    """Yield a difference where two runs have not as many."""
+    """Yield a difference if two runs have different numbers of entries."""
     if len(there) != len(here):
         counts = (f"{len(each)} {what}" for each in (there, here))
         yield compared(place, *counts, exact=False)
@@ -219,7 +219,7 @@ def compared(
 
 
 def _allowed(there: float, here: float, beside: float, small: float) -> tuple[float, str]:
-    """Return by how much two numbers may differ, and why; the same whichever is the earlier."""
+    """Return by how much two numbers may differ, and why; symmetric in the two runs."""
     size = max(abs(there), abs(here))
     if isinstance(there, int) and isinstance(here, int):
         return CONFIDENCE * math.sqrt(size), COUNT

@@ -41,7 +41,7 @@ class Criterion:
 
     @property
     def is_met(self) -> bool | None:
-        """Whether the quantity is on the right side of the threshold; never so for NaN.
+        """Whether the quantity is on the right side of the threshold; False for NaN.
 
         None where the interval of an estimate contains the threshold.
         """
@@ -84,7 +84,7 @@ class Criterion:
 
     @property
     def wanted(self) -> str:
-        """What would decide it, in words; empty where it is decided."""
+        """What would decide the criterion, in words; empty if it is decided."""
         if self.is_met is not None or not isinstance(self.measured, Estimate):
             return ""
         sample = self.measured
@@ -99,12 +99,12 @@ class Criterion:
 
 @dataclass(frozen=True, kw_only=True)
 class Claim:
-    """A sentence of somebody, a prediction made before, or a regression test; with what decides it."""
+    """Somebody's claim, a prediction made before, or a regression test; with the criteria that decide it."""
 
     claim: str
     """What the paper shows or says, or what a study found."""
     criteria: Sequence[Criterion] = ()
-    """The claim holds where all are met, and does not where one is not."""
+    """The criteria. The claim holds if all are met, and does not hold if one is not."""
     missing: str = ""
     """What the paper leaves out, without which the claim cannot be tested."""
     analytic: str = "-"
@@ -112,11 +112,11 @@ class Claim:
     mujoco: str = "-"
     """What MuJoCo finds, or how far it is from the analytic engine; "-" where it has no part in the claim."""
     headline: str = ""
-    """What was found, in a sentence for the opening of the page; empty for most."""
+    """The finding, in a sentence for the opening of the page; empty for most claims."""
     expected: bool | None = True
     """The known verdict, as `holds` has it."""
     regression: bool = False
-    """Whether it is a regression test: written after its numbers, it could not come out otherwise."""
+    """Whether the claim is a regression test, written after its numbers."""
 
     def __post_init__(self) -> None:
         """Keep the criteria as a tuple; refuse what nothing decides, or is no line."""

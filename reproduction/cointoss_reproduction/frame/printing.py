@@ -1,4 +1,4 @@
-"""What a run found, as text for a terminal."""
+"""The result of a run, as text for a terminal."""
 
 import textwrap
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""What a run was made of: its sources, the versions and the machine; and what it wrote, by hash."""
+"""The provenance of a run: its sources, versions and machine; and hashes of the files that it wrote."""
 
 import hashlib
 import json
@@ -57,7 +57,7 @@ def sources() -> str:
 
 
 def older(made_of: Mapping[str, Any] | None) -> str:
-    """Return in words by which engines other than those here a run was made, empty where by none."""
+    """Return which engines that made a run differ from those here, in words; empty if none differs."""
     if made_of is None or "engines" not in made_of:
         return "does not say by which engines it was made"
     other = [name for name, digest in fingerprints().items() if made_of["engines"].get(name) != digest]
@@ -89,7 +89,7 @@ def read_provenance(path: Path) -> dict[str, Any] | None:
 
 
 def unlike(there: Mapping[str, Any] | None, here: Mapping[str, Any]) -> str:
-    """Return, in words, by what two runs differ that may change their bits; empty where by nothing."""
+    """Return the differences of two runs that may change their bits, in words; empty if there are none."""
     if there is None:
         return f"no {PROVENANCE} there"
     other = ["other sources"] if there["sources"] != here["sources"] else []

@@ -1,4 +1,4 @@
-"""What can be reproduced, and what a run of it found."""
+"""A figure, claim or study that can be reproduced, and the result of its run."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -15,7 +15,7 @@ if TYPE_CHECKING:  # names are listed without it
 
 @dataclass(frozen=True, kw_only=True)
 class Result:
-    """What a run found."""
+    """The result of a run."""
 
     claims: Sequence[Claim]
     data: Any
@@ -29,7 +29,7 @@ class Reproduction:
     """A figure, a claim or a study that can be reproduced."""
 
     title: str
-    """What it shows, in a few words."""
+    """The subject, in a few words."""
     seconds: float
     """Roughly how long it takes on two cores [s]."""
     make: Callable[..., Result]
@@ -51,9 +51,9 @@ class Reproduction:
     settable: Sequence[str] = ()
     """The sizes of a run that a command line may give."""
     usual: Mapping[str, Any] = field(default_factory=dict)
-    """The sizes of a run by name, as they are where nothing else is said."""
+    """The default sizes of a run, by name."""
     assumed: str = ""
-    """What the paper leaves unsaid, and what is assumed instead."""
+    """The assumptions where the paper says nothing."""
 
     def sizes(self, settings: Sequence[str]) -> dict[str, Any]:
         """Return the sizes that `settings` give, NAME=VALUE each.

@@ -1,4 +1,4 @@
-"""What a run leaves in its folder: claims, data, and pictures drawn from the data."""
+"""The files of a run: claims, data, and pictures drawn from the data."""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path

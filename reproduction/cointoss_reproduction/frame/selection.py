@@ -1,4 +1,4 @@
-"""What a study declares of its table: measures for its claims, tables for its page, pictures of lines."""
+"""What a study selects from its table: measures for its claims, tables and pictures for its page."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -42,7 +42,7 @@ TAKEN = {
     "sum": lambda values: np.sum(values).item(),
     "range": lambda values: float(np.ptp(values)),
 }
-"""What one number may be made of several."""
+"""The functions that make one number of several."""
 COLORS = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY, INK, GREY)
 """Of the lines of a picture."""
 

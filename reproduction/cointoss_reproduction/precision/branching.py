@@ -1,15 +1,15 @@
 """The share f(ε) of tosses that an accuracy ε leaves uncertain, to any ε, by branching.
 
-At ε = 1e-24 m too few tosses are uncertain to be met by chance. So intervals of release are cut into ten
-parts, time and again. A part dies where the tosses from its ends never part: the same rim points touch, the
-same face is up, and at every impact they are close. Between them no outcome changes. Of the parts that live
-a number goes on, each by a draw of its own, with a weight of one over its chance. So f is without bias at
-every ε whatever the chances are, which decide its scatter alone (H. Kahn, T. E. Harris, 1951).
+At ε = 1e-24 m uncertain tosses are too rare to be found by chance. So intervals of release are cut into ten
+parts, again and again. A part is dropped if the tosses from its two ends never diverge: the same rim points
+touch, the same face is up, and at every impact they are close. Between such ends no outcome changes. Of the
+other parts a number is drawn and followed further, each with a weight of one over its chance. So f has no
+bias at any ε; the chances determine only its scatter (H. Kahn, T. E. Harris, 1951).
 
-A part holds the more boundaries the more energy is left where its ends part. Most tosses have little, and
-make f at this ε; few have much, and make f at ε that are many decades smaller. So some of the places are
-shared by weight alone, some with preference for energy, and some among parts whose ends differ in outcome,
-for a landing that is exactly flat parts tosses, too, and often to no effect.
+A part contains more boundaries if more energy is left when its ends diverge. Most tosses have little energy
+left, and determine f at this ε; a few have much, and determine f at ε many decades smaller. So the parts to
+follow are chosen in three ways: in proportion to their weight; with preference for energy; and among parts
+whose ends differ in outcome, because an exactly flat landing also makes tosses diverge, often to no effect.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -28,7 +28,7 @@ from cointoss_reproduction.precision.planar_numbers import energy_left, spread, 
 
 PARTS = 10
 GROUPS = 20
-"""Of ancestors; what is found of one does not depend on the others, so they show how sure a number is."""
+"""The number of groups of ancestors, which are independent of each other and so give intervals."""
 PREFERENCES = (0, 2, 5)
 """Powers of the energy that is left; each has an equal share of the places, and so have different ends."""
 LITTLE = 1.0
@@ -50,7 +50,7 @@ class Branches:
     whole: Array
     """All weight, that of the dead parts too, which is 1 on average, (GROUPS, n)."""
     parted: Array
-    """Share of the tosses that part from one ε away, (GROUPS, n)."""
+    """Share of the tosses that diverge from the toss one ε away, (GROUPS, n)."""
     energy: Array
     """That is left where they part, times this share [m g r], (GROUPS, n)."""
     boundaries: NDArray[np.int64]
@@ -70,9 +70,9 @@ class Expanded:
     outcomes: NDArray[np.int8]
     """Theirs, (PARTS + 1,)."""
     lives: NDArray[np.bool_]
-    """Whether the tosses from the ends of a part have parted, (PARTS,)."""
+    """Whether the tosses from the ends of a part have diverged, (PARTS,)."""
     energy: Array
-    """That is left where they part, (PARTS,) [m g r]."""
+    """The energy left where they diverge, (PARTS,) [m g r]."""
 
     @property
     def differs(self) -> NDArray[np.bool_]:

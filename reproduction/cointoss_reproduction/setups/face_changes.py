@@ -1,4 +1,4 @@
-"""The two kinds of impacts that change a coin's face (Fig. 28): those after a row, and single ones."""
+"""The two kinds of impacts that change a coin's face (Fig. 28): impacts after a row, and single impacts."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -25,9 +25,9 @@ MARK = "∘"
 BEGINNING = "H∘HHH∘"
 """Of all six."""
 CLUSTER = 0.03
-"""Impacts that follow each other within so much time are not told apart in the scale of Fig. 24 [s]."""
+"""Impacts within this time of each other cannot be distinguished in the scale of Fig. 24 [s]."""
 NEARBY = (0.39, 0.41)
-"""Random heights of the first of six tosses, which share what chance shares [m]."""
+"""Random heights of the first of six tosses, to measure agreement by chance [m]."""
 APART = 1e-5 * np.arange(6)
 """Heights of the six tosses above the first [m]."""
 IMPACTS = 18

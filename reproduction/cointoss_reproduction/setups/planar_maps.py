@@ -43,7 +43,7 @@ class Grid:
     """(y) [rad/s]."""
 
     def rows(self, scenario: Scenario) -> Array:
-        """Return the tosses of all points, line by line, as rows, (y x, 46)."""
+        """Return the tosses of all points, line by line, as rows, (y x, 54)."""
         z, w = (part.ravel() for part in np.meshgrid(self.heights, self.spins))
         return planar_rows(scenario, z, w)
 
@@ -69,7 +69,7 @@ def map_of(lines: Iterable[str]) -> NDArray[np.int8]:
 
 
 def planar_rows(scenario: Scenario, heights: Array, spins: Array) -> Array:
-    """Return tosses of a coin released flat, heads up, at rest but for its spin about ξ, as rows, (n, 46).
+    """Return tosses of a coin released flat, heads up, at rest but for its spin about ξ, as rows, (n, 54).
 
     Args:
         scenario: what is tossed.
@@ -105,7 +105,7 @@ def faces_after(
     """Return the face up at the touch after some impacts, the outcome where a toss ended before, (n,).
 
     Args:
-        rows: of the tosses, (n, 46).
+        rows: of the tosses, (n, 54).
         impacts: how many.
         toss_rows: the engine's.
     """

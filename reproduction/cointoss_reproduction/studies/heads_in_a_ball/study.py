@@ -119,7 +119,7 @@ def ball_about(
         rng: the source of chance.
 
     Returns:
-        The tosses, (count, 46).
+        The tosses, (count, 54).
     """
     r, g = scenario.coin.radius, scenario.gravity
     drawn = rng.normal(size=(count, 12))
