@@ -87,9 +87,8 @@ class Answers(NamedTuple):
         """Return the face at the touch after n impacts, the outcome where the toss ended before, (n,).
 
         Args:
-            impacts: n; 0 for the first touch. The tosses must have n + 1 as `max_impacts`, so that all stop
-            at that
-                touch.
+            impacts: n; 0 for the first touch. The tosses must have n + 1 as `max_impacts`, so that all
+                stop at that touch.
 
         Raises:
             ValueError: if a toss has more impacts than n + 1.
