@@ -93,8 +93,7 @@ def toss_each(rows: Table, wanted: int, answers: Table) -> None:
         rows: of their fields, (n, m).
         wanted: `NO_TRUST`, `TRUST` or `CERTAIN`.
         answers: where they go, (n, 7), see `cointoss.models.answers.ANSWER`; an invalid scenario gets
-        `REFUSED`
-            in place of the outcome.
+            `REFUSED` in place of the outcome.
     """
     faults = np.empty(1, np.int8)
     for i in range(len(rows)):

@@ -272,7 +272,7 @@ def _trust(
 ) -> tuple[int, TrustEnd]:
     """Count the leading impacts that meet the contact law and stay the same with softer contacts.
 
-    The contacts are softened by `SOFTER`; a thin coin's shape, which is invented, is made ten times as thick.
+    The contacts are softened by `SOFTER`; a thin coin's shape, of invented thickness, is ten times as thick.
     No impact after the first sustained contact is counted.
 
     Returns:

@@ -210,7 +210,8 @@ def grazing_time(body: Body, v: Vector, up: Vector, w: Vector, sink: float) -> t
 
     Returns:
         time: the time [s].
-        acceleration: the largest downward acceleration of the gap in that time, apart from a passing of 0 [m/s²].
+        acceleration: the largest downward acceleration of the gap in that time, apart from a passing of 0
+        [m/s²].
     """
     bounds = acceleration_bounds(body, v, up, w, 0.0)
     acceleration = bounds.of_height + body.radius * bounds.of_normal

@@ -154,7 +154,7 @@ class Hand:
     def states(self, body: Body, rng: np.random.Generator, count: int) -> Array:
         """Draw the states at release, (n, 13): position, velocity, Euler parameters, angular velocity.
 
-        All horizontal directions of L, and all points of the rim as the lowest, are equally likely.
+        All azimuths of L, and all points of the rim as the lowest, are equally likely.
 
         Args:
             body: the coin.

@@ -25,7 +25,8 @@ SLOW = rest.SLOW
 """Relative to √(g r): slower slip is stopped where friction can hold it, and is incipient elsewhere, where
 friction would turn it in the time slip/(μ g). A sliding point goes on sliding down to half of this speed."""
 BORDER = 1e-6
-"""Friction holds a point up to this part above its limit: a coin at the limit must not start and stop."""
+"""Friction holds a stuck point up to this part beyond the limit at which it starts to hold one: otherwise a
+coin at the limit would start and stop for ever."""
 ON_EDGE = 1e-3
 """A thick coin is on its edge where it leans by less than this part of h/(2 r), which tips it over, and turns
 off its edge by less than this part of h/(2 r) √(g/r)."""
