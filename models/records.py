@@ -82,7 +82,11 @@ class Ending(Word):
     CHATTER = 6, "Ever faster impacts bring the coin into contact, where this law is not followed."
     NO_SOLUTION = 7, "The contact law has no solution at this impact."
     LYING = 8, "The coin lies on a face. It may still slide or spin, but that can't tip it.", _PROVED
-    STANDING = 9, "The coin stands on its edge: the floor turns it back from either rim.", _PROVED
+    STANDING = (
+        9,
+        "The coin stands on its edge: by all evidence the floor turns it back from either rim.",
+        _NO_PROOF,
+    )
     PERPETUAL = (
         10,
         "Its recent losses, extrapolated, leave the coin enough energy to turn over for ever.",
