@@ -44,12 +44,19 @@ def blocks(docs: Path) -> dict[str, str]:
 
 
 def findings(adapters: Path) -> str:
-    """Return what was found in each engine, as its adapter's findings.md has it, two levels lower.
+    """Return what was found in each engine, as its adapter's findings.md has it, folded below its title.
 
     Its scripts run in the engine's environment, and not as those of a page.
     """
     pages = [path.read_text(encoding="utf-8").strip() for path in sorted(adapters.glob("*/findings.md"))]
-    return "\n\n".join(re.sub(r"^```\w+$", "```py", f"##{page}", flags=re.MULTILINE) for page in pages)
+    return "\n\n".join(map(folded, pages))
+
+
+def folded(page: str) -> str:
+    """Return a page as a block that opens at its title."""
+    title, text = page.removeprefix("# ").split("\n", maxsplit=1)
+    scripts = re.sub(r"^```\w+$", "```py", text.strip(), flags=re.MULTILINE)
+    return f"<details>\n<summary>{title}</summary>\n\n{scripts}\n\n</details>"
 
 
 def errors(known: list[dict[str, Any]]) -> str:
