@@ -151,7 +151,7 @@ def solref(
 
     By default a contact takes one step, v' = -e v, with a small stiffness that holds a body at rest. A spring
     takes `steps` steps, which resolve its force, and works with RK4, which keeps the energy of a tumbling
-    body. docs/MUJOCO.md derives both. They hold for every mass, and for every shape that hardly turns
+    body. docs/MUJOCO_MEASURED.md derives both. They hold for every mass, and for every shape that hardly turns
     in the contact, without MuJoCo's own friction.
 
     Args:
