@@ -61,36 +61,27 @@ _INTRODUCTION = """\
 
 *Do the figures and claims of "Dynamics of coin tossing is predictable" hold when they are computed again?*
 
-Of {count} claims of the paper, and of papers that it cites, {verdicts}.
-
-Its main claims, and what we find:
+Of {count} claims of the paper, and of papers that it cites, {verdicts}. Do not read the
+count of verdicts as a score: it depends on how claims are divided. The main claims, and what we find:
 
 {main}
 
 ![{pictured}]({picture})
 
-A claim has thresholds, which measured quantities must meet. An estimate from random tosses has its 99 %
-confidence interval in brackets; a threshold inside it decides nothing. A claim cannot be tested where
-what was read of the paper, its text and captions, leaves out what it needs, or where more tosses would be
-needed to tell. The paper's pictures were not seen: some may hold what is missing. A sentence that was written
-after its numbers is a regression test, and is not counted.
+- **A claim holds** if every measured quantity meets its threshold. Brackets are 99 % confidence intervals; a
+  threshold inside one decides nothing. Regression tests are written after their numbers, and not counted.
+- **A claim cannot be tested** if the paper's text leaves out what the test needs, or if more tosses are needed.
+  We did not see the pictures.
+- **Weak** are the verdicts on Figs 24, 27 and 28, where we had to choose coin, floor or method.
 
-**Strong** are results that rest on what the paper prints: the share of uncertain tosses down to 1e-24 m, the
-coins on the boundary, the stop test, the closed forms of the contact laws, and the errata. Programs written
-apart confirm their numbers. **Weak** are the verdicts on Figs 24, 27 and 28, where text and captions leave
-out coin, floor or method, so that each rests on a reading; their pictures were not seen. How many verdicts
-there are depends on how claims are divided, so their numbers are no mark of the paper.
-
-The paper is J. Strzalko, J. Grabski, A. Stefanski, P. Perlikowski and T. Kapitaniak, "Dynamics of coin
-tossing is predictable", Physics Reports 469 (2008) 59-92. One command makes its figures, all pages and a
-gallery to project again:
+The paper is by Strzalko, Grabski, Stefanski, Perlikowski and Kapitaniak, Physics Reports 469 (2008) 59-92. One
+command computes all figures again:
 
     cointoss reproduce all {quick}--out docs
 
 ## Verdicts
 
-Each row leads to a page with the figure, its claims and what was measured. All claims, measured quantities,
-thresholds and reasons are there [as CSV](claims.csv), too.
+Each row links to the figure, its claims and what was measured. [A CSV file](claims.csv) has all claims.
 
 """
 
@@ -184,7 +175,7 @@ def page_in(name: str) -> str:
 def _sketches() -> str:
     """Return which figures have no page, and why."""
     listed = "; ".join(f"{place}, {shows}" for place, shows in SKETCHES.items())
-    return f"Nothing is computed where the paper sketches a definition: {listed}."
+    return f"Not computed, because each sketches a definition: {listed}."
 
 
 def claims_sheet(shown: Sequence[GalleryEntry]) -> str:
