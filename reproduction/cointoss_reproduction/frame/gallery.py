@@ -70,12 +70,12 @@ count of verdicts as a score: it depends on how claims are divided. The main cla
 
 - **A claim holds** if every measured quantity meets its threshold. Brackets are 99 % confidence intervals; a
   threshold inside one decides nothing. Regression tests are written after their numbers, and not counted.
-- **A claim cannot be tested** if the paper's text leaves out what the test needs, or if more tosses are needed.
-  We did not see the pictures.
+- **A claim cannot be tested** if the paper's text leaves out what the test needs, or if more tosses are
+  needed. We did not see the pictures.
 - **Weak** are the verdicts on Figs 24, 27 and 28, where we had to choose coin, floor or method.
 
-The paper is by Strzalko, Grabski, Stefanski, Perlikowski and Kapitaniak, Physics Reports 469 (2008) 59-92. One
-command computes all figures again:
+The paper is by Strzalko, Grabski, Stefanski, Perlikowski and Kapitaniak, Physics Reports 469 (2008) 59-92.
+One command computes all figures again:
 
     cointoss reproduce all {quick}--out docs
 
