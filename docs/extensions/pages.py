@@ -17,7 +17,7 @@ NOTEBOOK = re.compile(r"\[([^\]]+)\]\(([^)\s]+\.ipynb)\)")
 
 
 def read(_app: Sphinx, docname: str, source: list[str]) -> None:
-    """Change the text of a page before it is parsed; the page of verdicts has those of all figures and studies below it."""
+    """Change the text of a page before it is parsed; the page of verdicts gets all figures and studies."""
     text = NOTEBOOK.sub(r"{download}`\1 <\2>`", source[0]).replace("](../README.md", "](OVERVIEW.md")
     if docname == "REPRODUCTION":
         places = {name: runner.find(name).paper for name in gallery.of_paper()}
