@@ -1,5 +1,6 @@
 """How Sphinx makes the site of the pages in this folder; `make docs` calls it."""
 
+import logging
 import os
 import sys
 from pathlib import Path
@@ -48,6 +49,8 @@ PROFILE = MADE / "ipython" / "profile_default" / "ipython_kernel_config.py"
 PROFILE.parent.mkdir(parents=True, exist_ok=True)
 PROFILE.write_text('c.IPKernelApp.log_level = "ERROR"\nc.InlineBackend.figure_formats = {"retina"}\n')
 os.environ["IPYTHONDIR"] = str(MADE / "ipython")
+# Furo's colours, when imported, let every library print its log; a logger that is set up already stays as it is.
+logging.basicConfig(level=logging.WARNING, format="%(name)s: %(message)s")
 # What a notebook writes to its standard error is a warning, and so ends `make docs`: no progress there.
 os.environ["TQDM_DISABLE"] = "1"
 nb_output_stderr = "warn"
