@@ -3,7 +3,6 @@
 import re
 import shlex
 from contextlib import redirect_stdout
-from dataclasses import dataclass
 from io import StringIO
 from itertools import pairwise
 from pathlib import Path
@@ -16,10 +15,8 @@ import cointoss as package
 from cointoss.compare.cli import main
 from cointoss.models.reading import parse
 from tests.helpers.command_line import cointoss
+from tests.helpers.pages import DOCS, PAGES, TOP, blocks, commands, is_synopsis, not_answered, shown_below
 
-TOP = Path(__file__).parents[1]
-DOCS = TOP / "docs"
-PAGES = [TOP / "README.md", *sorted(DOCS.glob("*.md")), *sorted(DOCS.glob("howto/*.md"))]
 NOTEBOOKS = sorted(DOCS.glob("examples/*.md"))
 MOST_TOSSES = 150_000
 """Of a map that is made here; where the page shows an answer, it takes a second or two."""
@@ -30,44 +27,6 @@ FEW = 20
 """Of an axis of a map whose answer no page shows: a coin that bounces on and on takes minutes for all."""
 WRITES = ("--out", "--png", "--static", "--report", "--poster", "--trajectory")
 """Options that name what a command writes."""
-PLACEHOLDER = re.compile(r"\[|\.\.\.|\b(?!T\b|H+\b)[A-Z]{2,}\b(?![-.\w]*[a-z])")
-"""What a line of a synopsis has and a command that can be run has not."""
-
-
-@dataclass(frozen=True)
-class Block:
-    """A block of code on a page: its language where a fence names one, and its text."""
-
-    language: str
-    text: str
-
-
-def blocks(page: str) -> list[Block]:
-    """Return the blocks of code of a page in their order, fenced ones and indented ones."""
-    found, lines = [], page.splitlines()
-    while lines:
-        line = lines.pop(0)
-        if line.startswith("```"):
-            end = lines.index("```")
-            found.append(Block(line[3:].strip(), "\n".join(lines[:end])))
-            del lines[: end + 1]
-        elif line.startswith("    "):
-            part = [line]
-            while lines and (lines[0].startswith("    ") or not lines[0]):
-                part.append(lines.pop(0))
-            found.append(Block("", "\n".join(text[4:] for text in part)))
-    return found
-
-
-def commands(text: str) -> list[str]:
-    """Return the lines of a block that call `cointoss`, continued lines joined and comments left out."""
-    joined = re.sub(r"\\\n\s*", "", text)
-    called = re.findall(r"^(?:\$ )?(cointoss .*)$", joined, flags=re.MULTILINE)
-    return [re.sub(r"\s+#.*$", "", line) for line in called]
-
-
-def is_synopsis(command: str) -> bool:
-    return PLACEHOLDER.search(command) is not None
 
 
 def subcommand(word: str) -> click.Command:
@@ -89,7 +48,7 @@ def runs_here(words: list[str]) -> bool:
     few = len(tosses) == 2 and tosses[0] * tosses[1] <= most
     slow = {"--engine", "--device", "--scheduler", "--resume", "--margin"}
     if words[0] == "find":
-        return "--tosses" in words
+        return tosses_of_each(words) <= MOST_BY_HAND
     if words[0] == "shares":
         few = not {"--compare", "--to", "--hand"} & set(words) and tosses_of_each(words) <= MOST_BY_HAND
         return few and not slow & set(words)
@@ -101,17 +60,15 @@ def tosses_of_each(words: list[str]) -> float:
     return int(words[words.index("--tosses") + 1]) if "--tosses" in words else float("inf")
 
 
-def written(page: Path) -> list[Block]:
-    return blocks(page.read_text(encoding="utf-8"))
-
-
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_the_code_of_a_page_runs_from_top_to_bottom(page, tmp_path, monkeypatch):
     """Python in one namespace for each page, and the fast commands, in one folder."""
     monkeypatch.chdir(tmp_path)
     names: dict[str, Any] = {"__name__": "page"}
     printed = ""
-    for block in written(page):
+    for block in blocks(page):
+        if block.file:
+            Path(block.file).write_text(f"{block.text}\n", encoding="utf-8")
         for command in commands(block.text):
             words = shlex.split(command)[1:]
             if is_synopsis(command):
@@ -132,8 +89,6 @@ def test_the_code_of_a_page_runs_from_top_to_bottom(page, tmp_path, monkeypatch)
             assert printed.rstrip() == block.text, f"printed:\n{printed}"
         if "[coin]" in block.text and "[release]" in block.text and block.language in ("", "toml"):
             assert parse(block.text, page.name).coin.mass > 0
-            if named := re.match(r"# (\w+\.toml):", block.text):
-                Path(named[1]).write_text(block.text, encoding="utf-8")
 
 
 def coarse(word: str) -> str:
@@ -141,43 +96,16 @@ def coarse(word: str) -> str:
     return re.sub(r"(?<=:)\d+$", lambda count: str(min(int(count[0]), FEW)), word) if "=" in word else word
 
 
-def shown_below(block: str, command: str) -> list[str]:
-    """Return what a block shows of the answer to its only command."""
-    joined = re.sub(r"\\\n\s*", "", block)
-    if len(commands(joined)) > 1:
-        return []
-    _, _, below = joined.partition(command)
-    lines = below.splitlines()[1:]
-    return [line for line in lines if line.strip() and not line.strip().startswith(("...", "…", "#"))]
-
-
 def assert_shown(block: str, command: str, stdout: str) -> None:
-    """What a block shows below its only command is in the answer, numbers to a part in a thousand or 1e-9."""
-    answer = [words_of(line) for line in stdout.splitlines()]
-    for line in shown_below(block, command):
-        assert any(is_same(words_of(line), told) for told in answer), f"{line!r} is not in\n{stdout}"
-
-
-def words_of(line: str) -> list[str]:
-    return line.replace(",", "").split()
-
-
-def is_same(shown: list[str], told: list[str]) -> bool:
-    return len(shown) == len(told) and all(
-        a == b or (is_number(a) and is_number(b) and float(a) == pytest.approx(float(b), rel=1e-3, abs=1e-9))
-        for a, b in zip(shown, told, strict=True)
-    )
-
-
-def is_number(text: str) -> bool:
-    return re.fullmatch(r"[-+]?\d+(\.\d*)?(e[-+]?\d+)?", text) is not None
+    """What a block shows below its only command is in the answer."""
+    assert not_answered(block, command, stdout) == [], stdout
 
 
 def test_each_command_of_the_pages_writes_to_a_name_of_its_own():
     """Followed one after the other in one folder, no command is refused what another has written."""
     named = []
     for page in PAGES:
-        for block in written(page):
+        for block in blocks(page):
             for command in commands(block.text):
                 words = shlex.split(command)
                 if not is_synopsis(command) and words[1] != "reproduce":
@@ -204,7 +132,7 @@ def begins_with_digit(cell: str) -> bool:
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda page: page.stem)
 def test_a_notebook_has_code_that_parses_and_ends_with_exercises_and_solutions(notebook):
     """`make docs` runs them; a cell may begin with options between two lines of dashes."""
-    cells = [block.text for block in written(notebook) if block.language == "{code-cell}"]
+    cells = [block.text for block in blocks(notebook) if block.language == "{code-cell}"]
     code = [re.sub(r"\A---\n.*?\n---\n", "", cell, flags=re.DOTALL) for cell in cells]
     assert len([compile(cell, notebook.name, "exec") for cell in code]) >= 4
     assert max(len(line) for cell in code for line in cell.splitlines()) <= 88
@@ -254,7 +182,7 @@ def test_a_page_of_docs_leads_to_each_figure():
 
 
 def test_there_is_code_to_run():
-    code = {page.name: written(page) for page in PAGES}
+    code = {page.name: blocks(page) for page in PAGES}
     assert sum(block.language == "python" for block in code["README.md"]) >= 2
     called = [command for block in code["README.md"] for command in commands(block.text)]
     assert any(runs_here(shlex.split(command)[1:]) for command in called)
@@ -267,7 +195,7 @@ def test_an_answer_that_is_not_the_one_shown_is_seen():
     answered = cointoss("toss", "fig24a", "--max-impacts", 2)
     line = next(line for line in answered.stdout.splitlines() if line.startswith("sequence"))
     assert_shown(block.format(line), "cointoss toss fig24a --max-impacts 2", answered.stdout)
-    with pytest.raises(AssertionError, match="is not in"):
+    with pytest.raises(AssertionError, match=re.escape(f"{line}T")):
         assert_shown(block.format(f"{line}T"), "cointoss toss fig24a --max-impacts 2", answered.stdout)
 
 
