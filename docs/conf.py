@@ -49,7 +49,7 @@ PROFILE = MADE / "ipython" / "profile_default" / "ipython_kernel_config.py"
 PROFILE.parent.mkdir(parents=True, exist_ok=True)
 PROFILE.write_text('c.IPKernelApp.log_level = "ERROR"\nc.InlineBackend.figure_formats = {"retina"}\n')
 os.environ["IPYTHONDIR"] = str(MADE / "ipython")
-# Furo's colours, when imported, let every library print its log; a logger that is set up already stays as it is.
+# Furo's colours, when imported, let every library print its log, unless the logger is set up before.
 logging.basicConfig(level=logging.WARNING, format="%(name)s: %(message)s")
 # What a notebook writes to its standard error is a warning, and so ends `make docs`: no progress there.
 os.environ["TQDM_DISABLE"] = "1"
