@@ -117,8 +117,14 @@ def test_each_command_of_the_pages_writes_to_a_name_of_its_own():
 def test_long_tables_of_numbers_are_folded():
     """All but the table of verdicts, which is the contents of its pages."""
     found = []
-    for page in DOCS.rglob("*.md"):
-        text = re.sub(r"<details>.*?</details>", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+    for page in sorted(set(DOCS.rglob("*.md")) - set(DOCS.glob("made/*.md"))):
+        whole = re.sub(
+            r"^```\{include\} (made/\w+\.md)\n```$",
+            lambda found: (DOCS / found[1]).read_text(encoding="utf-8"),
+            page.read_text(encoding="utf-8"),
+            flags=re.MULTILINE,
+        )
+        text = re.sub(r"<details>.*?</details>", "", whole, flags=re.DOTALL)
         for rows in re.findall(r"^\|[ |:-]+\|\n((?:\|.*\n){6,})", text, re.MULTILINE):
             cells = [cell for row in rows.splitlines() for cell in row.split("|")[2:-1]]
             found += [page.name] if sum(map(begins_with_digit, cells)) > len(cells) / 5 else []
