@@ -2,7 +2,9 @@
 
 import re
 import shlex
+import sys
 from contextlib import redirect_stdout
+from importlib import import_module
 from io import StringIO
 from itertools import pairwise
 from pathlib import Path
@@ -17,6 +19,8 @@ from cointoss.models.reading import parse
 from tests.helpers.command_line import cointoss
 from tests.helpers.pages import DOCS, PAGES, TOP, blocks, commands, is_synopsis, not_answered, shown_below
 
+sys.path.append(str(DOCS / "extensions"))
+counting = import_module("words")
 NOTEBOOKS = sorted(DOCS.glob("examples/*.md"))
 MOST_TOSSES = 150_000
 """Of a map that is made here; where the page shows an answer, it takes a second or two."""
@@ -133,6 +137,17 @@ def test_long_tables_of_numbers_are_folded():
 
 def begins_with_digit(cell: str) -> bool:
     return re.match(r"\s*-?\d", cell) is not None
+
+
+@pytest.mark.parametrize("shelf", counting.MOST)
+def test_the_pages_have_no_more_words_than_a_reader_has_patience_for(shelf):
+    assert sum(counting.counted(DOCS)[shelf].values()) <= counting.MOST[shelf]
+
+
+def test_words_are_counted_in_prose_alone():
+    prose = "# One\n\nTwo < three, [four](five) > 6.\n\n<b>seven</b>\n"
+    rest = "| eight |\n|---|\n\n    nine\n\n```text\nten\n```\n<!-- eleven -->\n"
+    assert counting.words(prose) == counting.words(prose + rest) == 6
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda page: page.stem)
