@@ -21,7 +21,7 @@ told = echo "$(1)"; \
   while sleep 10 >/dev/null 2>&1 && kill -0 $$$$; do s=$$(($$s + 10)); echo "$(1): $$s s"; done & \
   trap "kill $$!" EXIT; $(2)
 
-.PHONY: report test check test-all bench docs pages screens paper results releasable release wheels lock lint sink emulated opengl chromium firefox engines clean
+.PHONY: report test check test-all bench docs examples pages screens paper results releasable release wheels lock lint sink emulated opengl chromium firefox engines clean
 
 # The first line it prints at its end leads to the lab.
 report: $(READY) opengl engines $(ENGINE)
@@ -49,11 +49,17 @@ bench: $(READY) $(if $(KEEP),,$(ENGINE) chromium)
 	  --benchmark-enable --benchmark-columns=min,median,rounds
 KEPT := -p tests.benchmarks.keeping --benchmark-timer=time.process_time --benchmark-json=/dev/null
 
-# The pages of docs/ as a site, out/site/index.html; its links and its pages in the browser are tested.
+# The pages of docs/ as a site; its links, its pages in the browser and the examples of the pages are tested.
 docs: $(VENV)/.ready-docs chromium firefox engines $(MADE)/pages/explorer.html
 	rm -rf out/site
 	@$(call told,making the site of docs/,$(BIN)/sphinx-build -q -W --keep-going -d $(MADE)/doctrees docs out/site)
 	$(BIN)/pytest tests/site
+	@$(MAKE) --no-print-directory examples
+	@echo "The site, made and tested: out/site/index.html"
+
+# The commands and the Python of the pages, each page in an empty folder. PAGES=docs/TUTORIAL.md runs one page.
+examples: $(READY) opengl engines $(ENGINE)
+	@$(call told,running the examples of the pages,PYTHONPATH=. $(BIN)/python docs/extensions/examples.py $(PAGES))
 
 # What docs/ has that is made of other files there: nothing is computed.
 pages: $(VENV)/.ready-docs

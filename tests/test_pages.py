@@ -56,7 +56,7 @@ def runs_here(words: list[str]) -> bool:
     if words[0] == "shares":
         few = not {"--compare", "--to", "--hand"} & set(words) and tosses_of_each(words) <= MOST_BY_HAND
         return few and not slow & set(words)
-    return words[0] == "toss" or (words[0] == "basin" and few and not slow & set(words))
+    return words[0] in ("toss", "scenarios") or (words[0] == "basin" and few and not slow & set(words))
 
 
 def tosses_of_each(words: list[str]) -> float:

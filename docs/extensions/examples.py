@@ -1,0 +1,126 @@
+"""Run the commands and the Python of the pages as a reader would, each page in an empty folder.
+
+`make docs` runs all. This runs one page:
+
+    PYTHONPATH=. .venv/bin/python docs/extensions/examples.py docs/TUTORIAL.md
+"""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import tomllib
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import redirect_stdout
+from io import StringIO
+from pathlib import Path
+from traceback import format_exc
+from typing import Any
+
+from tests.helpers.pages import PAGES, TOP, Block, blocks, commands, is_synopsis, not_answered
+
+NOT_RUN = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))["not_run"]
+"""Patterns of what is not run, by the reason."""
+LONG = 20.0
+"""Processor time [s] from which a page must say how long an example takes."""
+HANGS = "900"
+"""Time [s] after which a command is ended, and has failed."""
+LASTING = re.compile(
+    r"\b(takes?|took|in|for)\b[^.]{0,60}\b(\d\S*|an?|one|two|few|half a) (s|seconds?|min|minutes?|hours?)\b"
+)
+"""Words that say how long something takes."""
+
+
+def reason(page: Path, code: str) -> str | None:
+    """Return why an example is not run."""
+    for why, patterns in NOT_RUN.items():
+        if any(re.search(pattern, f"{page.name}: {code}") for pattern in patterns):
+            return why
+    return None
+
+
+def examples(block: Block) -> list[str]:
+    """Return the commands of a block that can be run, or its Python."""
+    called = [command for command in commands(block.text) if not is_synopsis(command)]
+    return [block.text] if block.language == "python" else called
+
+
+def run_command(block: Block, command: str) -> str | None:
+    """Run a command in the shell; return what is wrong with it."""
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    here = os.environ | {"PATH": path}
+    ran = subprocess.run(["timeout", HANGS, "bash", "-c", command], env=here, capture_output=True, text=True)
+    if ran.returncode != ran.stdout.startswith("none in "):
+        return f"exit status {ran.returncode}: {ran.stderr.strip()[-400:]}"
+    missing = not_answered(block.text, command, ran.stdout)
+    return f"its answer has no line {missing[0]!r}" if missing else None
+
+
+def run_python(code: str, names: dict[str, Any]) -> str | None:
+    """Run Python with the names of the blocks above; return what is wrong with it."""
+    try:
+        with redirect_stdout(StringIO()):
+            exec(compile(code, "page", "exec"), names)
+    except Exception:
+        return format_exc(limit=-2).strip()
+    return None
+
+
+def run_page(page: Path) -> Iterator[str]:
+    """Run the examples of a page in this folder; yield a line for each that is not run, fails or is slow."""
+    names: dict[str, Any] = {"__name__": "page"}
+    count = 0
+    for block in blocks(page):
+        if block.file:
+            Path(block.file).write_text(f"{block.text}\n", encoding="utf-8")
+        for code in examples(block):
+            shown = (
+                code if code.startswith("cointoss ") else f"the Python that begins {code.splitlines()[0]!r}"
+            )
+            if why := reason(page, code):
+                yield f"not run, {why}: {shown}"
+                continue
+            before, count = sum(os.times()[:4]), count + 1
+            is_python = block.language == "python"
+            if wrong := run_python(code, names) if is_python else run_command(block, code):
+                yield f"FAILED: {shown}\n    {wrong}"
+            spent = sum(os.times()[:4]) - before
+            if spent > LONG and not LASTING.search(f"{block.above} {block.text} {block.below}"):
+                yield f"takes {spent:.0f} s of processor time, which the page doesn't say: {shown}"
+    if count:
+        yield f"examples: {count}, {sum(os.times()[:4]):.0f} s of processor time"
+
+
+def run_apart(page: Path) -> str:
+    """Run the examples of a page in a process and a folder of their own; return the lines about them."""
+    settings = {"PYTHONPATH": str(TOP), "MPLBACKEND": "agg", "TQDM_DISABLE": "1"}
+    with tempfile.TemporaryDirectory() as folder:
+        ran = subprocess.run(
+            [sys.executable, __file__, "--here", page],
+            cwd=folder,
+            env=os.environ | settings,
+            capture_output=True,
+            text=True,
+        )
+    return ran.stdout if ran.returncode == 0 else f"{ran.stdout}FAILED: {ran.stderr}"
+
+
+def main(arguments: list[str]) -> int:
+    """Run the pages that are named, or all, two at a time; return the exit status."""
+    if arguments[:1] == ["--here"]:
+        for line in run_page(Path(arguments[1])):
+            print(line, flush=True)
+        return 0
+    pages = [Path(name).resolve() for name in arguments] or PAGES
+    failed = False
+    with ThreadPoolExecutor(2) as workers:
+        for page, said in zip(pages, workers.map(run_apart, pages), strict=True):
+            failed |= "FAILED: " in said
+            print(*(f"{page.name}: {line}\n" for line in said.splitlines()), sep="", end="", flush=True)
+    return int(failed)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
