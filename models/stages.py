@@ -7,13 +7,8 @@ from dataclasses import KW_ONLY, dataclass
 from typing import TypeVar
 
 Item = TypeVar("Item")
-TELLING_PART, TELLING_TIME = 0.01, 60.0
-"""The rate of less work than this part of all, in less than this time [s], says nothing of the rest."""
-
-
-def is_telling(done: int, total: int, seconds: float) -> bool:
-    """Return whether enough is done, in so long [s], to say when all will be."""
-    return done >= TELLING_PART * total or seconds >= TELLING_TIME
+TELLING_PART, TELLING_TIME = 0.05, 60.0
+"""The time that is left is estimated once this part of the work is done, or after this time [s]."""
 
 
 @dataclass(eq=False)
@@ -37,9 +32,12 @@ class Stage:
     def __post_init__(self) -> None:
         """Begin."""
         self._before, self._begun = self.done, self.clock()
+        self._first: tuple[int, float] | None = None
 
     def progress(self, done: int, total: int) -> None:
         """Set how many are done, of how many."""
+        if self._first is None and done > self._before:
+            self._first = done, self.seconds
         self.done, self.total = done, total
 
     @property
@@ -55,11 +53,17 @@ class Stage:
 
     @property
     def seconds_left(self) -> float | None:
-        """How long it will run on at this rate [s]; None where that is not known yet."""
-        if self.rate is None or self.total is None:
+        """An estimate of how long it will still run [s]; None while too little is done.
+
+        The first report is left out of the rate: what has to be loaded or compiled delays it alone.
+        """
+        if self._first is None or self.total is None:
             return None
-        done, total = self.done - self._before, self.total - self._before
-        return (self.total - self.done) / self.rate if is_telling(done, total, self.seconds) else None
+        first, delay = self._first
+        enough = self.done - self._before >= TELLING_PART * (self.total - self._before)
+        if self.done <= first or not (enough or self.seconds >= TELLING_TIME):
+            return None
+        return (self.total - self.done) * (self.seconds - delay) / (self.done - first)
 
 
 class Stages:
