@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from cointoss.compare.metrics.estimate import Estimate
+    from cointoss.compare.output.hand_lines import HandLines
     from cointoss.compare.shares.plan import Plan
 
 BLOCK = {"analytic": 5000, "mujoco": 100}
@@ -45,16 +46,17 @@ def hands(
     as_json: bool,
     **given: Any,
 ) -> None:
-    """Toss a scenario's coin many times as a hand does, and count the side that was up at first.
+    """Toss a scenario's coin many times as a hand does, and count how often its first side is up again.
 
-    The coin is released flat, or on its edge with --spun; the scenario's own release is not used. The side is
-    that at the first touches of the floor and at rest, or that in a hand which catches the coin. Of a coin
-    that is spun all ends are counted; a coin that the hand does not catch is left out. Intervals are of 99 %.
-    Ctrl-C prints what is counted until then.
+    The first side is the one that is up at the release. The command counts how often this side is up at each
+    of the first four touches of the floor and at rest, or in the hand that catches the coin. The coin is
+    released flat; the scenario's own release is not used. With --spun it is released on its edge, and the
+    command counts the outcomes. Intervals are of 99 %. Ctrl-C prints the counts so far.
     """
     from cointoss.compare.engines import Engine
     from cointoss.compare.film.back_end import require_mujoco
     from cointoss.compare.metrics.estimates import share_of  # where Ctrl-C comes there is no time for it
+    from cointoss.compare.output.hand_lines import hand_lines
     from cointoss.compare.output.interruption import saying, undoing
     from cointoss.compare.shares.plan import Plan, check
 
@@ -62,10 +64,10 @@ def hands(
     require_mujoco(engine)
     plan = Plan(scenario=coin, name="", hand=hand, engines=(Engine(engine),), seed=seed, tosses=tosses)
     check(plan)
-    counted = Counted()
+    counted, lines = Counted(), None if as_json else hand_lines(hand, coin, engine, seed)
     told = {"hand": asdict(hand), "caught": coin.ending.caught, "seed": seed, "engine": engine}
     with (
-        undoing(lambda: _answer(counted, told, share_of, as_json=as_json)),
+        undoing(lambda: _answer(counted, told, lines, share_of)),
         saying(lambda said: f"{said}: {counted.tosses:,d} tosses are counted"),
     ):
         for counted.tosses, counted.counts in (spins if hand.spun else first_sides)(plan):
@@ -122,20 +124,28 @@ def first_sides(plan: "Plan") -> "Iterator[tuple[int, Counts]]":
 
 
 def _answer(
-    counted: Counted, told: dict[str, Any], share_of: "Callable[[int, int], Estimate]", *, as_json: bool
+    counted: Counted,
+    told: dict[str, Any],
+    lines: "HandLines | None",
+    share_of: "Callable[[int, int], Estimate]",
 ) -> None:
-    """Print what is counted, once."""
+    """Print what is counted, once; as JSON where there are no lines for a person."""
     if counted.is_told or not counted.tosses:
         return
     counted.is_told = True
     shares = {name: share_of(met, of) for name, (met, of) in counted.counts.items() if of}
     not_caught = counted.tosses - counted.counts["caught"][1] if "caught" in counted.counts else 0
-    if as_json:
+    if lines is None:
         told |= {"tosses": counted.tosses, "not_caught": not_caught}
         kind = "ended" if told["hand"]["spun"] else "same_side"
         print_json({**told, kind: {k: asdict(v) for k, v in shares.items()}}, told["engine"])
         return
+    not_flat = counted.tosses - counted.counts["at rest"][1] if "at rest" in counted.counts else 0
+    click.echo(lines.above)
     for name, one in shares.items():
         click.echo(f"{name:9} {one.value:7.2%} [{one.low:.2%}, {one.high:.2%}] of {one.count:,d} tosses")
     if not_caught:
         click.echo(f"left out  {not_caught:,d} coins that never came down to the hand")
+    if not_flat:
+        click.echo(f"left out  at rest: {not_flat:,d} coins that ended on no face")
+    click.echo("\n".join(["", *lines.below]))

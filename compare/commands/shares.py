@@ -213,8 +213,10 @@ def _print(found: "xr.Dataset", plan: "Plan", scenario: str, as_json: bool) -> N
         print_json({"scenario": scenario, "to": plan.to, **show.as_json(found)}, *plan.engines)
         return
     click.echo(laid_out(show.markdown(found), _width()))
-    click.echo(f"\nhand       {plan.hand.in_words}")
-    click.echo(f"engine     {' and '.join(plan.engines)}, seed {plan.seed}; in brackets 99 % intervals")
+    of = "coins that the hand catches, by the side that is up" if plan.catches else "tosses, by how they end"
+    click.echo(f"\nshares     of the {of}; in brackets 99 % intervals")
+    click.echo(f"hand       {plan.hand.in_words}")
+    click.echo(f"engine     {' and '.join(plan.engines)}, seed {plan.seed}")
     if missed := int(found.not_caught.sum()):
         click.echo(f"left out   {missed:,d} coins that never came down to the hand")
     if len(alike := show.alike(found)):
