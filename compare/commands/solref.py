@@ -147,7 +147,7 @@ def _settings(found: "Bounce") -> str:
     alone = 1e6 * depth_at_rest(found.contact)
     rest = [
         _rest(found.rest, found.solimp),
-        f"on several points 1/4 to 2 times (1 - d) g/k = {alone:.3g} um, by its shape: --body measures it",
+        f"on several points the depth is 1/4 to 2 times (1 - d) g/k = {alone:.3g} um: --body measures it",
     ]
     body = f"{'an' if found.body[0] in 'aeiou' else 'a'} {found.body}"
     flight = f"a brick at 10 turns a second {_change(found.flight)} of its energy in half a second"
@@ -164,10 +164,10 @@ def _settings(found: "Bounce") -> str:
             "",
             f"integrator  {found.integrator}" + (_integrators(spring) if own else ""),
             f"backend     {found.backend}: {found.backend.remark}",
-            f"error       {_at_most(found.error)} at worst, of {body} that touches at 16 phases"
-            + ("" if own else ", by MuJoCo"),
+            f"error       {_at_most(found.error)} at worst in the restitution, "
+            f"of {body} that touches at 16 phases" + ("" if own else ", by MuJoCo"),
             f"            {_at_most(found.error_with_weight)} with weight at {SPEED:g} m/s; {_slower(found)}",
-            "            more if the impact turns it, in proportion to its speed and DT: cointoss bounce",
+            "            more if the impact turns the body, by its speed and DT: cointoss bounce measures it",
             *_weight(found),
             f"depth       up to {1e3 * found.depth:.3g} mm into the floor for each m/s, whatever the mass",
             f"floor       {_floor(found)}",
@@ -280,11 +280,11 @@ def _by_formula(theory: float, measured: float, text: str, found: "Rebounds") ->
 def _slower(found: "Bounce") -> str:
     """Return what weight costs at another speed, in words."""
     if found.spring:
-        return "more if slower, about as 1/v"
+        return "more at a lower speed v, about as 1/v"
     if not found.restitution:
         return "a ball stays on the floor"
     most = f"{_at_most(found.error)} + {found.weight_cost:.3g} g DT/v"
-    return f"at v up to {most}, while 2 g DT/v is far below E^2"
+    return f"at a speed v up to {most}, while 2 g DT/v is far below E^2"
 
 
 def _floor(found: "Bounce") -> str:
@@ -293,10 +293,11 @@ def _floor(found: "Bounce") -> str:
 
     thickness = found.thickest_passed
     if thickness <= 0:
-        return f"lets it through nowhere, at up to {SPEED:g} m/s"
+        return f"lets the body through nowhere, at up to {SPEED:g} m/s"
     return (
-        f"lets it through at {SPEED:g} m/s if up to {1e3 * thickness:.3g} mm thick and no plane: "
-        "a contact is deeper than half of both"
+        f"lets the body through at {SPEED:g} m/s "
+        f"if the floor is up to {1e3 * thickness:.3g} mm thick and no plane: "
+        "the contact is deeper than half of both"
     )
 
 

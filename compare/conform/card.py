@@ -62,9 +62,10 @@ class Card:
     def as_lines(self) -> str:
         """Return it as text: a line for each case, and what was found for right where it is missed."""
         settings = [f"  {name} = {value}" for name, value in self.settings.items()]
+        meaning = "error: relative to the scale of the case; order: of the error in the step"
         head = f"{'case':18} {'error':>8} {'limit':>8} {'order':>5}"
         rows = [line for result in self.results for line in _lines(result)]
-        return "\n".join([f"{self.name}, {self.steps}", *settings, "", head, *rows, "", self.told])
+        return "\n".join([f"{self.name}, {self.steps}", *settings, "", meaning, head, *rows, "", self.told])
 
     def page(self) -> str:
         """Return it as a page of HTML, which needs no other file."""

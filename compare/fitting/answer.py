@@ -14,7 +14,10 @@ MOST_OTHERS = 5
 def as_lines(fit: Fit) -> str:
     """Return a fit as text."""
     lines = [_value(each) for each in fit.values]
-    lines += ["", f"verdict     {fit.verdict}", f"seen        {_seen(fit)}"]
+    lines += ["", f"verdict     {fit.verdict}"]
+    if fit.degrees > 0:
+        lines.append("            (p: how likely errors of what was seen alone make a chi-square this large)")
+    lines.append(f"seen        {_seen(fit)}")
     if fit.untested_touches:
         numbers = ", ".join(map(str, fit.untested_touches))
         lines.append(f"untested    touches {numbers}: beyond the horizon of trust, so they test nothing")

@@ -68,7 +68,9 @@ def bounce_table(found: PairBounce) -> str:
         )
     if _gains(found.energy_kept):
         notes.append(f"{GAINS} gains energy: at one phase at least more is left than came")
-    return "\n".join([*lines, *notes, *found.notes])
+    count = len(found.outcomes[0])
+    phases = f"Restitution: the mean over {count} phases of a step, in brackets the least and the largest."
+    return "\n".join([phases, *lines, *notes, *found.notes])
 
 
 def _range(values: Array, outcomes: tuple[PairOutcome, ...]) -> str:

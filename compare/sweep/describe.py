@@ -26,6 +26,7 @@ def describe_map(path: Path, sweep: Sweep, fractions: dict[Outcome, float]) -> s
         f"map        {path}",
         f"engine     {sweep.engine}",
         f"tosses     {nx} by {ny}: {shown}final outcome",
+        "shares     of these tosses:",
         *(
             f"{outcome:11}{100 * share:.3f} %"
             for outcome, share in fractions.items()
@@ -42,6 +43,7 @@ def describe_margins(quantity: "ReleaseQuantity", margins: Array) -> str:
     return "\n".join(
         [
             f"margin     along {quantity.name}: median {middle:.3g} {unit}, a tenth below {few:.3g} {unit}",
+            "           (the least change of this quantity that changes the outcome of a toss)",
             f"           {100 * np.isinf(sizes).mean():.3f} % without one up to {most:g} {unit}",
         ]
     )
@@ -63,6 +65,7 @@ def describe_trust(sweep: Sweep, counts: NDArray[np.int64]) -> str:
     return "\n".join(
         [
             f"trusted    median {middle} impacts, a tenth at most {few}",
+            "           (leading impacts of a toss that the engine's own errors can't have changed)",
             f"untrusted  {share:.3f} %: {why}",
         ]
     )
@@ -74,6 +77,7 @@ def describe_agreement(measured: Agreement) -> str:
         [
             f"agreement  {percent(measured.away)} more than {AWAY:g} pixels from the boundaries of the first",
             f"           {percent(measured.near)} nearer to the boundaries",
+            "           (pixels for which both engines have the same outcome)",
             f"           {measured.undecided} pixels are undecided in one or both",
         ]
     )

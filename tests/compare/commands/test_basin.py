@@ -60,7 +60,7 @@ def test_the_agreement_is_told_near_the_boundaries_and_away_from_them():
     said = describe.describe_agreement(measured).splitlines()
     assert said[0].startswith("agreement  none of 0 more than 2 pixels")
     assert said[1].startswith("           75.000 % of 4 nearer")
-    assert said[2].startswith("           2 pixels are undecided")
+    assert said[3].startswith("           2 pixels are undecided")
 
 
 def test_the_difference_bears_the_note():
