@@ -186,6 +186,9 @@ def refuse(message: str, status: int = 2) -> NoReturn:
 
 def say(message: str) -> None:
     """Print a line to standard error: keywords as options, and what would split it escaped."""
+    from cointoss.compare.output.progress import clear_line
+
+    clear_line()
     shown = "".join(char if char.isprintable() else repr(char)[1:-1] for char in in_options(message))
     click.echo(f"cointoss: {shown}", err=True)
 

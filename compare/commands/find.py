@@ -64,7 +64,8 @@ def find(source: Source, asked: SoughtToss) -> None:
     if not (asked.sequence or asked.outcome):
         raise click.UsageError("--sequence, --outcome: none; accepted: one of them, or both")
     require_file(asked.out, ".toml", source.name)
-    found = finding.find(
+    found = finding.find_telling(
+        say,
         source.scenario,
         varied(asked.vary),
         sequence=asked.sequence,

@@ -1,7 +1,7 @@
 """Find a toss that shows a sequence of faces or an outcome."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from cointoss import analytic
-from cointoss.compare.find.search import Hit, search
+from cointoss.compare.find.search import Hit, Searched, search
 from cointoss.compare.find.window import Target, Window, window_of
 from cointoss.compare.metrics.estimates import share_of
 from cointoss.compare.sweep.axes import Span
@@ -20,6 +20,7 @@ from cointoss.models.processor import Processor
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Outcome, Toss
 from cointoss.models.scenario import Scenario
+from cointoss.models.stages import stage
 from cointoss.models.writing import toml
 
 USUAL_TOSSES, MOST_TOSSES = 1 << 16, 1 << 30
@@ -161,6 +162,30 @@ def find(
         UnsupportedError: for the device "cuda" and no outcome, or a scenario that no card tosses.
         DeviceError: for the device "cuda" where no card can be used, and where one fails.
     """
+    return find_telling(
+        lambda _: None,
+        scenario,
+        vary,
+        sequence=sequence,
+        outcome=outcome,
+        tosses=tosses,
+        seed=seed,
+        device=device,
+    )
+
+
+def find_telling(
+    tell: Callable[[str], None],
+    scenario: ScenarioSource,
+    vary: Mapping[str, Any],
+    *,
+    sequence: str,
+    outcome: Outcome | str | None,
+    tosses: int,
+    seed: int,
+    device: Device | str,
+) -> Found:
+    """Find a toss as `find` does, and call `tell` with what was found before the margins are measured."""
     described = scenario_of(scenario)
     require_whole("tosses", tosses, 1, MOST_TOSSES)
     require_whole("seed", seed, 0, MOST_SEED)
@@ -174,7 +199,13 @@ def find(
     if len(sequence) > (most := min(LONGEST, described.rules.max_impacts)):
         raise SweepError(f"sequence: {len(sequence)} faces, accepted: at most {most}, as ending.max_impacts")
     window = window_of(vary, described)
-    searched = search(window, target, tosses, seed)
+    with stage(f"finding {target.in_words}"):
+        return _found(window, target, search(window, target, tosses, seed, tell))
+
+
+def _found(window: Window, target: Target, searched: Searched) -> Found:
+    """Return the best of the tosses that the analytic engine, with its own settings, tosses so too."""
+    sequence, outcome = target.sequence, target.outcome
     if searched.longest < 0:
         window.scenario_of(window.values(np.full(len(window.spans), 0.5)))  # says why
         raise ScenarioError(
@@ -184,7 +215,7 @@ def find(
         own = window.scenario_of(window.values(hit.point))
         touches = () if outcome is not None else ("ending.max_impacts", len(sequence))
         toss = analytic.toss(own.replace("gravity", own.gravity, *touches))
-        if toss.sequence.startswith(sequence) and target.outcome in (None, toss.outcome):
+        if toss.sequence.startswith(sequence) and outcome in (None, toss.outcome):
             trusted = min(toss.trusted_impacts, len(sequence))
             break
     else:

@@ -5,6 +5,7 @@ the search goes on around those that show most of it, in ever smaller boxes, eac
 much.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -68,7 +69,9 @@ class Searched:
     """Steps of what is wanted that the best point showed; -1 where no point makes a scenario."""
 
 
-def search(window: Window, target: Target, tosses: int, seed: int) -> Searched:
+def search(
+    window: Window, target: Target, tosses: int, seed: int, tell: Callable[[str], None] = lambda _: None
+) -> Searched:
     """Search a window.
 
     Args:
@@ -76,15 +79,16 @@ def search(window: Window, target: Target, tosses: int, seed: int) -> Searched:
         target: for what.
         tosses: over the window, at most.
         seed: of the points.
+        tell: called with what was found, in a sentence, before the margins are measured.
     """
     sampler = qmc.Sobol(len(window.spans), rng=np.random.default_rng(seed))
     points, shown = np.empty((0, len(window.spans))), np.empty(0, dtype=np.int64)
     tried = refused = hits = 0
 
     with (
-        saying(lambda said: f"{said}: {hits or 'none'} of {tried - refused:,d} tosses shows it"),
+        saying(lambda said: f"{said}: {hits or 'none'} of {tried - refused:,d} tosses show it"),
         stage(
-            "searching the window", "tosses", total=tosses, detail=lambda: f"{hits or 'none'} shows it"
+            "searching the window", "tosses", total=tosses, detail=lambda: f"{hits or 'none'} show it"
         ) as progress,
     ):
         while tried < tosses and hits < ENOUGH:
@@ -104,16 +108,17 @@ def search(window: Window, target: Target, tosses: int, seed: int) -> Searched:
         points = points[shown == longest]
     if longest < target.steps:
         return Searched((), made, refused, longest)
-    centred: list[Hit] = []
-
-    def so_far() -> str:
-        return f"{max(one.margin for one in centred):.2g} of the window" if centred else ""
-
-    with stage("measuring margins", detail=so_far):
+    showing = "1 toss shows" if len(points) == 1 else f"{len(points)} tosses show"
+    tell(f"{showing} {target.in_words}; now measuring how far each field may change")
+    with stage("measuring margins", "steps", total=1 + BEST) as progress:
         wide = [Hit(*one) for one in zip(points, _margins(window, target, points, target.steps), strict=True)]
+        progress(1, 1 + BEST)
         chosen = sorted(wide, key=lambda hit: -hit.margin)[:BEST]
-        for hit in chosen[: BEST if chosen[0].margin > LEAST else 1]:
+        chosen = chosen[: BEST if chosen[0].margin > LEAST else 1]
+        centred: list[Hit] = []
+        for hit in chosen:
             centred.append(_centred(window, target, hit))
+            progress(1 + len(centred), 1 + len(chosen))
     return Searched(tuple(sorted(centred, key=lambda hit: -hit.margin)), made, refused, longest)
 
 

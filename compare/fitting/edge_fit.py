@@ -20,6 +20,7 @@ from cointoss.models.devices import Device
 from cointoss.models.hand import Hand
 from cointoss.models.records import Array, Outcome
 from cointoss.models.scenario import Scenario
+from cointoss.models.stages import counted
 
 VALUES = 9
 """Values of the field at which coins are tossed; between them the share is interpolated."""
@@ -125,15 +126,16 @@ def fit_edges(
     tossed = np.linspace(min(span.start, span.stop), max(span.start, span.stop), VALUES)
     usual = Hand.people(up="either") if hand is None else hand
     met, made, left = np.empty((3, len(edges.thickness), VALUES))
-    for n, thickness in enumerate(edges.thickness.tolist()):
+    thicknesses = counted("fitting the edges", "thicknesses", edges.thickness.tolist())
+    for n, thickness in enumerate(thicknesses):
         coin = scenario.replace("coin.thickness", thickness)
         ranges = {span.field: (tossed[0], tossed[-1], VALUES)}
-        counted = shares(coin, ranges, hand=usual, tosses=tosses, seed=seed + n, device=device)
-        if not counted.attrs["complete"]:
+        shown = shares(coin, ranges, hand=usual, tosses=tosses, seed=seed + n, device=device)
+        if not shown.attrs["complete"]:
             raise KeyboardInterrupt
-        met[n] = counted["count"].sel(outcome=str(Outcome.EDGE))
-        made[n] = counted["count"].sel(outcome=[str(one) for one in _LYING]).sum("outcome")
-        left[n] = counted["count"].sum("outcome") - made[n]
+        met[n] = shown["count"].sel(outcome=str(Outcome.EDGE))
+        made[n] = shown["count"].sel(outcome=[str(one) for one in _LYING]).sum("outcome")
+        left[n] = shown["count"].sum("outcome") - made[n]
     if not made.all():
         accepted = "values and thicknesses of which some do"
         raise SweepError(

@@ -30,6 +30,7 @@ from cointoss.models.processor import Processor
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Array, Toss
 from cointoss.models.scenario import Scenario
+from cointoss.models.stages import stage
 
 STARTS, MOST_STARTS = 2048, 1 << 20
 MOST_FIELDS = 12
@@ -317,7 +318,8 @@ def fit(
                 f"{span.field}: this scenario has a quaternion; accepted: release.angles in its place"
             )
     misfit = Misfit(scenario=described, spans=spans, observed=observed)
-    searched = LeastSquaresSearch(misfit, starts=starts, seed=seed).found()
+    with stage("fitting"):
+        searched = LeastSquaresSearch(misfit, starts=starts, seed=seed).found()
     if searched is None:
         misfit.scenario_of(np.array([(span.start + span.stop) / 2 for span in spans]))  # says why
         raise ScenarioError(

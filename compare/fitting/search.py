@@ -101,7 +101,7 @@ class LeastSquaresSearch:
         if not len(starts):
             return None
         known = self._fitted(starts)
-        with stage("refining the best fits", detail=self._so_far):
+        with stage("refining the best values", detail=self._so_far):
             points = known[-1].points
             missed = self._descent.residuals(points, self._order)
             deepest, _ = self._modes(*self._descent.descended(points, missed, self._order), self._order, 0.0)
@@ -116,7 +116,7 @@ class LeastSquaresSearch:
         """Return points that explain what was seen until ever later times, at last all."""
         fitted, seen, around = 0, len(self._order), points[:0]
         known: list[Known] = []
-        with stage("fitting touch by touch", "numbers", total=seen, detail=self._so_far) as progress:
+        with stage("touch by touch", "numbers seen", total=seen, detail=self._so_far) as progress:
             while fitted < seen:
                 points = np.vstack([points, around])
                 missed = self._next(points, fitted)

@@ -76,12 +76,16 @@ class Display:
                 self._drawn_stage = opened[0]
 
     def ended(self, stage: Stage) -> None:
-        """Leave the bar of a stage whose parts were counted."""
+        """Leave the bar of a stage whose parts were counted; remove the line of another."""
         with self._lock:
-            if stage is self._drawn_stage and stage.total is not None:
+            if stage is not self._drawn_stage:
+                return
+            if stage.total is None:
+                self._draw("")
+            else:
                 self._draw(self._bar([stage]))
                 self._write("\n")
-                self._drawn, self._drawn_stage = "", None
+            self._drawn, self._drawn_stage = "", None
 
     def close(self) -> None:
         """Leave nothing half-written."""
@@ -158,6 +162,14 @@ def _width(stream: Any) -> int:
 
 _shown = threading.Lock()
 """Held while something is shown: one display is enough."""
+_displays: list[Display] = []
+"""The display that is shown, if any."""
+
+
+def clear_line() -> None:
+    """Remove the line that is shown, so that other text can be written; the next tick shows it again."""
+    for display in _displays:
+        display.close()
 
 
 @contextmanager
@@ -181,9 +193,11 @@ def progress_shown(*, in_logs: bool) -> Iterator[None]:
     shower = threading.Thread(target=keep_showing, daemon=True)
     shower.start()
     stages.ended.append(display.ended)
+    _displays.append(display)
     try:
         yield
     finally:
+        _displays.remove(display)
         stages.ended.remove(display.ended)
         over.set()
         shower.join()

@@ -9,7 +9,7 @@ import pytest
 from cointoss import analytic
 from cointoss.compare.find import search
 from cointoss.compare.find.faces import faces_shown
-from cointoss.compare.find.find import find
+from cointoss.compare.find.find import find, find_telling
 from cointoss.compare.find.window import Target, window_of
 from cointoss.compare.metrics.estimates import share_of
 from cointoss.compare.sweep.toss_many import toss_many
@@ -19,6 +19,7 @@ from cointoss.models.laws import ContactLaw
 from cointoss.models.quantities import LARGEST
 from cointoss.models.reading import load, parse
 from cointoss.models.records import Outcome
+from cointoss.models.stages import stages
 from tests.helpers.basin_runs import SCENARIO
 
 COIN = parse(SCENARIO, "coin")
@@ -189,3 +190,25 @@ def test_margins_are_looked_for_in_numbers_that_a_release_can_have():
     # A margin may be as wide as the window, to either side.
     assert window.values(np.array([[-1.0], [0.75], [2.0]])).ravel().tolist() == [-LARGEST, 5e8, LARGEST]
     assert window.rows(np.array([[-1.0], [2.0]]))[1].tolist() == [False, True]
+
+
+def test_what_was_found_is_told_before_its_margins_are_measured(monkeypatch):
+    told, own = [], search._margins
+
+    def measured(*given):
+        assert len(told) == 1
+        return own(*given)
+
+    monkeypatch.setattr(search, "_margins", measured)
+    asked = {"sequence": "H", "outcome": None, "tosses": 256, "seed": 0, "device": "cpu"}
+    assert find_telling(told.append, COIN, WINDOW, **asked)
+    assert told == ["64 tosses show H; now measuring how far each field may change"]
+
+
+def test_a_search_is_one_stage_from_its_beginning_to_its_end(monkeypatch):
+    seen, own = [], search._margins
+    monkeypatch.setattr(
+        search, "_margins", lambda *given: seen.append([one.name for one in stages.open]) or own(*given)
+    )
+    assert find(COIN, WINDOW, sequence="H", tosses=256)
+    assert seen[0] == ["finding H", "measuring margins"]

@@ -6,6 +6,7 @@ import sys
 import pytest
 
 import cointoss.compare.output.progress as progress
+from cointoss.compare.commands.common import say
 from cointoss.compare.output.progress import Display, progress_shown
 from cointoss.models.stages import Stage, Stages, counted, stage, stages
 
@@ -148,6 +149,25 @@ def test_the_line_of_a_terminal_says_what_is_within_and_goes_with_its_stage():
     assert lines(desk.wait(4))[-1].startswith("fig28 2 of 5, tossing by MuJoCo:  25%|")
     desk.display.close()
     assert desk.stream.getvalue().endswith("\r")
+
+
+def test_the_line_of_an_uncounted_stage_goes_with_it_before_the_next_text():
+    desk = Desk(rewrites=True)
+    desk.begin("finding HTTH")
+    assert desk.wait(4)
+    desk.end()
+    assert desk.stream.getvalue().endswith(f"\r{' ' * len('finding HTTH: 4 s')}\r")
+
+
+def test_a_message_stands_on_a_line_of_its_own(monkeypatch):
+    desk = Desk(rewrites=True)
+    desk.begin("finding HTTH")
+    desk.wait(4)
+    monkeypatch.setattr(progress, "_displays", [desk.display])
+    monkeypatch.setattr(sys, "stderr", desk.stream)
+    say("64 tosses show HTTH")
+    assert desk.stream.getvalue().endswith("  \rcointoss: 64 tosses show HTTH\n")
+    assert "finding HTTH: 5 s" in desk.wait(1)
 
 
 def test_of_a_stage_that_fails_the_line_goes():
