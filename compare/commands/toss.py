@@ -29,7 +29,7 @@ class Answer:
     flight_steps: Annotated[int | None, Within(1, 1_000_000_000)] = None
     """Stop after this number of steps of flight, in MuJoCo; by default 250,000."""
     all: bool = False
-    """Print every impact and contact, not only the first."""
+    """Print every impact and contact; without it, of more than 20 impacts the first 8 and the last 2."""
     json: bool = False
     """Print JSON, in full precision."""
     trajectory: Path | None = None

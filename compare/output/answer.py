@@ -31,8 +31,10 @@ PATH_COLUMNS = {
 """Columns of a path's CSV file, by the fields of `States`."""
 POINT_COLUMNS = ("A_x [m]", "A_y [m]", "A_z [m]")
 """Columns of the coin's lowest point in a path's CSV file."""
-MOST_LINES = 20
-"""Impacts that are printed for a person who did not ask for all; a coin may bounce thousands of times."""
+MOST_LINES, FIRST_LINES, LAST_LINES = 20, 8, 2
+"""Impacts that are printed for a person who did not ask for all; of more the first and the last ones."""
+CERTAIN = "certain: its ending proves it for the exact motion, and rounding errors can't change it"
+TRUSTED = "amplified by each impact, can't have changed these"
 ROWS_PER_SECOND = 1000
 MOST_ROWS = 1_000_000
 """The most rows of a path's CSV file: more would be hundreds of megabytes."""
@@ -127,10 +129,12 @@ def as_lines(toss: Toss, *, whole: bool = False) -> str:
     lines = [
         f"engine    {toss.engine}",
         f"outcome   {toss.outcome_told}",
+        *([f"          ({CERTAIN})"] if toss.is_certain else []),
         f"ending    {toss.ending}: {in_options(toss.ending.sentence)}",
         f"end       {toss.end_time:.6f} s after {counted(len(impacts), 'impact')}",
         f"sequence  {shown if whole else shortened(shown)}",
         f"trusted   {toss.trust}",
+        *([f"          ({_meaning_of_trust(toss)})"] if toss.trusted_impacts else []),
     ]
     if len(impacts):
         lines.append(f"checked   {_checked(toss)}")
@@ -145,20 +149,33 @@ def as_lines(toss: Toss, *, whole: bool = False) -> str:
         lines += [f"contact   from {start:.6f} s to {end:.6f} s" for start, end in toss.contacts.tolist()]
     if len(impacts):
         lines += ["", "  n      t [s]  up  S_x [mN s]  S_y [mN s]  S_z [mN s]    E [mJ]  rim [deg]"]
-    most = len(impacts) if whole else MOST_LINES
+    left_out = range(0)
+    if not whole and len(impacts) > MOST_LINES:
+        left_out = range(FIRST_LINES, len(impacts) - LAST_LINES)
     angles = np.degrees(np.arctan2(impacts.point[:, 1], impacts.point[:, 0]))
     # What rounds to zero has no sign.
     impulses = np.round(1e3 * impacts.impulse, 5) + 0.0
-    for i, flags in enumerate(toss.flags[:most]):
+    for i, flags in enumerate(toss.flags):
+        if i in left_out:
+            if i == FIRST_LINES:
+                lines.append(
+                    f"... {len(left_out)} impacts between: --all prints them, --json all their numbers"
+                )
+            continue
         S = impulses[i]
         lines.append(
             f"{i + 1:3d} {impacts.time[i]:10.6f}   {Face(impacts.face[i]).symbol} "
             f"{S[0]:11.5f} {S[1]:11.5f} {S[2]:11.5f} {1e3 * impacts.energy[i]:9.4f} {angles[i]:10.2f}"
             + "".join(f"  {flag.replace('_', ' ')}" for flag in sorted(flags))
         )
-    if len(impacts) > most:
-        lines.append(f"... and {len(impacts) - most} more; --all prints all {len(impacts)}")
     return "\n".join(lines)
+
+
+def _meaning_of_trust(toss: Toss) -> str:
+    """Return what it means that impacts are trusted, and what the bar in the sequence is."""
+    errors = "rounding errors" if toss.engine == "analytic" else "errors of the steps"
+    bar = "; the | is the horizon of trust" if toss.trusted_impacts < len(toss.impacts) else " impacts"
+    return f"{errors}, {TRUSTED}{bar}"
 
 
 def _checked(toss: Toss) -> str:
