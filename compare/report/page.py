@@ -14,7 +14,7 @@ from pydantic import BaseModel
 
 from cointoss.compare.engines import is_own, label_of
 from cointoss.compare.metrics.sequences import SAFETY
-from cointoss.compare.output.answer import contact_line, counted
+from cointoss.compare.output.answer import CERTAIN, TRUSTED, contact_line, counted
 from cointoss.compare.output.style import looks_of
 from cointoss.compare.report.compared_tosses import Against, ComparedTosses
 from cointoss.compare.report.counts import counts_sentence
@@ -82,6 +82,8 @@ def render(
         about=_about(comparison.text),
         verdicts=verdicts_of(comparison),
         horizon_sentence=horizon_sentence,
+        certain=CERTAIN,
+        amplified=TRUSTED,
         contact_line=contact_line,
         counted=counted,
         counts=counts_sentence(comparison.tosses),

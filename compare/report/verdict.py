@@ -99,10 +99,10 @@ def horizon_sentence(pair: Against) -> str:
         return f"Not even the first face must agree: {off_the_law or f'{errors} can change it'}."
     first = "The first face" if horizon == 1 else f"The first {horizon} faces"
     if off_the_law:
-        return f"{first}, up to the bar, must agree. {_sentence(off_the_law)}"
+        return f"{first}, up to the bar (the horizon of trust), must agree. {_sentence(off_the_law)}"
     return (
-        f"{first}, up to the bar, must agree. Each impact amplifies small errors: after the bar {errors} can "
-        "change a face."
+        f"{first}, up to the bar (the horizon of trust), must agree. Each impact amplifies small errors: "
+        f"after the bar {errors} can change a face."
     )
 
 

@@ -60,7 +60,7 @@ function describe() {
   const present = new Set(Int8Array.from(bytesOf(map.arrays.outcome)));
   const entries = Object.entries(map.outcomes).filter(([code]) => present.has(Number(code))).map(([, one]) => [one.label, one.color]);
   if (present.has(-1)) entries.push(["not tossed", "var(--untossed)"]);
-  if (map.arrays.untrusted) entries.push(["untrusted", "repeating-linear-gradient(135deg, #fff 0 2px, var(--soft) 2px 6px)"]);
+  if (map.arrays.untrusted) entries.push(["untrusted: the engine's own errors may have decided it", "repeating-linear-gradient(135deg, #fff 0 2px, var(--soft) 2px 6px)"]);
   byId("legend").replaceChildren(...entries.map(([label, color]) => {
     const item = document.createElement("li"), patch = document.createElement("i");
     patch.style.background = color;

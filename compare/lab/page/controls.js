@@ -123,7 +123,7 @@ export function makeControls(boxes, fields, change) {
       change({ [name]: swapped ? state[other] : { field, from, to }, ...swapped, before: null });
     }).id = `across-${name}`;
   }
-  tick(boxes.map, "hatch what the computer's own rounding may decide", () => state.trust, (trust) => change({ trust })).id = "trust";
+  tick(boxes.map, "hatch tosses whose face rounding errors may have decided", () => state.trust, (trust) => change({ trust })).id = "trust";
   tick(boxes.hand, "a hand that scatters: 2,000 tosses", () => state.hand !== null, (on) => change({ hand: on ? 0.02 : null })).id = "hand";
   const scatter = slider(boxes.hand, "of height, speed and spin", "%", 0.1, 20, () => 100 * (state.hand ?? 0.02), (percent) => change({ hand: percent / 100 }));
   shows.push(() => (scatter.disabled = state.hand === null));

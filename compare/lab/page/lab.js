@@ -276,7 +276,7 @@ function ends(isEnd) {
 // What is on the map.
 function legend() {
   const codes = new Set(map.seen().codes), entries = Object.entries(outcomes).filter(([code]) => codes.has(Number(code))).map(([, { label, color }]) => [label, color]);
-  if (state.trust) entries.push([doubtText(), "repeating-linear-gradient(135deg, #fff 0 2px, var(--soft) 2px 6px)"]);
+  if (state.trust) entries.push([`${doubtText()}: rounding errors may have decided the face`, "repeating-linear-gradient(135deg, #fff 0 2px, var(--soft) 2px 6px)"]);
   if (byId("legend").dataset.shows === String(entries)) return;
   byId("legend").dataset.shows = String(entries);
   byId("legend").replaceChildren(...entries.map(([label, color]) => {

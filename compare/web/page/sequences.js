@@ -73,8 +73,8 @@ export function horizonText(tosses, before, after) {
   if (a || b) {
     const horizons = [a, b].filter(Boolean).map((toss) => `${nameOf(toss)}: ${own(toss)}`).join(", ");
     parts.push([a, b].every((toss) => !toss || toss.trusted >= toss.count)
-      ? "The computer's own rounding could change none of these faces."
-      : `The bar is the horizon of trust (${horizons}): the touch after which the computer's own rounding could change a face.`);
+      ? "Errors of the computation, which each touch amplifies, can't have changed any of these faces."
+      : `The bar is the horizon of trust (${horizons}): errors of the computation, which each touch amplifies, can't have changed a face before it, and could have changed one after it.`);
   }
   if (a && b) {
     const shared = commonPrefix(a.sequence, b.sequence);

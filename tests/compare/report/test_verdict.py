@@ -164,8 +164,8 @@ def test_what_mujoco_cannot_toss_is_said():
         ("HHT", 3, "All faces must agree: errors"),
         ("sure", 3, "All faces must agree: errors as small as MuJoCo’s change none"),
         ("sure", 0, "Not even the first face must agree: errors as small as MuJoCo’s can change it"),
-        ("HHT", 2, "The first 2 faces, up to the bar, must agree. Each"),
-        ("HHT", 1, "The first face, up to the bar, must agree. Each"),
+        ("HHT", 2, "The first 2 faces, up to the bar (the horizon of trust), must agree. Each"),
+        ("HHT", 1, "The first face, up to the bar (the horizon of trust), must agree. Each"),
         ("HHT", 0, "Not even the first face must agree: errors"),
         ("bounced", 2, "All faces must agree: the coin is caught before errors as small as the engines’ own"),
         ("caught", 0, "The coin is caught before its first impact: without an impact nothing amplifies"),
@@ -181,8 +181,8 @@ def test_the_horizon_is_told_in_plain_words(name, horizon, begins):
 SECOND_POINT = "at impact {} a second point lands within MuJoCo's contact."
 TOLD = (
     "Not even the first face must agree: ",
-    "The first face, up to the bar, must agree. A",
-    "The first 2 faces, up to the bar, must agree. A",
+    "The first face, up to the bar (the horizon of trust), must agree. A",
+    "The first 2 faces, up to the bar (the horizon of trust), must agree. A",
 )
 """How the sentence on a horizon of so many impacts begins."""
 
