@@ -198,7 +198,7 @@ device_option = click.option(
     type=click.Choice([str(one) for one in Device]),
     default=str(Device.CPU),
     show_default=True,
-    help="What tosses: the CPU, a card of NVIDIA's, or the card where there is one and it pays.",
+    help="Device that computes the tosses: the CPU, an NVIDIA card, or the card where it is faster.",
 )
 
 
@@ -207,5 +207,5 @@ engine_option = click.option(
     type=click.Choice(["analytic", "mujoco"]),
     default="analytic",
     show_default=True,
-    help="The engine.",
+    help="Engine that computes the tosses.",
 )

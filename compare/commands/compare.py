@@ -19,7 +19,7 @@ class Report:
     out: Path | None = None
     """Folder of the report, made if missing; by default NAME-report, as in fig24a-report."""
     engine: tuple[str, ...] = ()
-    """An engine to hold against the analytic one, as of conform; may be given again. By default mujoco."""
+    """Engine to compare with the analytic one, by default mujoco; may be given several times."""
     no_video: bool = False
     """Draw no video, which takes longest."""
 

@@ -1,4 +1,4 @@
-"""`cointoss conform`: an engine held against the suite of cases with known answers."""
+"""`cointoss conform`: an engine tested on the suite of cases with known answers."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,7 +18,7 @@ class Suite:
     case: tuple[str, ...] = ()
     """Run this case alone; may be given several times."""
     full: bool = False
-    """Run an hour in place of a minute, and 10,000 tosses in place of 200."""
+    """Simulate an hour in place of a minute, and 10,000 tosses in place of 200."""
     time_limit: Annotated[int, Within(1, 86400)] = 60
     """The longest time for one answer of the engine, in seconds."""
     out: Path | None = None
@@ -31,7 +31,7 @@ class Suite:
 @click.argument("engine", metavar="ENGINE")
 @options_of(Suite)
 def conform(engine: str, asked: Suite) -> None:
-    """Hold an engine against cases with known answers, and print a card.
+    """Test an engine on cases with known answers, and print a card of its errors.
 
     ENGINE is analytic, mujoco, the name of an entry point cointoss.engines, or package.module:name of an
     object with a function simulate(scenario, times); "PYTHON -m package.module:name" is run by another

@@ -18,7 +18,7 @@ class Page(ServedPage):
     """How the map is shown."""
 
     device: Device = Device.CPU
-    """What tosses a finer map: the CPU, a card of NVIDIA's, or the card where there is one and it pays."""
+    """Device that computes a finer map: the CPU, an NVIDIA card, or the card where it is faster."""
     static: Annotated[Path | None, Form("FILE.html")] = None
     """Write one page with some pixels tossed, at most 10 MB, that needs no server; and end."""
 

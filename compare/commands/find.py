@@ -21,19 +21,19 @@ class SoughtToss:
     """What a toss is to show, where it is looked for, and where it goes."""
 
     vary: Annotated[tuple[str, ...], Form("FIELD=START:STOP")]
-    """A field that may have any value between two; may be given again."""
+    """Field to search, and the range of its values; may be given several times."""
     sequence: Annotated[str, Form("FACES")] = ""
     """Faces up at the first touches, such as HTTH."""
     outcome: Literal["heads", "tails", "edge", "perpetual", "transient", "undecided"] | None = None
     """How the coin is to end."""
     tosses: Annotated[int, Within(1, 1 << 30)] = 1 << 16
-    """Over the window, at most; fewer where many show it."""
+    """Most tosses over the window; the search stops earlier where many tosses show it."""
     seed: Annotated[int, Within(0, 2**32)] = 0
     """Seed of the points tossed."""
     device: Device = Device.CPU
-    """What tosses until the outcome; the faces are found by the CPU."""
+    """Device that computes outcomes; the CPU finds the faces."""
     out: Annotated[Path | None, Form("FILE.toml")] = None
-    """Write the scenario of the toss; without it, it is printed."""
+    """Write the scenario of the toss to this file; by default it is printed."""
     json: bool = False
     """Print JSON, in full precision."""
 
@@ -46,17 +46,17 @@ class SoughtToss:
 def find(source: Source, asked: SoughtToss) -> None:
     """Find a toss that shows a sequence of faces, or ends on its edge.
 
-    The fields of --vary may have any value between START and STOP, in SI or with a unit; all else is as the
-    scenario says. FIELD is a dotted path into the scenario, such as release.position.z. H and T are the faces
+    A field of --vary may have any value between START and STOP, in SI or with a unit. Other fields stay as in
+    the scenario. FIELD is a dotted path into the scenario, such as release.position.z. H and T are the faces
     up at the first, second, ... touch of the floor.
 
     \b
         cointoss find fig24a --sequence HTTH --vary release.position.z=0.2:0.6 --out htth.toml
         cointoss toss htth.toml
 
-    Of the tosses found it is the one farthest from others that show something else: its margins say how far
-    each field may change alone. What is printed is a scenario file that both engines toss, with what was
-    found in its comments. The exit status is 1 where no toss shows it.
+    Of the tosses that show it, the command takes the one farthest from tosses that show something else. A
+    margin says how far one field may change alone. The command prints a scenario file, which both engines
+    can toss, with the margins in its comments. The exit status is 1 where no toss shows it.
     """
     from cointoss.compare.find import find as finding
     from cointoss.compare.output.files import require_file, write_text

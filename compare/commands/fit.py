@@ -34,7 +34,7 @@ class SoughtValues:
     """The fields whose values are to be found, how, and where they go."""
 
     vary: Annotated[tuple[str, ...], Form("FIELD=START:STOP")] = ()
-    """A field to be found, and where it is looked for; may be given several times; not of flips."""
+    """Field to find, and the range to search; may be given several times; not for flips."""
     sd_time: Annotated[str | None, Form("QUANTITY")] = None
     """Standard deviation of the times of touches, such as '1 ms'; needed without a column sd_t."""
     sd_height: Annotated[str | None, Form("QUANTITY")] = None
@@ -42,19 +42,19 @@ class SoughtValues:
     sd_attitude: Annotated[str | None, Form("QUANTITY")] = None
     """Standard deviation of tilts and attitudes, such as '2 deg'."""
     starts: Annotated[int, Within(1, 1 << 20)] = 2048
-    """Values that are tried first, spread evenly over the spans; more for more or wider ones."""
+    """Starting points, spread evenly over the ranges; take more for more or wider ranges."""
     hand: Path | None = None
-    """A hand's file, of counts: it tosses the scenario's coin, of flips but for its psi."""
+    """For counts: file of the hand that tosses the scenario's coin; for flips its psi is not used."""
     tosses: Annotated[int, Within(1, 10_000_000)] = 1000
-    """Tosses of the scenario's coin, of counts: at each of 31 psi, or of 9 values and each thickness."""
+    """For counts: tosses of the coin at each of 31 psi (flips), or of 9 values for each thickness (edges)."""
     seed: Annotated[int, Within(0, 2**32)] = 0
     """Seed of the starts, or of the tosses."""
     device: Device = Device.CPU
-    """What tosses; a fit of one toss is made by the CPU, so that auto is the CPU."""
+    """Device that computes the tosses; the CPU fits a single toss, so auto is the CPU there."""
     out: Path | None = None
-    """Also write the scenario with the values found, or of flips the hand, to this .toml file."""
+    """Also write the scenario with the values found, or for flips the hand, to this .toml file."""
     png: Path | None = None
-    """Also draw the fit to this .png file; not of counts."""
+    """Also draw the fit to this .png file; not for counts."""
     json: bool = False
     """Print JSON, in full precision."""
 
@@ -79,20 +79,20 @@ _OF_COUNTS = ("hand", "tosses")
 def fit(observed: Path, source: Source | None, asked: SoughtValues) -> None:
     """Find the values of a scenario's fields that explain what was seen of a coin, or that none do.
 
-    Seen are the times of its touches, as a microphone hears them, faces up, or heights and attitudes, as a
-    film shows them. FIELD is a dotted path into the scenario, such as floor.restitution or
+    OBSERVED.csv has the times of touches, as a microphone hears them, faces up, or heights and attitudes, as
+    a film shows them. FIELD is a dotted path into the scenario, such as floor.restitution or
     release.position.z, or its last part; START and STOP are in SI or carry a unit. The FIELD clock is the
     time that your clock shows at the release; without it your clock begins then. All other fields stay as the
     scenario has them.
 
-    Printed are the values with their 99 % intervals, whether this model can do what was seen at all, other
-    values that would explain it too, and each touch. Where it cannot, there are no intervals, and the exit
-    status is 1.
+    The command prints the values with their 99 % intervals, whether this model can do what was seen at all,
+    other values that would explain it too, and each touch. Where the model cannot do it, the command prints
+    no intervals, and the exit status is 1.
 
-    Of counts of flips, how often the side came up that was up at the release, the psi of each person's hand
-    is found, and its scatter over people. Without SCENARIO the coins are caught; with it, coins are tossed
-    onto its floor. Of counts of edges by thickness the value of one FIELD is found, by tosses of the
-    SCENARIO's coin in each thickness.
+    Counts of flips say how often the side came up that was up at the release. From them the command finds the
+    psi of each person's hand, and its scatter over people. Without SCENARIO the coins are caught; with it
+    they are tossed onto its floor. From counts of edges by thickness the command finds the value of one
+    FIELD, by tosses of the SCENARIO's coin in each thickness.
     """
     from cointoss.compare.fitting.edges import Edges
     from cointoss.compare.fitting.flips import Flips

@@ -18,7 +18,7 @@ _OPTIONS = (
         type=Place(),
         metavar="FILE.toml",
         help="A hand's file, with the names of these options: height, speed, spin, psi, psi_scatter, "
-        "scatter, up, spun, caught. An option takes the place of what it says.",
+        "scatter, up, spun, caught. An option overrides the value in the file.",
     ),
     click.option(
         "--height",
@@ -43,7 +43,7 @@ _OPTIONS = (
         "--psi-scatter",
         type=quantity("rad"),
         show_default="10 deg, as of people; 0 deg with --hand, --psi or --spun",
-        help="Its standard deviation.",
+        help="Standard deviation of psi.",
     ),
     click.option(
         "--scatter",
@@ -70,7 +70,9 @@ _OPTIONS = (
         help="Height at which a hand catches the coin; by default the scenario's [ending] caught, if it has "
         "one.",
     ),
-    click.option("--seed", type=CountType(0, 2**32), default=0, show_default=True, help="Of the releases."),
+    click.option(
+        "--seed", type=CountType(0, 2**32), default=0, show_default=True, help="Seed of the releases."
+    ),
 )
 
 

@@ -34,7 +34,9 @@ Counts = dict[str, tuple[int, int]]
 @scenario_argument
 @set_option
 @hand_options
-@click.option("--tosses", type=CountType(1, 10_000_000), default=1000, show_default=True, help="How many.")
+@click.option(
+    "--tosses", type=CountType(1, 10_000_000), default=1000, show_default=True, help="Number of tosses."
+)
 @engine_option
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
 @with_scenario
@@ -107,7 +109,7 @@ def first_sides(plan: "Plan") -> "Iterator[tuple[int, Counts]]":
     def found() -> str:
         return ", ".join(f"{name} {met / max(of, 1):.1%}" for name, (met, of) in counts.items())
 
-    with stage("tosses by hand", "tosses", total=plan.tosses, detail=found) as progress:
+    with stage("tossing by hand", "tosses", total=plan.tosses, detail=found) as progress:
         for first in range(0, plan.tosses, BLOCK[engine.value]):
             block = rows_of_releases(setting, states[first : first + BLOCK[engine.value]])
             if plan.catches:

@@ -24,8 +24,8 @@ class LabPage(ServedPage):
     out: Annotated[Path | None, Form("FILE.html")] = None
     """Write the page, at most 2 MB, instead of opening it."""
     device: Device | None = None
-    """Serve the page to this machine until Ctrl-C, and toss its map there: by the CPU, a card of NVIDIA's, or
-    the card where there is one and it pays."""
+    """Serve the page to this machine until Ctrl-C, and compute its map here: on the CPU, an NVIDIA card, or
+    the card where there is one and it is faster."""
 
 
 @click.command(epilog=SCENARIO_HELP)

@@ -66,7 +66,7 @@ ranges_option = click.option(
     "--vary",
     multiple=True,
     metavar="FIELD=START:STOP:N",
-    help="The field that varies, and its N values; a second one: both.",
+    help="Field that varies, and its N values; give it twice to vary two fields.",
     **completing(_ranging),
 )
 

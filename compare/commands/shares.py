@@ -52,16 +52,18 @@ WHOLE = 1000
 @click.option(
     "--tosses",
     type=CountType(1, 10_000_000),
-    help="Of each setting; by default 1000, with --to at most ten million.",
+    help="Tosses for each value; by default 1000, or at most ten million with --to.",
 )
 @click.option(
     "--to",
     type=quantity(""),
     metavar="PART",
-    help="Toss each setting until its widest interval is at most this to either side, such as 0.5%.",
+    help="Toss for each value until the widest interval is at most this to either side, such as 0.5%.",
 )
 @engine_option
-@click.option("--compare", "both", is_flag=True, help="Count by both engines, and test how far they agree.")
+@click.option(
+    "--compare", "both", is_flag=True, help="Count by both engines, and test how far their counts agree."
+)
 @device_option
 @click.option("--scheduler", metavar="ADDRESS", help="Address of a Dask scheduler on whose workers to toss.")
 @click.option(
@@ -220,9 +222,12 @@ def _print(found: "xr.Dataset", plan: "Plan", scenario: str, as_json: bool) -> N
     if missed := int(found.not_caught.sum()):
         click.echo(f"left out   {missed:,d} coins that never came down to the hand")
     if len(alike := show.alike(found)):
-        by_chance = f"; by chance it is so small in {show.least_alike(found):.2g} of all runs"
-        of = f", the least of {len(alike)}{by_chance}" if len(alike) > 1 else ""
-        click.echo(f"alike      with probability {np.nanmin(alike):.2g}{of}")
+        click.echo(
+            f"alike      p = {np.nanmin(alike):.2g}: engines that agree differ as much with this probability"
+        )
+        if len(alike) > 1:
+            by_chance = f"by chance the least is as small in {show.least_alike(found):.2g} of all runs"
+            click.echo(f"           (the least of {len(alike)} settings; {by_chance})")
 
 
 def _width() -> int:

@@ -25,31 +25,31 @@ class Wanted:
     """The bounce whose settings are asked for, or the settings whose bounce is."""
 
     restitution: Annotated[Given | None, quantity(""), Form("E")] = None
-    """From 0 to 1: print settings for it."""
+    """Restitution from 0 to 1: print settings for it."""
     of: Annotated[str | None, Form("SOLREF")] = None
     """Print the restitution of these settings, such as "0.01 0.37"."""
     dt: Annotated[Given, quantity("s"), Form("DT")]
     """The model's timestep, such as 0.002 or 2ms."""
     spring: bool = False
-    """By a spring that lasts several steps, instead of in one."""
+    """Use a spring that lasts several steps, instead of a bounce in one step."""
     steps: Annotated[int | None, Within(5, 500)] = None
-    """Steps in the contact of a spring; by default 40."""
+    """Steps that the contact of the spring lasts; by default 40."""
     body: Annotated[str | None, Form("BODY")] = None
-    """That is measured, as in a <geom>, such as "box 0.1 0.1 0.002" (half sizes)."""
+    """Body to measure, as in a <geom>, such as "box 0.1 0.1 0.002" (half sizes)."""
     backend: Literal["mujoco", "mjx", "warp", "newton", "genesis", "isaaclab"] | None = None
-    """What steps the model; by default MuJoCo itself. Prints settings that it takes, in its own words."""
+    """Simulator that takes the settings; by default MuJoCo itself. They are printed in its own form."""
     gravity: Annotated[Given, quantity("m/s**2"), Form("G")] = Given("9.81", 9.81)
-    """Of what is measured with weight and at rest, such as "1.62 m/s^2"."""
+    """Gravity, for what is measured with weight and at rest, such as "1.62 m/s^2"."""
     mass: Annotated[Given, quantity("kg"), Form("M")] = Given("10 g", 0.01)
-    """Of the body that is measured, such as "5 g"."""
+    """Mass of the body that is measured, such as "5 g"."""
     model: bool = False
     """Print a whole model instead: the body over a plane."""
     with_: Annotated[str | None, Form("SOLREF")] = None
-    """Of the other geom, mixed with that of --of; without it, that of --of has priority."""
+    """solref of the other geom, mixed with that of --of; by default that of --of has priority."""
     integrator: str | None = None
-    """Beside --of: Euler, MuJoCo's own, implicitfast, implicit, RK4 or discrete."""
+    """With --of: the integrator: Euler (MuJoCo's default), implicitfast, implicit, RK4 or discrete."""
     solimp: Annotated[str | None, Form("SOLIMP")] = None
-    """Beside --of: of the same geom; by default "0.9 0.95 0.001"."""
+    """With --of: solimp of the same geom; by default "0.9 0.95 0.001"."""
     json: bool = False
     """Print JSON, in full precision."""
 
@@ -66,9 +66,9 @@ class Wanted:
     one_of("model", "json"),
 )
 def solref(asked: Wanted) -> None:
-    """Print the settings with which a body bounces in MuJoCo and others, or how it bounces with given ones.
+    """Print settings of MuJoCo or another simulator for a restitution, or the restitution of given settings.
 
-    Everything is measured now, on a body that touches a plane at 16 phases of a step.
+    The command measures everything as it runs, on a body that touches a plane at 16 phases of a step.
     """
     with plain_errors("solref"):
         from cointoss.compare.film.back_end import require_mujoco
@@ -189,14 +189,14 @@ def _friction(found: "Bounce") -> list[str]:
     slips = f"slip at some {1e6 * found.creep:.2g} um/s" if found.creep < 1e-3 else "slip out"
     if found.backend is Backend.GENESIS:
         return [
-            "at least 0.01, MuJoCo's own, which lifts a body that slides unless RigidOptions has",
-            f"contact_resolution=gs.contact_resolution.signorini, and lets what it holds {slips}",
+            "at least 0.01, MuJoCo's own friction, which lifts a body that slides unless RigidOptions has",
+            f"contact_resolution=gs.contact_resolution.signorini, and lets a body that it holds {slips}",
         ]
     three = '"mujoco:condim": 3' if found.backend is Backend.NEWTON else 'condim="3"'
     return [
-        f"none: a stack slides apart; {three} is MuJoCo's own, which lifts a body that",
-        f"slides, and lets what it holds {slips}:",
-        "docs/MUJOCO.md has a way out of both",
+        f"none: a stack slides apart; {three} has MuJoCo's own friction, which lifts a body that",
+        f"slides, and lets a body that it holds {slips};",
+        "docs/MUJOCO.md says how to avoid both",
     ]
 
 

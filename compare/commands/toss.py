@@ -19,13 +19,13 @@ class Answer:
     """The toss that is asked for, and what is printed of it."""
 
     engine: Literal["analytic", "mujoco"] = "analytic"
-    """The engine."""
+    """Engine that computes the toss."""
     contact: Literal["spring", "one_step"] | None = None
     """How MuJoCo realises the restitution; by default by a spring."""
     max_impacts: Annotated[int | None, Within(1, 1_000_000)] = None
     """Stop after this number of impacts: short for --set ending.max_impacts=N."""
     contact_steps: Annotated[int | None, Within(1, 1_000_000_000)] = None
-    """Stop after this number of steps of sustained contact and after it; by default an engine's own."""
+    """Stop after this number of steps in and after sustained contact; by default the engine's own limit."""
     flight_steps: Annotated[int | None, Within(1, 1_000_000_000)] = None
     """Stop after this number of steps of flight, in MuJoCo; by default 250,000."""
     all: bool = False
@@ -35,7 +35,7 @@ class Answer:
     trajectory: Path | None = None
     """Also write the path to this .csv file."""
     margin: bool = False
-    """Also find the least changes of the release that change the outcome."""
+    """Also find the smallest changes of the release that change the outcome."""
 
 
 @click.command(epilog=SCENARIO_HELP)
@@ -82,7 +82,7 @@ def toss(source: Source, asked: Answer) -> None:
             if asked.contact_steps is not None:
                 unproved = f"--contact-steps: {asked.contact_steps}, accepted: none"
         elif is_planar(coin):
-            unproved = "want of a package with proofs, an entry point cointoss.proofs"
+            unproved = "want of a package with an entry point cointoss.proofs"
         extra = margins(coin, None if unproved else proofs, settings=fine)
     if asked.json:
         told = {

@@ -24,7 +24,7 @@ class Film:
     camera: Literal["overview", "close-up", "top"] = "close-up"
     """Where the camera is; close-up follows the coin."""
     poster: Path | None = None
-    """Also a .png file of one frame, to stand for it."""
+    """Also write one frame to this .png file."""
 
 
 @click.command(epilog=SCENARIO_HELP)

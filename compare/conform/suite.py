@@ -40,6 +40,6 @@ def conform(engine: Any, *, cases: Iterable[str] = (), full: bool = False, time_
     ]
     with (
         simulators_of(engine, time_limit) as engines,
-        stage(f"holding {engines[0].name} against {len(chosen)} cases", "runs") as progress,
+        stage(f"testing {engines[0].name} on {len(chosen)} cases", "runs") as progress,
     ):
         return Card.of(engines[0], run_cases(engines, chosen, progress))

@@ -85,7 +85,7 @@ def drawing_complaint() -> str | None:
     # -P: a module of the current folder must not stand in for one of Python's.
     command = [sys.executable, "-P", "-c", DRAW_ONE_FRAME]
     try:
-        with stage("trying whether MuJoCo can draw here"):
+        with stage("checking whether MuJoCo can draw here"):
             tried = subprocess.run(command, capture_output=True, check=False, timeout=120, errors="replace")
     except (OSError, subprocess.TimeoutExpired) as error:
         return str(error)

@@ -185,6 +185,6 @@ def _checked(toss: Toss) -> str:
     energy = max(found.get(name, 0.0) for name in certificate.OF_ENERGY)
     gain = f", an impact gains {found[certificate.GAIN]:.0e} m g r" if certificate.GAIN in found else ""
     return (
-        f"contact law {law:.0e}, energy {energy:.0e} m g r, |e| {found[certificate.NORM]:.0e}, "
-        f"gap {found[certificate.GAP]:.0e} r{gain}"
+        f"largest residuals: contact law {law:.0e}, energy {energy:.0e} m g r, "
+        f"|e| {found[certificate.NORM]:.0e}; smallest gap {found[certificate.GAP]:.0e} r{gain}"
     )

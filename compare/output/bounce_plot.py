@@ -67,7 +67,9 @@ def bounce_table(found: PairBounce) -> str:
             "plane may let it through"
         )
     if _gains(found.energy_kept):
-        notes.append(f"{GAINS} gains energy: at one phase at least more is left than came")
+        notes.append(
+            f"{GAINS} gains energy: at one phase or more, the geoms part with more energy than they came with"
+        )
     count = len(found.outcomes[0])
     phases = f"Restitution: the mean over {count} phases of a step, in brackets the least and the largest."
     return "\n".join([phases, *lines, *notes, *found.notes])

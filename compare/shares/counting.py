@@ -161,7 +161,7 @@ def counting(plan: Plan, tosser: Tosser = toss_here) -> Iterator[Counts]:
             yield
 
     plan.processor.expect(int(needed.sum()))
-    with stage("shares", "tosses", detail=found) as progress:
+    with stage("counting", "tosses", detail=found) as progress:
         while not all(one.is_enough for several in counts.values() for one in several):
             for _ in chain.from_iterable(zip_longest(*(tossed(*one) for one in enumerate(plan.engines)))):
                 progress(int(table.sum()), int(needed.sum()))

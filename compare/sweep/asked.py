@@ -34,13 +34,13 @@ class Job(PictureStyle):
     """A map of a scenario, or one by each engine, with what is told of them and how they are drawn."""
 
     x: Annotated[str, Form("FIELD=START:STOP:N")]
-    """The field that varies along x, and its N values."""
+    """Field that varies along x, and its N values."""
     y: Annotated[str, Form("FIELD=START:STOP:N")]
-    """The field that varies along y."""
+    """Field that varies along y, and its N values."""
     out: Annotated[Path, Form("MAP.zarr")]
     """The Zarr store to write."""
     engine: Literal["analytic", "mujoco"] = "analytic"
-    """The engine."""
+    """Engine that computes the tosses."""
     compare: bool = False
     """Make the map by both engines, MuJoCo's as MAP-mujoco.zarr, and compare the two."""
     contact: Literal["spring", "one_step"] = "spring"
@@ -57,9 +57,9 @@ class Job(PictureStyle):
     overwrite: bool = False
     """Replace an existing map."""
     device: Device = Device.CPU
-    """What tosses: the CPU, a card of NVIDIA's, or the card where there is one and it pays."""
+    """Device that computes the tosses: the CPU, an NVIDIA card, or the card where it is faster."""
     scheduler: Annotated[str | None, Form("ADDRESS")] = None
-    """Address of a Dask scheduler on whose workers to toss."""
+    """Address of a Dask scheduler, whose workers compute the tosses."""
     png: Path | None = None
     """Also draw the map to this .png file."""
     report: Path | None = None

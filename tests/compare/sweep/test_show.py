@@ -98,7 +98,7 @@ def test_the_report_hatches_what_the_analytic_engine_cannot_be_trusted_with(coin
     maps, hatched = [halves(20, 20)] * 2, np.arange(400).reshape(20, 20) < 100
     plain, shown = section_of(maps), section_of(maps, untrusted=hatched)
     assert "untrusted" not in shown_of(plain, tmp_path / "plain")
-    said = "untrusted, hatched: its own errors may have decided 25.000 % –"
+    said = "untrusted (hatched): the engine’s own errors may have decided 25.000 % –"
     assert said in shown_of(shown, tmp_path / "shown")
     assert shown.picture != plain.picture
 
