@@ -52,7 +52,6 @@ if TYPE_CHECKING:
     from cointoss.models.parts import Floor as Floor
     from cointoss.models.parts import Release as Release
     from cointoss.models.reading import load as load
-    from cointoss.models.reading import named_scenarios as named_scenarios
     from cointoss.models.reading import parse as parse
     from cointoss.models.records import ApproximationWarning as ApproximationWarning
     from cointoss.models.records import Ending as Ending
@@ -67,6 +66,7 @@ if TYPE_CHECKING:
     from cointoss.models.records import UnsupportedError as UnsupportedError
     from cointoss.models.records import UnusableEngineError as UnusableEngineError
     from cointoss.models.scenario import Scenario as Scenario
+    from cointoss.models.sources import named_scenarios as named_scenarios
     from cointoss.models.unused import UnusedFieldWarning as UnusedFieldWarning
 
     __version__: str

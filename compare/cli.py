@@ -4,7 +4,6 @@ import difflib
 import os
 import sys
 from functools import cached_property
-from importlib.metadata import entry_points
 from io import TextIOWrapper
 from typing import Any, NoReturn
 
@@ -27,6 +26,7 @@ from cointoss.compare.commands.toss import toss
 from cointoss.compare.commands.video import video
 from cointoss.compare.output.interruption import run_to_exit
 from cointoss.models.distribution import DISTRIBUTION
+from cointoss.models.errors import meant
 
 # The commands' modules import little: `cointoss --help` answers at once, a command brings what it needs.
 
@@ -75,6 +75,8 @@ class _Commands(click.Group):
     @cached_property
     def offered(self) -> dict[str, click.Command]:
         """The commands of other packages, by the entry points that offer them."""
+        from importlib.metadata import entry_points  # takes a tenth of a start
+
         return {point.name: point.load() for point in entry_points(group="cointoss.commands")}
 
     def list_commands(self, ctx: click.Context) -> list[str]:
@@ -83,7 +85,8 @@ class _Commands(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         known = super().get_command(ctx, cmd_name) or self.offered.get(cmd_name)
         if known is None and not ctx.resilient_parsing:  # as where a shell completes
-            ctx.fail(f"{cmd_name}: no such command; accepted: {', '.join(self.list_commands(ctx))}")
+            names = self.list_commands(ctx)
+            ctx.fail(f"{cmd_name}: no such command; {meant(cmd_name, names)}accepted: {', '.join(names)}")
         return known
 
 

@@ -13,9 +13,10 @@ from cointoss.models.batch import rows_of
 from cointoss.models.devices import Device
 from cointoss.models.distribution import versions_of
 from cointoss.models.kernel.arrays import Array
-from cointoss.models.reading import ScenarioSource, load, named_scenarios
+from cointoss.models.reading import ScenarioSource, load
 from cointoss.models.records import Toss, UnsupportedError
 from cointoss.models.scenario import Scenario
+from cointoss.models.sources import named_scenarios
 
 if TYPE_CHECKING:
     from cointoss.analytic import OwnLaw

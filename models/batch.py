@@ -6,8 +6,8 @@ from collections.abc import Collection, Mapping
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cointoss.models.describing import ends_of
 from cointoss.models.entries import examine_each
-from cointoss.models.errors import ends_of
 from cointoss.models.fields import COMPONENTS, FIELDS, PLACES, WORDED
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.rows import FIRST, row_of

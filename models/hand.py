@@ -14,9 +14,10 @@ from cointoss.models.attitude import quaternion_from_angles
 from cointoss.models.batch import STATE
 from cointoss.models.body import Body
 from cointoss.models.errors import FieldError, ScenarioError
-from cointoss.models.reading import ScenarioSource, plain_text, scenario_of, tables_of
+from cointoss.models.reading import ScenarioSource, scenario_of, tables_of
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
+from cointoss.models.sources import plain_text
 from cointoss.models.units import in_si
 from cointoss.models.words import Word
 

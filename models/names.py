@@ -22,7 +22,7 @@ def full_name(name: str, known: Collection[str]) -> str:
         known: the fields.
 
     Raises:
-        LookupError: for another name; the message says which are accepted.
+        LookupError: for another name; the message says which may be meant, and which are accepted.
     """
     if name in known:
         return name
@@ -35,16 +35,16 @@ def full_name(name: str, known: Collection[str]) -> str:
 
 
 def _accepted(name: str, known: list[str], ends: list[str]) -> str:
-    """Return the fields that a wrong name may mean: those called so, its components, or its neighbours."""
+    """Return the field that a wrong name may mean, and those that are accepted: of its name, or others."""
     tables = list(dict.fromkeys(field.partition(".")[0] for field in known if "." in field))
     table = name.partition(".")[0]
     of_table = [field for field in known if table in tables and field.startswith(f"{table}.")]
     components = [field for field in known if field.startswith(f"{name}.")]
-    near = [] if name in WORDED else _near(name, known, of_table)
+    near = [] if ends or components or name in WORDED else _near(name, known, of_table)
     whole = [f"numbers of {', '.join(tables)}, and gravity"]
     others = of_table if 0 < len(of_table) <= MOST_LISTED else whole
-    hint = f" (did you mean {near[0]}?)" if near and not ends else ""
-    return ", ".join(dict.fromkeys([*(ends or components or near), *others])) + hint
+    hint = f"did you mean {near[0]}? " if near else ""
+    return f"{hint}accepted: {', '.join(dict.fromkeys([*(ends or components), *others]))}"
 
 
 def _near(name: str, known: list[str], of_table: list[str]) -> list[str]:

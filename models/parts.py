@@ -18,7 +18,8 @@ from pydantic import (
 )
 
 from cointoss.models.attitude import Quaternion, normalized, quaternion_from_angles
-from cointoss.models.errors import FieldError, ScenarioError, accepted, describe
+from cointoss.models.describing import accepted, describe
+from cointoss.models.errors import FieldError, ScenarioError
 from cointoss.models.faults import (
     ACCEPTED,
     Fault,

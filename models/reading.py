@@ -1,22 +1,18 @@
 """Read a scenario file (TOML)."""
 
-import difflib
 import tomllib
 from functools import lru_cache
-from importlib import resources
 from os import PathLike
-from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
 
-from cointoss.models.bounded import TooLargeError, read_bounded
-from cointoss.models.errors import FieldError, ScenarioError, describe, require_type
+from cointoss.models.describing import describe
+from cointoss.models.errors import FieldError, ScenarioError, require_type
 from cointoss.models.scenario import Scenario
+from cointoss.models.sources import scenario_text
 from cointoss.models.unused import warn_of_unused_fields
 
-MOST_BYTES = 1 << 16
-"""The largest size of a scenario's file [bytes]."""
 LONGEST_LINE = 2000
 """Characters: what takes one line, as a key, could be nested too deeply for the memory."""
 FORMAT = 1
@@ -24,75 +20,6 @@ FORMAT = 1
 
 ScenarioSource = Scenario | str | PathLike[str]
 """A scenario, the path of its file, or the name of one that comes with the package."""
-
-
-def named_scenarios() -> list[str]:
-    """Return the names of the scenarios that come with the package."""
-    folder = resources.files("cointoss.models") / "scenarios"
-    return sorted(
-        entry.name.removesuffix(".toml") for entry in folder.iterdir() if entry.name.endswith(".toml")
-    )
-
-
-def title_of(name: str) -> str:
-    """Return what a scenario of the package is, from its first line.
-
-    Args:
-        name: one of `named_scenarios`.
-    """
-    first, _, _ = scenario_text(name).partition("\n")
-    return first.removeprefix("# ").removesuffix(".").replace(" of Strzalko et al. 2008", "").rstrip(",")
-
-
-def scenario_text(source: str | PathLike[str]) -> str:
-    """Return the text of a scenario file, or of a scenario of the package by its name.
-
-    Raises:
-        ScenarioError: if there is no such file, it can't be read as text, or `source` is of another type.
-    """
-    if not isinstance(source, str | PathLike):
-        way_out = "; Scenario(**tables) makes one of a dict" if isinstance(source, dict) else ""
-        raise ScenarioError(
-            f"scenario: of type {type(source).__name__}, accepted: a Scenario, the path of its file, or a "
-            f"name such as fig24a{way_out}"
-        )
-    names = named_scenarios()
-    path, source = Path(source), str(source)
-    try:
-        if not source:
-            raise FileNotFoundError
-        if source in names and (not path.exists() or path.is_dir()):
-            return (resources.files("cointoss.models") / "scenarios" / f"{source}.toml").read_text(
-                encoding="utf-8"
-            )
-        return plain_text(path, source)
-    except OSError as error:
-        wrong = (
-            "no such file" if isinstance(error, FileNotFoundError) else f"can't be read ({error.strerror})"
-        )
-        near = difflib.get_close_matches(source, names, n=1)
-        hint = f" (did you mean {near[0]}?)" if near else ""
-        raise ScenarioError(
-            f"{source or '(no name)'}: {wrong}; accepted: a TOML file, or one of: {', '.join(names)}{hint}"
-        ) from None
-
-
-def plain_text(path: Path, source: str) -> str:
-    """Return the text of a small file in UTF-8, each line ended by a newline.
-
-    Raises:
-        ScenarioError: if it is too large or no text.
-        OSError: if it can't be read.
-    """
-    try:
-        text = read_bounded(path, MOST_BYTES).decode("utf-8-sig")
-    except TooLargeError as error:
-        raise ScenarioError(f"{source}: {error}; accepted: at most {MOST_BYTES} bytes of text") from None
-    except UnicodeDecodeError as error:
-        raise ScenarioError(
-            f"{source}: {error.reason} at byte {error.start}; accepted: a text file in UTF-8"
-        ) from None
-    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def scenario_of(source: ScenarioSource) -> Scenario:

@@ -13,7 +13,8 @@ from pydantic import (
 
 from cointoss.models.attitude import Quaternion
 from cointoss.models.body import NO_CODE, AirLaw, Body, Rules
-from cointoss.models.errors import ScenarioError, describe, require_type
+from cointoss.models.describing import describe
+from cointoss.models.errors import ScenarioError, require_type
 from cointoss.models.faults import fault_of_toss
 from cointoss.models.fields import put
 from cointoss.models.kernel.vectors import Vector

@@ -13,6 +13,7 @@ import click
 from cointoss.compare.output.language import in_options
 from cointoss.compare.output.plain import json_text
 from cointoss.models.devices import Device, DeviceError, DeviceWarning
+from cointoss.models.errors import meant
 
 SCENARIO_HELP = (
     "SCENARIO is a TOML file, or the name of a scenario that comes with the package, such as fig24a. "
@@ -44,6 +45,22 @@ class Place(click.Path):
         return super().convert(value, param, ctx)
 
 
+class ReadPlace(Place):
+    """The path of what a command reads; one where there is nothing is refused before anything is imported."""
+
+    def __init__(self, missing: str) -> None:
+        """Keep what is said of a path where there is nothing."""
+        super().__init__()
+        self._missing = missing
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the path, or refuse one where there is nothing."""
+        path = super().convert(value, param, ctx)
+        if not path.exists():
+            refuse(f"{path}: {self._missing}")
+        return path
+
+
 class CountType(click.IntRange):
     """A whole number within bounds, with one message for what is out of them and what is no number."""
 
@@ -55,6 +72,16 @@ class CountType(click.IntRange):
             return super().convert(value, param, ctx)
         except click.BadParameter:
             self.fail(f"{value}; accepted: an integer >= {self.min} and <= {self.max}", param, ctx)
+
+
+class ChoiceType(click.Choice):
+    """One of some words; a message on another one begins with the word that is most like it."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the word, or refuse the value with what is accepted."""
+        if value not in self.choices:
+            self.fail(f"{value}; {meant(value, self.choices)}accepted: {', '.join(self.choices)}", param, ctx)
+        return super().convert(value, param, ctx)
 
 
 @dataclass(frozen=True)
@@ -195,7 +222,7 @@ def say(message: str) -> None:
 
 device_option = click.option(
     "--device",
-    type=click.Choice([str(one) for one in Device]),
+    type=ChoiceType([str(one) for one in Device]),
     default=str(Device.CPU),
     show_default=True,
     help="Device that computes the tosses: the CPU, an NVIDIA card, or the card where it is faster.",
@@ -204,7 +231,7 @@ device_option = click.option(
 
 engine_option = click.option(
     "--engine",
-    type=click.Choice(["analytic", "mujoco"]),
+    type=ChoiceType(["analytic", "mujoco"]),
     default="analytic",
     show_default=True,
     help="Engine that computes the tosses.",

@@ -41,12 +41,13 @@ def conform(engine: str, asked: Suite) -> None:
         from cointoss.compare.conform import suite
         from cointoss.compare.conform.case import cases
         from cointoss.compare.output.files import require_file, write_text
+        from cointoss.models.errors import meant
 
         require_file(asked.out, ".html", engine)
         known = [case.name for case in cases()]
         for name in asked.case:
             if name not in known:
-                refuse(f"--case {name}: accepted: {', '.join(known)}")
+                refuse(f"--case {name}: {meant(name, known)}accepted: {', '.join(known)}")
         card = suite.conform(engine, cases=asked.case, full=asked.full, time_limit=asked.time_limit)
         if asked.out is not None:
             write_text(asked.out, card.page())

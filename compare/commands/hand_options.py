@@ -5,7 +5,15 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from cointoss.compare.commands.common import CountType, Given, Place, naming_options, quantity, refuse
+from cointoss.compare.commands.common import (
+    ChoiceType,
+    CountType,
+    Given,
+    Place,
+    naming_options,
+    quantity,
+    refuse,
+)
 
 if TYPE_CHECKING:
     from cointoss.models.hand import Hand
@@ -53,7 +61,7 @@ _OPTIONS = (
     ),
     click.option(
         "--up",
-        type=click.Choice(["heads", "either"]),
+        type=ChoiceType(["heads", "either"]),
         show_default="heads",
         help="The side that is up at the release; either: both are as likely.",
     ),

@@ -19,7 +19,7 @@ def completing(known: Callable[[], Iterable[str]], *, files: bool = False) -> di
 
 
 def _scenarios() -> list[str]:
-    from cointoss.models.reading import named_scenarios
+    from cointoss.models.sources import named_scenarios
 
     return named_scenarios()
 

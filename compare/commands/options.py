@@ -20,7 +20,7 @@ from typing import (
 
 import click
 
-from cointoss.compare.commands.common import CountType, Place, TextType
+from cointoss.compare.commands.common import ChoiceType, CountType, Place, TextType
 from cointoss.compare.commands.names import completing
 from cointoss.compare.output.accepted import Form, Within
 from cointoss.compare.output.language import option_of
@@ -202,9 +202,9 @@ def _type(one: _Field) -> click.ParamType:
             case _:
                 pass
     if get_origin(one.kind) is Literal:
-        return click.Choice(get_args(one.kind))
+        return ChoiceType(get_args(one.kind))
     if _is_worded(one.kind):
-        return click.Choice([str(member) for member in one.kind])
+        return ChoiceType([str(member) for member in one.kind])
     return {Path: Place(), str: click.STRING}[one.kind]
 
 

@@ -6,7 +6,7 @@ import click
 @click.command()
 def scenarios() -> None:
     """List the scenarios that come with the package, and what each is."""
-    from cointoss.models.reading import named_scenarios, title_of
+    from cointoss.models.sources import named_scenarios, title_of
 
     names = named_scenarios()
     width = max(map(len, names)) + 2

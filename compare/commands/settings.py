@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from cointoss.compare.commands.common import TextType, plain_errors
+from cointoss.compare.commands.common import TextType, plain_errors, refuse
 from cointoss.compare.commands.names import completing, settable
 from cointoss.compare.sweep.asked import Source
 
@@ -49,7 +49,8 @@ def described(source: str, settings: Sequence[str] = ()) -> "tuple[Scenario, str
         SweepError: for a field that a scenario does not have, naming what is accepted.
     """
     from cointoss.models.errors import ScenarioError
-    from cointoss.models.reading import parse, scenario_text
+    from cointoss.models.reading import parse
+    from cointoss.models.sources import scenario_text
     from cointoss.models.unused import warn_of_unused_fields
 
     text = scenario_text(source)
@@ -81,12 +82,25 @@ def with_scenario(command: Callable[..., None]) -> Callable[..., None]:
     def called(*arguments: Any, scenario: str | None, settings: tuple[str, ...], **asked: Any) -> None:
         if scenario is None and settings:
             raise click.UsageError(f"--set {settings[0]}: accepted: only with a SCENARIO")
+        if scenario is not None:
+            _require(scenario)
         with plain_errors("cointoss" if scenario is None else scenario):
             is_none = scenario is None
             source = None if is_none else Source(scenario, *described(scenario, settings), settings)
             command(*arguments, source=source, **asked)
 
     return called
+
+
+def _require(source: str) -> None:
+    """Refuse a scenario that is not there, before what reads one is imported, which takes longest."""
+    from cointoss.models.errors import ScenarioError
+    from cointoss.models.sources import scenario_text
+
+    try:
+        scenario_text(source)
+    except ScenarioError as error:
+        refuse(str(error))
 
 
 def settings_words(settings: Sequence[str]) -> list[str]:

@@ -18,9 +18,10 @@ from cointoss.compare.report.folder import write_report
 from cointoss.compare.report.verdict import verdicts_of
 from cointoss.compare.simulators.answering import EngineError
 from cointoss.compare.simulators.simulator import Simulator, simulator_of
-from cointoss.models.reading import ScenarioSource, parse, scenario_text
+from cointoss.models.reading import ScenarioSource, parse
 from cointoss.models.records import UnsupportedError
 from cointoss.models.scenario import Scenario
+from cointoss.models.sources import scenario_text
 from cointoss.models.stages import stage
 
 if TYPE_CHECKING:

@@ -222,7 +222,7 @@ def named(name: object, known: Collection[str]) -> str:
     except LookupError as error:
         kind = "field" if "floor.contact" in known else "numeric field"
         what = "field that may vary here" if name in NUMBERS else f"{kind} of a scenario"
-        raise SweepError(f"{name}: no {what}; accepted: {error.args[0]}") from None
+        raise SweepError(f"{name}: no {what}; {error.args[0]}") from None
 
 
 def unit_of(field: str, scenario: Scenario, units: Mapping[str, str] = NUMBERS) -> str:

@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from cointoss.compare.cli import NO_MEMORY, main
-from cointoss.models.reading import scenario_text
+from cointoss.models.sources import scenario_text
 from tests.helpers.command_line import HERE, cointoss, in_a_shell, python
 
 
@@ -62,7 +62,7 @@ def test_what_is_lost_without_an_error_of_the_system_is_said_as_it_is(monkeypatc
     def lost():
         raise OSError("the connection was lost")
 
-    monkeypatch.setattr("cointoss.models.reading.named_scenarios", lost)
+    monkeypatch.setattr("cointoss.models.sources.named_scenarios", lost)
     answered = cointoss("scenarios")
     assert (answered.exit_code, answered.stderr) == (1, "cointoss: the connection was lost\n")
 
@@ -154,7 +154,7 @@ def test_too_little_memory_is_one_line(tmp_path, kilobytes):
     ],
 )
 def test_what_the_system_lacks_is_one_line_from_wherever_it_comes(error, monkeypatch):
-    monkeypatch.setattr("cointoss.models.reading.named_scenarios", lambda: (_ for _ in ()).throw(error))
+    monkeypatch.setattr("cointoss.models.sources.named_scenarios", lambda: (_ for _ in ()).throw(error))
     answered = cointoss("scenarios")
     assert (answered.exit_code, answered.stderr) == (1, f"cointoss: {NO_MEMORY}\n")
 
@@ -163,7 +163,7 @@ def test_other_failures_of_the_program_are_not_hidden(monkeypatch):
     def fail():
         raise RuntimeError("a defect")
 
-    monkeypatch.setattr("cointoss.models.reading.named_scenarios", fail)
+    monkeypatch.setattr("cointoss.models.sources.named_scenarios", fail)
     with pytest.raises(RuntimeError, match="a defect"):
         cointoss("scenarios")
 

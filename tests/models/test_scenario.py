@@ -13,9 +13,10 @@ from cointoss.models.errors import ScenarioError
 from cointoss.models.laws import ContactLaw, EndingTest
 from cointoss.models.making import MOST_IMPACTS, MOST_LOSSLESS
 from cointoss.models.parts import Coin, Release
-from cointoss.models.reading import MOST_BYTES, load, named_scenarios, parse, scenario_text
+from cointoss.models.reading import load, parse
 from cointoss.models.records import IMPACT_ROW
 from cointoss.models.scenario import KEPT_BYTES, MOST_KEPT, Scenario, keeping_all
+from cointoss.models.sources import MOST_BYTES, named_scenarios, scenario_text
 from tests.helpers.draws import scenario
 
 GOOD = Path(__file__).with_name("good.toml").read_text(encoding="utf-8")

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from cointoss.models.errors import accepted, ends_of
+from cointoss.models.describing import accepted, ends_of
 from cointoss.models.fields import PLACES, UNITS, WORDED, WORDS
 from cointoss.models.rows import default_of
 from cointoss.models.scenario import Scenario

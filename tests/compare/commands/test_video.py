@@ -12,7 +12,7 @@ from PIL import Image
 from cointoss.compare.film.drawing import Drawer
 from cointoss.compare.film.encodings import ENCODINGS, Format
 from cointoss.compare.report.contents import FILES
-from cointoss.models.reading import scenario_text
+from cointoss.models.sources import scenario_text
 from tests.helpers.command_line import cointoss, in_a_shell
 from tests.helpers.films import film_written
 from tests.helpers.processes import answered, started, wait_until

@@ -17,7 +17,8 @@ from cointoss.compare.report.comparison import compare, compared
 from cointoss.compare.report.contents import FILES, require_folder
 from cointoss.compare.report.folder import BEING_DRAWN, write_report
 from cointoss.compare.report.page import versions
-from cointoss.models.reading import parse, scenario_text
+from cointoss.models.reading import parse
+from cointoss.models.sources import scenario_text
 from tests.helpers.draws import scenario
 from tests.helpers.films import film_written
 from tests.helpers.off import Off

@@ -9,7 +9,8 @@ import pytest
 from cointoss.compare.report.comparison import compared
 from cointoss.compare.report.folder import write_report
 from cointoss.compare.report.page import render
-from cointoss.models.reading import parse, scenario_text
+from cointoss.models.reading import parse
+from cointoss.models.sources import scenario_text
 from tests.helpers.coins_shown import UNNAMED, faces, picture, set_time
 from tests.helpers.off import Off
 

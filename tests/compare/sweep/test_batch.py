@@ -10,8 +10,8 @@ from cointoss.compare.sweep.batch import batch_of
 from cointoss.models.batch import refused, rows_of, scenario_of_row
 from cointoss.models.fields import FIELDS, UNITS
 from cointoss.models.hand import Hand
-from cointoss.models.reading import named_scenarios
 from cointoss.models.rows import row_of
+from cointoss.models.sources import named_scenarios
 from tests.helpers.draws import scenario
 
 CASE = load("fig24a")
