@@ -40,6 +40,10 @@ def basin(source: Source, asked: Job) -> None:
     from cointoss.models.stages import stage
 
     with stage("getting ready"):  # what is imported takes long on a busy machine
+        from cointoss.compare.sweep.axes import parse_axis
+
+        for text in (asked.x, asked.y):
+            parse_axis(text, source.scenario)
         from cointoss.compare.sweep.job import make
 
     again = replace(asked, resume=True, overwrite=False, png=None, device=Device.CPU, scheduler=None)

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import click
 
-from cointoss.compare.commands.common import Place, plain_errors, print_json, refuse
+from cointoss.compare.commands.common import Place, ReadPlace, plain_errors, print_json, refuse
 
 
 @click.command()
-@click.argument("model", metavar="MODEL.xml", type=Place())
+@click.argument("model", metavar="MODEL.xml", type=ReadPlace("accepted: an XML file of MuJoCo that exists"))
 @click.argument("one", metavar="GEOM")
 @click.argument("two", metavar="GEOM")
 @click.option("--png", type=Place(), help="Draw the restitution over the speed.")
@@ -26,8 +26,8 @@ def bounce(model: Path, one: str, two: str, png: Path | None, as_json: bool) -> 
         from cointoss.compare.film.back_end import require_mujoco
         from cointoss.compare.output.files import require_file, write_bytes
 
-        require_mujoco()
         require_file(png, ".png", str(model))
+        require_mujoco()
         from cointoss import coin_mj
         from cointoss.models.errors import FieldError
 

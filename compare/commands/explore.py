@@ -6,7 +6,7 @@ from typing import Annotated
 
 import click
 
-from cointoss.compare.commands.common import Place, plain_errors
+from cointoss.compare.commands.common import ReadPlace, plain_errors
 from cointoss.compare.commands.options import options_of, without
 from cointoss.compare.commands.served import ServedPage, serve
 from cointoss.compare.output.accepted import Form
@@ -24,7 +24,9 @@ class Page(ServedPage):
 
 
 @click.command()
-@click.argument("map_path", metavar="MAP.zarr", type=Place())
+@click.argument(
+    "map_path", metavar="MAP.zarr", type=ReadPlace("no such folder; accepted: a map that cointoss basin made")
+)
 @options_of(Page, without("static", "device", "port", "no_browser"))
 def explore(map_path: Path, asked: Page) -> None:
     """Show a map in the browser: click a pixel, see both engines toss it.

@@ -58,12 +58,15 @@ def find(source: Source, asked: SoughtToss) -> None:
     margin says how far one field may change alone. The command prints a scenario file, which both engines
     can toss, with the margins in its comments. The exit status is 1 where no toss shows it.
     """
-    from cointoss.compare.find import find as finding
+    from cointoss.compare.find.fields import spans
     from cointoss.compare.output.files import require_file, write_text
 
     if not (asked.sequence or asked.outcome):
         raise click.UsageError("--sequence, --outcome: none; accepted: one of them, or both")
     require_file(asked.out, ".toml", source.name)
+    spans(varied(asked.vary), source.scenario)
+    from cointoss.compare.find import find as finding
+
     found = finding.find_telling(
         say,
         source.scenario,

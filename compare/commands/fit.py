@@ -9,7 +9,7 @@ import click
 
 from cointoss.compare.commands.common import (
     SCENARIO_HELP,
-    Place,
+    ReadPlace,
     naming_options,
     plain_errors,
     print_json,
@@ -71,7 +71,7 @@ _OF_COUNTS = ("hand", "tosses")
     "tails_to_tails and tails_to_heads; of edges they have columns thickness, edge and tosses. "
     + SCENARIO_HELP
 )
-@click.argument("observed", metavar="OBSERVED.csv", type=Place())
+@click.argument("observed", metavar="OBSERVED.csv", type=ReadPlace("no such file; accepted: a CSV file"))
 @optional_scenario_argument
 @set_option
 @options_of(SoughtValues, completed={"vary": fitted})
@@ -172,6 +172,9 @@ def _fit_toss(seen: "Observed", source: Source, asked: SoughtValues) -> bool:
     from cointoss.models.stages import stage
 
     with stage("getting ready"):  # what is imported takes long on a busy machine
+        from cointoss.compare.fitting.fields import spans_given
+
+        spans_given(varied(asked.vary), source.scenario)
         from cointoss.compare.fitting import fit as fitting
         from cointoss.compare.fitting.answer import as_lines
 

@@ -46,7 +46,7 @@ def _ranging() -> list[str]:
 
 def varying() -> list[str]:
     """Return what a span of a search begins with."""
-    from cointoss.compare.find.window import FIELDS
+    from cointoss.compare.find.fields import FIELDS
 
     return [f"{field}=" for field in FIELDS]
 

@@ -58,10 +58,10 @@ def toss(source: Source, asked: Answer) -> None:
         from cointoss.compare.output import answer
         from cointoss.compare.output.files import is_stream, require_file, write_text
 
+        if asked.trajectory is not None and not is_stream(asked.trajectory):
+            require_file(asked.trajectory, ".csv", source.name)
         require_mujoco(asked.engine)
         package = Engine(asked.engine).package
-    if asked.trajectory is not None and not is_stream(asked.trajectory):
-        require_file(asked.trajectory, ".csv", source.name)
     coin = source.scenario
     if asked.max_impacts is not None:
         coin = coin.replace("ending.max_impacts", asked.max_impacts)

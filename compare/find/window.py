@@ -9,20 +9,13 @@ from numpy.typing import NDArray
 
 from cointoss import analytic
 from cointoss.compare.find.faces import faces_shown
-from cointoss.compare.sweep.axes import NUMBERS, spans_of
+from cointoss.compare.find.fields import spans
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.window import Window
 from cointoss.models.processor import Processor
 from cointoss.models.records import Array, Face, Outcome
 from cointoss.models.scenario import Scenario
 
-FIELDS = {
-    name: unit
-    for name, unit in NUMBERS.items()
-    if name not in ("ending.max_impacts", "ending.until") and not name.startswith("release.quaternion.")
-}
-"""What may vary, and its unit: not a number of impacts, nothing after the toss, and no component of what has
-norm 1."""
 AT_FIRST = 4
 """Touches that are looked at of every toss; then of those that agree so far twice as many, and so on."""
 
@@ -96,4 +89,4 @@ def window_of(vary: Mapping[str, Any], scenario: Scenario) -> Window:
     Raises:
         SweepError: naming what is wrong and what is accepted.
     """
-    return Window(scenario=scenario, spans=spans_of(vary, scenario, FIELDS, '{"height": ("20 cm", "60 cm")}'))
+    return Window(scenario=scenario, spans=spans(vary, scenario))

@@ -14,18 +14,18 @@ from cointoss.analytic import toss
 from cointoss.compare.fitting.edge_fit import EdgeFit, fit_edges
 from cointoss.compare.fitting.edges import Edges
 from cointoss.compare.fitting.errors import ObservationError
+from cointoss.compare.fitting.fields import spans_given
 from cointoss.compare.fitting.flips import Flips
 from cointoss.compare.fitting.hand_fit import TOSSES, HandFit, fit_flips
-from cointoss.compare.fitting.misfit import CLOCK, Misfit
+from cointoss.compare.fitting.misfit import Misfit
 from cointoss.compare.fitting.observed import Observed
 from cointoss.compare.fitting.search import LEVEL, LeastSquaresSearch, Minimum
 from cointoss.compare.fitting.table import read_seen
-from cointoss.compare.sweep.axes import NUMBERS, Span, spans_of
+from cointoss.compare.sweep.axes import Span
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
 from cointoss.models.devices import Device
 from cointoss.models.errors import ScenarioError, shown
 from cointoss.models.hand import Hand
-from cointoss.models.names import SPIN
 from cointoss.models.processor import Processor
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Array, Toss
@@ -35,14 +35,7 @@ from cointoss.models.stages import stage
 STARTS, MOST_STARTS = 2048, 1 << 20
 MOST_FIELDS = 12
 """The most free fields; more are not found from one toss."""
-FIELDS = {CLOCK: "s"} | {
-    field: unit
-    for field, unit in NUMBERS.items()
-    if field != SPIN and not field.startswith(("ending.", "release.quaternion."))
-}
-"""What may be free, and its SI unit."""
 Spans = Mapping[str, tuple[float | str, float | str] | str]
-_EXAMPLE = '{"floor.restitution": (0.4, 0.9)}'
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -309,7 +302,7 @@ def fit(
     if isinstance(observed, Edges):
         return fit_edges(observed, described, vary, hand=hand, tosses=tosses, seed=seed, device=device)
     Processor(device).require_cpu("by a fit")
-    spans = spans_of(vary, described, FIELDS, _EXAMPLE, free=[CLOCK])
+    spans = spans_given(vary, described)
     if len(spans) > MOST_FIELDS:
         raise SweepError(f"vary: {len(spans)} fields; accepted: from 1 to {MOST_FIELDS}")
     for span in spans:

@@ -11,6 +11,7 @@ from cointoss.analytic.runs import horizon_of, run
 from cointoss.analytic.seeing import Sightings
 from cointoss.analytic.sightings import sightings
 from cointoss.analytic.toss import state_at_release
+from cointoss.compare.fitting.fields import CLOCK
 from cointoss.compare.fitting.observed import Observed
 from cointoss.compare.sweep.axes import Span
 from cointoss.compare.sweep.window import Window
@@ -20,8 +21,6 @@ from cointoss.models.laws import EndingTest
 from cointoss.models.records import Array, Face
 from cointoss.models.scenario import Scenario
 
-CLOCK = "clock"
-"""The time that the observer's clock shows at the release, fitted as if it were a field [s]."""
 FACE_SD = 0.02
 """The normal's vertical part may be this far on the wrong side of 0 where a face was seen: 1 degree."""
 MISSING = 10.0

@@ -136,6 +136,36 @@ def test_a_command_imports_no_more_than_it_needs(words, needed, tmp_path):
     assert not {"scipy.integrate", "scipy.optimize", "scipy.special", "scipy.stats"} & imported
 
 
+@pytest.mark.parametrize(
+    ("line", "needed"),
+    [
+        ("toss tabel", set()),
+        ("toss fig24a --jsn", set()),
+        ("toss fig24a --max-impacts many", set()),
+        ("compare tabel", set()),
+        ("scenarios tabel", set()),
+        ("fit gone.csv", set()),
+        ("bounce gone.xml a b", set()),
+        ("explore gone.zarr", set()),
+        ("reproduce fig42", set()),
+        ("toss fig24a --set restituton=0.5", {"numpy", "pydantic"}),
+        ("toss fig24a --engine mujoco --trajectory a.txt", {"numpy", "pydantic"}),
+        ("basin fig24a --x restituton=0:1:3 --y gravity=9:10:2 --out a.zarr", {"numpy", "pydantic"}),
+        ("find fig24a --sequence H --vary restituton=0:1", {"numpy", "pydantic"}),
+    ],
+)
+def test_a_typing_error_is_found_before_what_takes_long_is_imported(line, needed, tmp_path):
+    script = (
+        "import sys\nfrom click.testing import CliRunner\nfrom cointoss.compare.cli import main\n"
+        "answered = CliRunner().invoke(main, sys.argv[1:])\n"
+        "print(answered.exit_code, *(name for name in sys.modules if name.count('.') < 2))"
+    )
+    done = python("-c", script, *line.split(), folder=tmp_path)
+    status, *imported = done.stdout.split()
+    assert status == ("0" if line.endswith("--list") else "2"), done.stderr
+    assert {*HEAVY, "cointoss.analytic", "cointoss.coin_mj"} & {*imported} <= needed
+
+
 @pytest.mark.parametrize("kilobytes", [60_000, 130_000])
 def test_too_little_memory_is_one_line(tmp_path, kilobytes):
     done = in_a_shell(f"ulimit -v {kilobytes}; cointoss toss fig24a --max-impacts 1", tmp_path)
