@@ -142,6 +142,7 @@ if TYPE_CHECKING:
     from cointoss.models.certificate import turned as turned
     from cointoss.models.cores import cores_used as cores_used
     from cointoss.models.distribution import versions_of as versions_of
+    from cointoss.models.errors import meant as meant
     from cointoss.models.fields import COMPONENTS as COMPONENTS
     from cointoss.models.free_joint import to_mass_center as to_mass_center
     from cointoss.models.geometry import contact_velocity as contact_velocity

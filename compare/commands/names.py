@@ -58,6 +58,7 @@ def fitted() -> list[str]:
 
 _named = completing(_scenarios, files=True)
 scenario_argument = click.argument("scenario", **_named)
+named_scenario_argument = click.argument("name", required=False, metavar="[NAME]", **completing(_scenarios))
 optional_scenario_argument = click.argument("scenario", required=False, **_named)
 spared_scenario_argument = click.argument("scenario", default="fig24a", **_named)
 

@@ -1,14 +1,55 @@
-"""`cointoss scenarios`: the scenarios that come with the package."""
+"""`cointoss scenarios`: the scenarios that come with the package, and their files."""
+
+import os
+from pathlib import Path
 
 import click
 
+from cointoss.compare.commands.common import Place, refuse
+from cointoss.compare.commands.names import named_scenario_argument
+
 
 @click.command()
-def scenarios() -> None:
-    """List the scenarios that come with the package, and what each is."""
-    from cointoss.models.sources import named_scenarios, title_of
+@named_scenario_argument
+@click.option(
+    "--copy",
+    "copied",
+    type=Place(),
+    metavar="FILE.toml",
+    help="Write the file of NAME to a new file, to be changed.",
+)
+def scenarios(name: str | None, copied: Path | None) -> None:
+    """List the scenarios that come with the package, or print the file of one.
+
+    \b
+        cointoss scenarios table --copy mine.toml
+        cointoss toss mine.toml
+    """
+    from cointoss.models.errors import meant
+    from cointoss.models.sources import named_scenarios, named_text, title_of
 
     names = named_scenarios()
-    width = max(map(len, names)) + 2
-    for name in names:
-        click.echo(f"{name:{width}}{title_of(name)}")
+    if name is None:
+        if copied is not None:
+            raise click.UsageError(f"--copy {copied}: accepted: only with a NAME")
+        width = max(map(len, names)) + 2
+        for each in names:
+            click.echo(f"{each:{width}}{title_of(each)}")
+        return
+    if name not in names:
+        refuse(
+            f"{name}: no such scenario; {meant(name, names)}accepted: a name that cointoss scenarios lists"
+        )
+    if copied is None:
+        click.echo(named_text(name), nl=False)
+        return
+    if os.path.lexists(copied):
+        refuse(f"{copied}: exists; accepted: a new name")
+    from cointoss.compare.output.files import UnwritableError, require_file, write_text
+
+    try:
+        require_file(copied, ".toml", name)
+        write_text(copied, named_text(name))
+    except UnwritableError as error:
+        refuse(str(error))
+    click.echo(copied)

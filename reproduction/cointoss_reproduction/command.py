@@ -15,6 +15,7 @@ from cointoss.study import (
     completing,
     device_option,
     drawing_problem,
+    meant,
     plain_errors,
     refuse,
     require_mujoco,
@@ -23,6 +24,7 @@ from cointoss.study import (
 from cointoss_reproduction.frame import runner
 from cointoss_reproduction.frame.sizes import SizeError
 
+_LISTED = "a name that cointoss reproduce --list prints"
 _Sizes = Mapping[str, Mapping[str, Any]]
 """By the name of what is reproduced, sizes by their names."""
 
@@ -62,6 +64,7 @@ def _names() -> list[str]:
     metavar="[DIR]",
     help="List what DIR, else docs, holds that was made by other engines than those here; after the names.",
 )
+@click.option("--list", "as_list", is_flag=True, help="Print the names and their titles; compute nothing.")
 @device_option
 @click.pass_context
 def reproduce(
@@ -72,14 +75,15 @@ def reproduce(
     settings: tuple[str, ...],
     kept: str | None,
     kept_here: str | None,
+    as_list: bool,
     device: str,
 ) -> None:
     """Compute the paper's figures and the studies anew.
 
     Each NAME writes its data, tables, pictures and page and checks its claims; `all` computes all figures of
-    the paper and writes REPRODUCTION.md, claims.csv and gallery.html. Without NAME, list the names. Exit
-    status 1: a claim comes out otherwise than known; with --check, a verdict changes or a number
-    is off; with --older, something is.
+    the paper and writes REPRODUCTION.md, claims.csv and gallery.html. Without NAME, list the names, as with
+    --list. Exit status 1: a claim comes out otherwise than known; with --check, a verdict changes or a
+    number is off; with --older, something is.
     """
     known = runner.names()
     asked = names
@@ -89,7 +93,10 @@ def reproduce(
         names = tuple(of_paper())
     for name in names:
         if name not in known:
-            ctx.fail(f"{name}: no such name; accepted: {', '.join(known)}")
+            ctx.fail(f"{name}: no such name; {meant(name, known)}accepted: {_LISTED}")
+    if as_list:
+        _list(names or tuple(known))
+        return
     try:
         sizes = {name: runner.find(name).sizes(settings) for name in names} if settings else {}
     except SizeError as error:
@@ -106,17 +113,17 @@ def reproduce(
         _ready(device)
         sys.exit(0 if _agree(names, Path(kept), quick=quick, sizes=sizes) else 1)
     if not names and out is None:
-        _list(known)
+        _list(tuple(known))
         return
     if out is None:
         ctx.fail(f"--out: missing; accepted: {ctx.command_path} {' '.join(asked)} --out DIR")
     if not names:
-        ctx.fail(f"NAME: missing; accepted: all, or one of: {', '.join(known)}")
+        ctx.fail(f"NAME: missing; accepted: all, or {_LISTED}")
     _ready(device)
     sys.exit(1 if _write(names, out, quick=quick, sizes=sizes, pages=asked == ("all",)) else 0)
 
 
-def _list(known: list[str]) -> None:
+def _list(known: tuple[str, ...]) -> None:
     """Print the names of all that can be reproduced, with what the studies say of themselves."""
     width = max(map(len, known)) + 2
     for name in known:

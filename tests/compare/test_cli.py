@@ -148,6 +148,7 @@ def test_a_command_imports_no_more_than_it_needs(words, needed, tmp_path):
         ("bounce gone.xml a b", set()),
         ("explore gone.zarr", set()),
         ("reproduce fig42", set()),
+        ("reproduce --list", set()),
         ("toss fig24a --set restituton=0.5", {"numpy", "pydantic"}),
         ("toss fig24a --engine mujoco --trajectory a.txt", {"numpy", "pydantic"}),
         ("basin fig24a --x restituton=0:1:3 --y gravity=9:10:2 --out a.zarr", {"numpy", "pydantic"}),
