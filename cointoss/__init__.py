@@ -67,6 +67,7 @@ if TYPE_CHECKING:
     from cointoss.models.records import UnusableEngineError as UnusableEngineError
     from cointoss.models.scenario import Scenario as Scenario
     from cointoss.models.sources import named_scenarios as named_scenarios
+    from cointoss.models.unlikely import UnitWarning as UnitWarning
     from cointoss.models.unused import UnusedFieldWarning as UnusedFieldWarning
 
     __version__: str

@@ -11,6 +11,7 @@ from cointoss.models.describing import describe
 from cointoss.models.errors import FieldError, ScenarioError, require_type
 from cointoss.models.scenario import Scenario
 from cointoss.models.sources import scenario_text
+from cointoss.models.unlikely import warn_of_unlikely_units
 from cointoss.models.unused import warn_of_unused_fields
 
 LONGEST_LINE = 2000
@@ -42,9 +43,11 @@ def load(source: str | PathLike[str]) -> Scenario:
 
     Warns:
         UnusedFieldWarning: for a field that nothing uses.
+        UnitWarning: for a number that was probably meant in another unit.
     """
     scenario = parse(scenario_text(source), str(source))
     warn_of_unused_fields(scenario.floor, scenario.air)
+    warn_of_unlikely_units(scenario.gravity, scenario.coin, scenario.release, scenario.ending)
     return scenario
 
 

@@ -14,7 +14,7 @@ from pydantic import (
 from cointoss.models.attitude import Quaternion
 from cointoss.models.body import NO_CODE, AirLaw, Body, Rules
 from cointoss.models.describing import describe
-from cointoss.models.errors import ScenarioError, require_type
+from cointoss.models.errors import FieldError, ScenarioError, require_type
 from cointoss.models.faults import fault_of_toss
 from cointoss.models.fields import put
 from cointoss.models.kernel.vectors import Vector
@@ -29,6 +29,7 @@ from cointoss.models.parts import (
     refuse,
 )
 from cointoss.models.quantities import Gravity
+from cointoss.models.unlikely import unlikely_units, warn_of_unlikely_units
 from cointoss.models.unused import warn_of_unused_fields
 from cointoss.models.writing import toml
 
@@ -55,16 +56,22 @@ class Scenario(Part):
 
         Warns:
             UnusedFieldWarning: for a field that nothing uses.
+            UnitWarning: for a number that was probably meant in another unit.
         """
         super().__init__(**fields)
         warn_of_unused_fields(self.floor, self.air)
+        warn_of_unlikely_units(self.gravity, self.coin, self.release, self.ending)
 
     # A map's scenario, and one that `replace` returns, are validated without it.
     __init__.__dict__["__pydantic_base_init__"] = True
 
     @model_validator(mode="after")
     def _together(self) -> Self:
-        refuse(fault_of_toss(self.body, self.rules, self.release.state), self)
+        try:
+            refuse(fault_of_toss(self.body, self.rules, self.release.state), self)
+        except FieldError as error:  # a coin of 12 m is in the floor
+            doubted = unlikely_units(self.gravity, self.coin, self.release, self.ending).values()
+            raise FieldError(error.field, error.value, "; ".join([error.accepted, *doubted])) from None
         return self
 
     def replace(self, field: str, value: Any, /, *more: Any) -> "Scenario":

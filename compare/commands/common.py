@@ -155,9 +155,10 @@ def plain_errors(source: str) -> Iterator[None]:
     from cointoss.models.errors import ScenarioError
     from cointoss.models.kernel.library import EngineMissingError
     from cointoss.models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
+    from cointoss.models.unlikely import UnitWarning
     from cointoss.models.unused import UnusedFieldWarning
 
-    told, reported = (ApproximationWarning, DeviceWarning, UnusedFieldWarning), set()
+    told, reported = (ApproximationWarning, DeviceWarning, UnitWarning, UnusedFieldWarning), set()
 
     def report(message: Warning | str, category: type[Warning], *where: Any, **extra: Any) -> None:
         if issubclass(category, told):

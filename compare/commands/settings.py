@@ -51,6 +51,7 @@ def described(source: str, settings: Sequence[str] = ()) -> "tuple[Scenario, str
     from cointoss.models.errors import ScenarioError
     from cointoss.models.reading import parse
     from cointoss.models.sources import scenario_text
+    from cointoss.models.unlikely import warn_of_unlikely_units
     from cointoss.models.unused import warn_of_unused_fields
 
     text = scenario_text(source)
@@ -69,6 +70,7 @@ def described(source: str, settings: Sequence[str] = ()) -> "tuple[Scenario, str
             raise ScenarioError(f"{source}: {error}") from None
         text = scenario.to_toml()
     warn_of_unused_fields(scenario.floor, scenario.air)
+    warn_of_unlikely_units(scenario.gravity, scenario.coin, scenario.release, scenario.ending)
     return scenario, text
 
 

@@ -1,5 +1,6 @@
 """The value of a field that explains how often coins end on their edge, or that none does."""
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import nan
@@ -21,6 +22,7 @@ from cointoss.models.hand import Hand
 from cointoss.models.records import Array, Outcome
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import counted
+from cointoss.models.unlikely import UnitWarning, unlikely_units
 
 VALUES = 9
 """Values of the field at which coins are tossed; between them the share is interpolated."""
@@ -125,6 +127,13 @@ def fit_edges(
         raise SweepError(f"vary: {1 + len(others)} fields; accepted: one, of counts of edges")
     tossed = np.linspace(min(span.start, span.stop), max(span.start, span.stop), VALUES)
     usual = Hand.people(up="either") if hand is None else hand
+    thickest = float(edges.thickness.max())
+    doubted = unlikely_units(
+        scenario.gravity, scenario.coin, scenario.release, scenario.ending, {"coin.thickness": thickest}
+    )
+    if "coin.thickness" in doubted:
+        is_it = f'thickness = {thickest:g} m: is it mm? name the column "thickness (mm)"'
+        warnings.warn(is_it, UnitWarning, stacklevel=2)
     met, made, left = np.empty((3, len(edges.thickness), VALUES))
     thicknesses = counted("fitting the edges", "thicknesses", edges.thickness.tolist())
     for n, thickness in enumerate(thicknesses):

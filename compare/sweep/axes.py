@@ -15,6 +15,7 @@ from cointoss.models.quantities import LARGEST
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
 from cointoss.models.units import in_si, lambda_unit, printed_unit
+from cointoss.models.unlikely import warn_of_unlikely_units
 
 MOST_VALUES = 1_000_000
 """On one axis: a map of more than 1e12 pixels fits no disk."""
@@ -185,12 +186,17 @@ def span_of(
 
     Raises:
         SweepError: naming what is wrong and what is accepted.
+
+    Warns:
+        UnitWarning: for an end that was probably meant in another unit.
     """
     field = named(name, units)
     unit = unit_of(field, scenario, units)
     start, stop = (number(field, end, unit) for end in ends)
     if start == stop:
         raise SweepError(f"{field}={ends[0]}:{ends[1]}: START = STOP; accepted: two numbers that differ")
+    end = {field: max(start, stop)}
+    warn_of_unlikely_units(scenario.gravity, scenario.coin, scenario.release, scenario.ending, end)
     return Span(field=field, unit=unit, start=start, stop=stop)
 
 

@@ -1,10 +1,11 @@
-"""What `cointoss reproduce` refuses, in one line, and what a shell completes."""
+"""What `cointoss reproduce` refuses, in one line, what it lists, and what a shell completes."""
 
 import pytest
 from click.testing import CliRunner
 
 from cointoss.compare.cli import main
-from tests.helpers.command_line import refused
+from cointoss_reproduction.frame import runner
+from tests.helpers.command_line import cointoss, refused
 
 REFUSED = {
     "all": "--out: missing; accepted: main reproduce all --out DIR (see ",
@@ -35,3 +36,12 @@ def test_a_shell_completes_the_names_of_studies():
         "COMP_CWORD": "2",
     }
     assert CliRunner().invoke(main, [], env=asking, prog_name="cointoss").stdout == "plain,table1\n"
+
+
+def test_the_names_are_listed_with_their_titles():
+    listed = cointoss("reproduce", "--list").stdout
+    assert listed == cointoss("reproduce").stdout
+    assert [line.split()[0] for line in listed.splitlines()] == runner.names()
+    assert cointoss("reproduce", "table1", "--list").stdout.startswith(
+        "table1  Table 1: twelve Euler sequences"
+    )

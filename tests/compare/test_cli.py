@@ -29,6 +29,30 @@ def test_a_field_that_nothing_uses_is_named_in_one_line_by_every_command(tmp_pat
         assert told[0].startswith(f"cointoss: {source}: floor.friction = 0.3: not used with contact = ")
 
 
+@pytest.mark.parametrize(
+    ("line", "asked"),
+    [
+        ("toss table --set mass=7.5 --trajectory a.txt", 'coin.mass = 7.5 kg: is it g? write "7.5 g"'),
+        (
+            "find fig24a --sequence H --vary thickness=1:30 --vary gravity=9:9",
+            "coin.thickness = 30 m: is it",
+        ),
+        (
+            "basin fig24a --x thickness=1:30:2 --y gravity=9:9:2 --out a.zarr",
+            "coin.thickness = 30 m: is it",
+        ),
+        ("shares table --vary hand.height=1:300:2 --vary gravity=9:9:2", "hand.height = 300 m: is it mm?"),
+    ],
+)
+def test_a_number_in_another_unit_is_questioned_once_before_any_toss(line, asked, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    answered = cointoss(*line.split())
+    question, refusal = answered.stderr.splitlines()
+    assert question.startswith(f"cointoss: {line.split()[1]}: {asked}")
+    assert "accepted: " in refusal
+    assert answered.exit_code == 2
+
+
 def test_without_a_command_it_prints_its_help():
     bare, helped = cointoss(), cointoss("--help")
     assert (bare.exit_code, bare.stdout, bare.stderr) == (0, helped.stdout, "")
@@ -82,7 +106,7 @@ def test_a_closed_pipe_ends_quietly_with_exit_status_1(tmp_path):
         "toss fig24a --engine mujoco",
         "video fig24a --out film.mp4",
         "reproduce endings --out out",
-        "basin fig24a --x gravity=9:10:2 --y coin.mass=1:2:2 --compare --out map.zarr",
+        "basin fig24a --x gravity=9:10:2 --y release.position.z=1:2:2 --compare --out map.zarr",
     ],
 )
 def test_a_back_end_that_is_none_is_one_line_and_exit_status_2(tmp_path, command):

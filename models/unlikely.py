@@ -1,0 +1,99 @@
+"""Numbers that were probably meant in another unit: a coin of 12 m, where 12 mm was meant."""
+
+import warnings
+from collections.abc import Mapping
+from math import pi
+from types import MappingProxyType
+
+from cointoss.models.parts import Coin, EndingCriteria, Release
+
+LEAST_GRAVITY = 1.5
+"""Below it, a little less than the moon's, a scenario may have units of its own, such as g = 1 [m/s²]."""
+DENSITIES = 20.0, 1e5
+"""Densities that are not questioned [kg/m³]. Osmium has 22,600. A coin whose thickness in mm was read as m
+has at most 20, one whose mass in g was read as kg above 2e6."""
+SURFACE_DENSITIES = 0.02, 1e3
+"""Masses per area of a coin of thickness 0 that are not questioned [kg/m²]."""
+LARGE = 0.1
+"""A radius, thickness or mass below it is not questioned [m, kg]."""
+HIGHEST = 100.0
+"""A release or a catch above it is questioned [m]."""
+_MASS, _RADIUS, _THICKNESS = "coin.mass", "coin.radius", "coin.thickness"
+NONE: Mapping[str, float] = MappingProxyType({})
+_HEIGHTS = ("release.position.z", "ending.caught", "hand.height")
+
+
+class UnitWarning(UserWarning):
+    """A number that was probably meant in another unit; the message names it, its value and that unit."""
+
+
+def unlikely_units(
+    gravity: float, coin: Coin, release: Release, ending: EndingCriteria, other: Mapping[str, float] = NONE
+) -> dict[str, str]:
+    """Return a line for each number that was probably meant in mm or g, by its field.
+
+    Lengths and mass of a coin are judged by its density.
+
+    Args:
+        gravity: of the scenario.
+        coin: of the scenario.
+        release: of the scenario.
+        ending: of the scenario.
+        other: numbers in place of the scenario's, by field, as {"coin.radius": 12.0}.
+    """
+    if gravity < LEAST_GRAVITY:
+        return {}
+    numbers = {
+        _MASS: coin.mass,
+        _RADIUS: coin.radius,
+        _THICKNESS: coin.thickness,
+        "release.position.z": release.position[2],
+        "ending.caught": ending.caught or 0.0,
+        **other,
+    }
+    found = {
+        name: f"{name} = {numbers[name]:g} m: is it mm? write {_quoted(numbers[name], 'mm')}"
+        for name in _HEIGHTS
+        if numbers.get(name, 0.0) > HIGHEST
+    }
+    if min(numbers[_MASS], numbers[_RADIUS]) <= 0:
+        return found
+    (density, unit), (low, high) = _density(numbers), _usual(numbers)
+    lengths = [name for name in (_RADIUS, _THICKNESS) if density < low and numbers[name] >= LARGE]
+    meant, _ = _density(numbers | {name: numbers[name] / 1000 for name in lengths})
+    why = f"; as given, the coin's density is {density:.3g} {unit}"
+    for name in lengths:
+        found[name] = f"{name} = {numbers[name]:g} m: is it mm? write {_quoted(numbers[name], 'mm')}{why}"
+    if meant > high and numbers[_MASS] >= LARGE:
+        found[_MASS] = f"{_MASS} = {numbers[_MASS]:g} kg: is it g? write {_quoted(numbers[_MASS], 'g')}{why}"
+    return found
+
+
+def _quoted(number: float, unit: str) -> str:
+    return f'"{number:g} {unit}"'
+
+
+def _density(numbers: Mapping[str, float]) -> tuple[float, str]:
+    """Return the density of a coin and its unit; of the thin coin, per area."""
+    per_area = numbers[_MASS] / pi / numbers[_RADIUS] / numbers[_RADIUS]
+    thickness = numbers[_THICKNESS]
+    return (per_area / thickness, "kg/m³") if thickness > 0 else (per_area, "kg/m²")
+
+
+def _usual(numbers: Mapping[str, float]) -> tuple[float, float]:
+    return DENSITIES if numbers[_THICKNESS] > 0 else SURFACE_DENSITIES
+
+
+def warn_of_unlikely_units(
+    gravity: float, coin: Coin, release: Release, ending: EndingCriteria, other: Mapping[str, float] = NONE
+) -> None:
+    """Warn of each number that was probably meant in another unit; with `other`, only of those.
+
+    The arguments are those of `unlikely_units`.
+
+    Warns:
+        UnitWarning: naming field, value and the unit that was probably meant.
+    """
+    for name, line in unlikely_units(gravity, coin, release, ending, other).items():
+        if name in (other or {name}):
+            warnings.warn(line, UnitWarning, stacklevel=3)

@@ -1,0 +1,65 @@
+"""Numbers that were probably meant in another unit."""
+
+import pytest
+
+from cointoss import Scenario, load, parse
+from cointoss.models.errors import ScenarioError
+from cointoss.models.sources import scenario_text
+from cointoss.models.unlikely import UnitWarning, unlikely_units
+
+TABLE = load("table")
+
+
+def questioned(case, **other):
+    """Return the fields that are questioned, with other numbers in place of a scenario's."""
+    numbers = {name.replace("_", ".", 1): number for name, number in other.items()}
+    return list(unlikely_units(case.gravity, case.coin, case.release, case.ending, numbers))
+
+
+@pytest.mark.parametrize(
+    ("numbers", "fields"),
+    [
+        ({"coin_radius": 11.625}, ["coin.radius"]),
+        ({"coin_thickness": 2.33}, ["coin.thickness"]),
+        ({"coin_mass": 7.5}, ["coin.mass"]),
+        (
+            {"coin_radius": 11.625, "coin_thickness": 2.33, "coin_mass": 7.5},
+            ["coin.radius", "coin.thickness", "coin.mass"],
+        ),
+        ({"coin_radius": 12.0, "coin_thickness": 0.0}, ["coin.radius"]),
+        ({"coin_mass": 2.0, "coin_thickness": 0.0}, ["coin.mass"]),
+        ({"ending_caught": 300.0}, ["ending.caught"]),
+        ({"hand_height": 1000.0}, ["hand.height"]),
+        # A steel wheel, a coin of 3 cm on its edge, a foil, and what no scenario accepts.
+        ({"coin_radius": 0.6, "coin_thickness": 0.05, "coin_mass": 450.0}, []),
+        ({"coin_thickness": 0.03}, []),
+        ({"coin_thickness": 1e-7}, []),
+        ({"coin_radius": 0.0}, []),
+        ({"coin_mass": -1.0}, []),
+    ],
+)
+def test_lengths_in_mm_and_a_mass_in_g_are_questioned_where_no_coin_is_so_light_or_heavy(numbers, fields):
+    assert questioned(TABLE, **numbers) == fields
+
+
+def test_a_scenario_in_units_of_its_own_is_not_questioned():
+    scaled = load("fig21")
+    assert (scaled.gravity, scaled.coin.radius, scaled.release.position[2]) == (1.0, 1.0, 200.0)
+    assert questioned(scaled, coin_radius=1e3) == []
+    assert questioned(scaled.replace("gravity", 9.81)) == ["release.position.z"]
+
+
+def test_whoever_makes_a_scenario_is_asked(tmp_path):
+    file = tmp_path / "high.toml"
+    file.write_text(scenario_text("fig24a").replace("0.40001", "300"))
+    asked = r'^release\.position\.z = 300 m: is it mm\? write "300 mm"$'
+    with pytest.warns(UnitWarning, match=asked):
+        high = load(file)
+    with pytest.warns(UnitWarning, match=asked):
+        Scenario(**high.as_tables())
+    assert high == parse(high.to_toml(), "high")
+
+
+def test_where_the_number_makes_no_scenario_the_refusal_asks():
+    with pytest.raises(ScenarioError, match=r'is it mm\? write "12 mm"; as given, .* 0\.00221 kg/m³$'):
+        load("fig24a").replace("coin.radius", 12)
