@@ -17,7 +17,7 @@ from cointoss.models.errors import meant
 
 SCENARIO_HELP = (
     "SCENARIO is a TOML file, or the name of a scenario that comes with the package, such as fig24a. "
-    "An unknown name prints the names that exist."
+    "cointoss scenarios lists the names, and copies a scenario's file for you to change."
 )
 
 
