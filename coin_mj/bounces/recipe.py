@@ -151,8 +151,8 @@ def solref(
 
     By default a contact takes one step, v' = -e v, with a small stiffness that holds a body at rest. A spring
     takes `steps` steps, which resolve its force, and works with RK4, which keeps the energy of a tumbling
-    body. docs/MUJOCO_MEASURED.md derives both. They hold for every mass, and for every shape that hardly turns
-    in the contact, without MuJoCo's own friction.
+    body. docs/MUJOCO_MEASURED.md derives both. They hold for every mass, and for every shape that hardly
+    turns in the contact, without MuJoCo's own friction.
 
     Args:
         restitution: e, from 0 to 1; for a spring from 0.01, below which its error is as large.

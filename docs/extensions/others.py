@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from cointoss.compare.conform.case import cases
 from cointoss.compare.output.style import GREY, PALE, STYLE
-from cointoss.study import table
+from cointoss.study import table, unfolding
 
 PICTURE = "other_engines.png"
 LEVELS = (0.0, 0.01, 0.1, 1.0)
@@ -48,15 +48,11 @@ def findings(adapters: Path) -> str:
 
     Its scripts run in the engine's environment, and not as those of a page.
     """
-    pages = [path.read_text(encoding="utf-8").strip() for path in sorted(adapters.glob("*/findings.md"))]
-    return "\n\n".join(map(folded, pages))
-
-
-def folded(page: str) -> str:
-    """Return a page as a block that opens at its title."""
-    title, text = page.removeprefix("# ").split("\n", maxsplit=1)
-    scripts = re.sub(r"^```\w+$", "```py", text.strip(), flags=re.MULTILINE)
-    return f"<details>\n<summary>{title}</summary>\n\n{scripts}\n\n</details>"
+    pages = (
+        re.sub(r"^```\w+$", "```py", path.read_text(encoding="utf-8"), flags=re.MULTILINE).partition("\n")
+        for path in sorted(adapters.glob("*/findings.md"))
+    )
+    return "\n\n".join(unfolding(title.removeprefix("# "), text.strip()) for title, _, text in pages)
 
 
 def errors(known: list[dict[str, Any]]) -> str:
