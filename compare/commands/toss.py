@@ -13,6 +13,10 @@ from cointoss.compare.commands.settings import set_option, with_scenario
 from cointoss.compare.output.accepted import Within
 from cointoss.compare.sweep.asked import Source
 
+MARGINS = (
+    "margins   the smallest change found of each quantity of the release, alone, that changes the outcome:"
+)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Answer:
@@ -98,4 +102,5 @@ def toss(source: Source, asked: Answer) -> None:
         )
     else:
         why = [f"proved    none, for {unproved}"] if unproved else []
-        click.echo("\n".join([answer.as_lines(result, whole=asked.all), *(one.line for one in extra), *why]))
+        lines = [answer.as_lines(result, whole=asked.all), *([MARGINS] if extra else [])]
+        click.echo("\n".join([*lines, *(one.line for one in extra), *why]))

@@ -23,4 +23,5 @@ def as_lines(found: EdgeFit) -> str:
         f"left out    {100 * found.left_out:.2g} % of the tosses: they end neither on a face nor on the edge"
     )
     verdict = [found.verdict, left] if found.left_out else [found.verdict]
-    return "\n".join([f"{found.span.field}{unit}  {value:.4g}{interval}", *verdict, "", head, *rows])
+    meaning = "edge: share of the tosses that end on the edge; in brackets 99 % intervals"
+    return "\n".join([f"{found.span.field}{unit}  {value:.4g}{interval}", *verdict, "", head, *rows, meaning])

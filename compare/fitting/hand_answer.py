@@ -23,7 +23,8 @@ def as_lines(found: HandFit) -> str:
         rows.append(["all", str(flips), f"{100 * same / flips:.2f}", _around(found.scatter)])
     widths = [max(len(row[i]) for row in rows) for i in range(2)]
     lines = [f"{row[0]:{widths[0]}}  {row[1]:>{widths[1]}}  {row[2]:18}  {row[3]}" for row in rows]
-    return "\n".join([*lines, "", found.verdict])
+    meaning = "same side: how often the side that was up at the release came up; in brackets 99 % intervals"
+    return "\n".join([*lines, meaning, "", found.verdict])
 
 
 def _in_degrees(psi: Estimate) -> str:
