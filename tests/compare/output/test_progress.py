@@ -81,9 +81,9 @@ def test_time_left_of_long_work_is_told_after_a_minute():
     drawing = desk.begin("drawing the film", "frames", total=3140)
     desk.wait(6)
     drawing.progress(1, 3140)
-    drawing.progress(3, 3140)
+    drawing.progress(100, 3140)
     assert "left" not in desk.wait(50)
-    assert desk.wait(11).endswith("3 of 3,140 frames, about 24.0 h left\n")
+    assert desk.wait(11).endswith("100 of 3,140 frames, about 28 min left\n")
 
 
 def test_a_stage_within_another_is_named_as_soon_as_it_takes_long():
