@@ -117,7 +117,7 @@ def test_the_help_is_the_text_below_each_field():
         ("--with 2m --out a", "--with 2m: accepted: only without --out"),
         ("--with 2m --engine mujoco", "--with 2m: accepted: only without --engine mujoco"),
         ("--count 12", "'--count': 12; accepted: an integer >= 1 and <= 9"),
-        ("--colour green", "'--colour': 'green' is not one of 'red', 'dark-blue'"),
+        ("--colour green", "'--colour': green; accepted: red, dark-blue"),
     ],
 )
 def test_what_excludes_or_lacks_another_is_refused(typed, said):
