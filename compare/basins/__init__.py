@@ -1,5 +1,5 @@
-"""Measures of an outcome map and its pictures; imports output.
+"""Measures of an outcome map, and pictures of it; imports output.
 
-An outcome map is a plain array (y, x) of the codes of `Outcome`. Neither undecided nor transient is one to
-measure: such a pixel is left out of all but its own fraction, and each measure says how.
+An outcome map is a plain array (y, x) of the codes of `Outcome`. The measures leave out
+undecided and transient pixels, which count only in their own fractions; each measure says how.
 """

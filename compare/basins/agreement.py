@@ -12,7 +12,7 @@ from cointoss.models.records import Outcome
 
 @dataclass(frozen=True, kw_only=True)
 class Share:
-    """How many pixels agree, of those compared."""
+    """How many of the compared pixels agree."""
 
     agreeing: int
     compared: int

@@ -38,7 +38,7 @@ class BasinEntropy:
         """Whether S_bb exceeds log 2.
 
         A smooth boundary parts two basins in nearly every box that it crosses, and two outcomes have at most
-        the entropy log 2. So more than that shows a fractal boundary, if the boxes are small against the
+        the entropy log 2. So S_bb above log 2 shows a fractal boundary, if the boxes are small against the
         stripes. A map of only heads and tails never exceeds it: there the test is silent whatever the
         boundary.
         """

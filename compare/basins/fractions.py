@@ -8,7 +8,7 @@ from cointoss.models.records import Outcome
 
 
 def fractions(outcomes: ArrayLike) -> dict[Outcome, float]:
-    """Return the share of a map or a line that each outcome fills; with that of the undecided they sum to 1.
+    """Return the share of a map or a line that each outcome fills; the shares, undecided included, sum to 1.
 
     Were all pixels decided, the share of an outcome would lie between its share here and that plus the share
     of the undecided.

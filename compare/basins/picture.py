@@ -41,7 +41,7 @@ _MARGINS, _NO_MARGIN = "cividis", GRID
 _TAIL = 0.005
 """The part of the margins at either end that shares the last colour."""
 _HATCH_SIDE, _HATCH_PERIOD, _HATCH_WIDTH = 1200, 24, 6
-"""A hatch over a panel: dots along both sides, and the distance and the width of its lines [dots]."""
+"""The hatch over a panel: dots along both sides, and the distance and the width of its lines [dots]."""
 _HATCH_TINT = 0.3
 """Opacity between its lines, so that a single pixel is seen there too."""
 _SAME, _DIFFERENT = "#e6e9ed", VERMILION
@@ -147,7 +147,8 @@ def _hatch_patch(untrusted: NDArray[np.bool_], style: PictureStyle) -> Patch:
 def _hatch(mask: NDArray[np.bool_], color: str) -> NDArray[np.uint8]:
     """Return tint and lines of one colour over the pixels of a mask, transparent elsewhere, (side, side, 4).
 
-    The lines are dots and no paths, so that a mask of many single pixels costs no more than another.
+    The lines are drawn as dots, not as paths, so that a mask of many single pixels costs no more than
+    another.
     """
     dots = np.arange(_HATCH_SIDE)
     rows, columns = (dots * count // _HATCH_SIDE for count in mask.shape)

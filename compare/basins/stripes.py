@@ -1,7 +1,7 @@
 """The stripes that a line through a map crosses.
 
 A line is the last axis of an array, so that a row `outcomes[i]`, a whole map (y, x), and a stack of lines or
-maps after n = 0, 1, 2, ... impacts are all asked alike; a column is a row of the map's transpose.
+maps after n = 0, 1, 2, ... impacts are all accepted; a column is a row of the map's transpose.
 """
 
 import numpy as np

@@ -12,11 +12,11 @@ from cointoss.compare.basins.maps import OutcomeCodes, measured, outcome_map
 from cointoss.models.records import Array, Outcome
 
 BANDS = 8
-"""Bands that the map is cut into, and the largest ε is at most a band of the map's length."""
+"""Number of bands that the map is cut into; the largest ε is at most the map's length over this number."""
 DIRECTIONS = 8
-"""Directions in which it is cut."""
+"""Number of directions in which the map is cut into bands."""
 _CELLS = 6 * BANDS
-"""Bands are made of cells, at most so many along each side."""
+"""Bands are made of cells; this is the largest number of cells along each side."""
 
 Counts = NDArray[np.int64]
 

@@ -14,7 +14,7 @@ from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Toss
 
 AFTER = 0.05
-"""An engine is asked for states up to so long after the analytic toss has ended [s]."""
+"""How long after the end of the analytic toss the engine's states end [s]."""
 
 
 def assert_agrees(given: Toss | Any, scenario: ScenarioSource, *, tolerance: float = 1e-2) -> None:

@@ -12,7 +12,7 @@ from cointoss.compare.conform.running import Result, Run, Status
 from cointoss.compare.simulators.simulator import Simulator
 
 ROUNDING = 1e-12
-"""An error below it is shown as 0."""
+"""An error below this is shown as 0."""
 MOST_SHOWN = 6
 """Numbers of a value that are shown."""
 
@@ -23,7 +23,7 @@ class Card:
 
     name: str
     dt: float | None
-    """Its own step [s]; None for an engine that goes from event to event."""
+    """The engine's own step [s]; None for an engine that goes from event to event."""
     settings: dict[str, str | float]
     results: tuple[Result, ...]
 
@@ -40,7 +40,7 @@ class Card:
 
     @property
     def told(self) -> str:
-        """How many cases are met, in a line."""
+        """How many cases the engine passes, in one line."""
         counts = {status: sum(each.own.status == status for each in self.results) for status in Status}
         more = [f"{count} {status}" for status, count in counts.items() if count and status != Status.MET]
         return ", ".join([f"{counts[Status.MET]} of {len(self.results)} cases met", *more])

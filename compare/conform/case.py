@@ -16,30 +16,30 @@ class Case:
     name: str
     title: str
     quantity: str
-    """Its name in `cointoss.compare.conform.quantities`."""
+    """The name of the measured quantity in `cointoss.compare.conform.quantities`."""
     scenario: Scenario
     until: float
     """The time of the last state [s]."""
     every: float | None = None
     """The spacing of the states, where a step is too fine [s]."""
     tosses: int = 1
-    """Of so many releases by hand."""
+    """The number of tosses, from releases by hand where it is more than 1."""
     right: tuple[float, ...]
     """The right value, in SI."""
     scale: float
-    """Of an error; 0 of faces."""
+    """The scale by which an error is divided; 0 for faces."""
     source: str
     """Where the right value comes from."""
     tolerance: dict[str, float]
-    """The largest error that passes, of an engine that is `event_driven` and of one that is `stepping`."""
+    """The largest error that passes, for an `event_driven` engine and for a `stepping` engine."""
     reason: str
-    """Why so much."""
+    """Why the tolerance has this value."""
     points_to: str
     """What a miss often means."""
     full_until: float | None = None
     full_tosses: int | None = None
     full_right: tuple[float, ...] | None = None
-    """The same for `--full`, where they are other."""
+    """The values of `until`, `tosses` and `right` with `--full`, where they differ."""
 
     @property
     def is_short(self) -> bool:

@@ -11,7 +11,7 @@ from cointoss.models.records import Array, Impacts
 
 
 class NothingSeenError(ValueError):
-    """What a quantity is about did not happen in a toss."""
+    """The event that a quantity measures did not happen in a toss."""
 
 
 def _impacts(seen: ObservedToss) -> Impacts:

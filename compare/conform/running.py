@@ -31,7 +31,7 @@ class Status(StrEnum):
     NOT_REALISABLE = "not realisable"
     """The engine says that it can't do this."""
     FAILED = "failed"
-    """It raised an error, did not answer in time, or showed nothing of what is measured."""
+    """The engine raised an error, did not answer in time, or showed nothing of what is measured."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,7 +43,7 @@ class Run:
     found: tuple[float, ...] = ()
     """What was measured, in SI."""
     error: float = float("nan")
-    """Its error, against the case's scale."""
+    """The error of what was measured, over the case's scale."""
     processor_time: float = 0.0
     """How long the engine took [s]."""
     why: str = ""
@@ -59,9 +59,9 @@ class Result:
     case: Case
     tolerance: float
     own: Run
-    """With the engine's own step."""
+    """The run with the engine's own step."""
     runs: tuple[Run, ...] = field(default=())
-    """With several steps, the largest first."""
+    """The runs with several steps, the largest first."""
 
     @property
     def order(self) -> float | None:

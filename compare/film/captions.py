@@ -46,7 +46,7 @@ class Line(NamedTuple):
 
 
 class Caption(NamedTuple):
-    """What is said of one toss at one time."""
+    """What the film says about one toss at one time."""
 
     title: Line
     """The engine."""
@@ -138,7 +138,7 @@ def written(frame: np.ndarray, captions: Sequence[Caption], below: str) -> np.nd
 
 
 def _fitting(draw: ImageDraw.ImageDraw, text: str, size: float, most: float) -> Font:
-    """Return the font in which a text is at most so wide, and no larger than `size` [pixels]."""
+    """Return the font in which a text is at most `most` wide, and no larger than `size` [pixels]."""
     return _font(size * min(1.0, most / max(draw.textlength(text, font=_font(size)), 1.0)))
 
 

@@ -31,13 +31,13 @@ THICKEST, THICKNESS = 0.04, 0.15
 HAND_COLOR, HAND_SIZE = (0.88, 0.68, 0.55), (1.5, 0.1)
 """The palm that catches a coin: its colour, and its radius and half its thickness in the coin's radii."""
 HAND_COMES = 0.3, 0.1
-"""A hand appears so long before the catch, in such a time [s]."""
+"""How long before the catch a hand begins to appear, and how long it takes to appear in full [s]."""
 IN_FRONT = 0.6
 """An arrow is drawn in this part of its distance from the camera, before the coin."""
 TRAIL_CORNERS, TRAIL_WIDTH, TRAIL_COLOR = 200, 2.0, (0.3, 0.35, 0.4)
 """The path in the pictures of a camera at rest: its corners, its width in pixels and its colour."""
 MARGIN = 1.1
-"""A camera at rest sees so many times what it must."""
+"""How many times larger the view of a camera at rest is than what it must show."""
 FIELD_OF_VIEW = 40.0
 """Vertical field of view of coin.xml's cameras [deg]."""
 
@@ -187,7 +187,7 @@ class Drawer:
         """Add an arrow that is `part` of the longest, (3,)."""
         start, end = self._in_front(start), self._in_front(start + self._longest * part)
         thickness = min(THICKNESS * float(np.linalg.norm(end - start)), THICKEST * self._longest)
-        # MuJoCo draws an arrow half as long as it is told.
+        # MuJoCo draws an arrow at half the length that it is given.
         self._add(mujoco.mjtGeom.mjGEOM_ARROW, thickness, start, 2 * end - start, color, alpha)
 
     def _in_front(self, place: Array) -> Array:
@@ -221,7 +221,7 @@ def _aimed(camera: Camera, box: Box, r: float, aspect: float) -> tuple[mujoco.Mj
     above, nearer = z * c - y * s, -y * c - z * s
     half = np.maximum(np.abs(above) / view.part, np.abs(x) / aspect)
     if camera == Camera.TOP:
-        # From afar, or the coin would look the larger the higher it is.
+        # From afar: a near camera would show a higher coin larger.
         aimed.distance, aimed.orthographic = np.ptp(nearer), 1
         return aimed, 2 * MARGIN * half.max()
     aimed.distance = MARGIN * float(np.max(nearer + half / tangent))

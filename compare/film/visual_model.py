@@ -1,4 +1,4 @@
-"""The MuJoCo model to look at: a coin whose faces are told apart by colour, brightness and letter."""
+"""The MuJoCo model to look at: a coin whose faces differ in colour, brightness and letter."""
 
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
