@@ -1,1 +1,1 @@
-"""A toss that shows a sequence or an outcome, searched in a window of a scenario; imports sweep and below."""
+"""A search of a scenario's window for a toss that shows a sequence or an outcome; imports sweep and below."""

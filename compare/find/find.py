@@ -25,7 +25,7 @@ from cointoss.models.writing import toml
 
 USUAL_TOSSES, MOST_TOSSES = 1 << 16, 1 << 30
 LONGEST = 1000
-"""Faces of a sequence."""
+"""The most faces of a sequence."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,11 +34,11 @@ class Room:
 
     span: Span
     value: float
-    """Of the toss that was found [span.unit]."""
+    """The field's value in the toss that was found [span.unit]."""
     down: float
     up: float
-    """The smallest changes to either side that were found to do so [span.unit]; infinite where none up to the
-    width of the window does."""
+    """The smallest changes to either side that were found to show something else [span.unit]; infinite where
+    no change up to the width of the window does."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,17 +48,17 @@ class Found:
     target: Target
     window: Window
     tosses: int
-    """That were made over the window."""
+    """The number of tosses made over the window."""
     refused: int
-    """Points of the window besides that make no scenario, and so no toss."""
+    """The number of points of the window that make no scenario, and so no toss."""
     scenario: Scenario | None
-    """Of the toss that shows what is wanted; None where none does."""
+    """The scenario of the toss that shows what was asked for; None where no toss does."""
     rooms: tuple[Room, ...]
-    """Of each field that varies."""
+    """How far each field that varies may change."""
     trusted: int
-    """How many of the wanted touches can be trusted, of the toss that was found."""
+    """How many of the touches asked for can be trusted in the toss that was found."""
     longest: int
-    """Steps of what is wanted, its faces and then its outcome, that some toss showed."""
+    """The most steps of what was asked for, faces and then outcome, that any toss showed."""
 
     def __bool__(self) -> bool:
         """Return whether there is such a toss."""

@@ -1,8 +1,8 @@
-"""Search a window for a toss that shows what is wanted, and for the one farthest from what shows it not.
+"""Search a window for tosses that show a target, and choose the one farthest from tosses that do not.
 
-Low-discrepancy points (scrambled Sobol points) cover the window. Where none shows the whole of a sequence,
-the search goes on around those that show most of it, in ever smaller boxes, each as wide as what shows so
-much.
+Low-discrepancy points (scrambled Sobol points) cover the window. Where no point shows the whole of a
+sequence, the search goes on around the points that show most of it, in ever smaller boxes, each as wide as
+the region that shows as much.
 """
 
 from collections.abc import Callable
@@ -25,18 +25,18 @@ IN_A_BOX = 1 << 8
 ENOUGH = 64
 """Hits among which the best is chosen."""
 BEST, BEAM = 2, 4
-"""Hits that are moved to where their margin is large, and boxes that are searched."""
+"""How many hits are moved to where their margin is large, and how many boxes are searched."""
 TRIES = 4
-"""How often boxes are searched, each time by twice as many points, before the search gives up."""
+"""How often boxes are searched, each time by twice as many points, before the search ends without a toss."""
 ROUNDS = 6
-"""How often a hit is moved, at most."""
+"""The most times that a hit is moved."""
 SCANNED, SCANS = 64, 8
 """Changes between a point and its margin that are tried, and how often, each time up to the first that shows
 something else."""
 LEAST = 1e-12
 """A margin below it, as a part of the window, is not made larger: rounding errors decide it."""
 STEPS = (1.0, 0.5, 0.2)
-"""Parts of the way to the middle."""
+"""Parts of the way to the middle that are tried."""
 
 
 @dataclass(frozen=True)
@@ -60,11 +60,11 @@ class Searched:
     """What a search found."""
 
     hits: tuple[Hit, ...]
-    """The best first; none where nothing shows it."""
+    """The hits, the best first; empty where no toss shows the target."""
     tosses: int
-    """That were made over the window; those in boxes and of margins come on top."""
+    """The number of tosses made over the window, without those in boxes and for margins."""
     refused: int
-    """Points of the window besides, which make no scenario."""
+    """The number of points of the window that make no scenario."""
     longest: int
     """Steps of what is wanted that the best point showed; -1 where no point makes a scenario."""
 

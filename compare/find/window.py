@@ -17,7 +17,8 @@ from cointoss.models.records import Array, Face, Outcome
 from cointoss.models.scenario import Scenario
 
 AT_FIRST = 4
-"""Touches that are looked at of every toss; then of those that agree so far twice as many, and so on."""
+"""Touches that are computed for every toss; then twice as many for the tosses that agree so far, and so
+on."""
 
 
 @dataclass(frozen=True, kw_only=True)
