@@ -1,4 +1,4 @@
-"""Both engines asked the same question, and the command line; imports the other three packages."""
+"""The comparison of both engines, and the command line; imports the other three packages."""
 
 import inspect
 import sys

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from cointoss.analytic import OwnLaw
 
 FIRST_IMPACTS = 20
-"""Of the tosses that tell engines apart, at most."""
+"""The largest number of impacts of the tosses from which `fingerprints` makes its digests."""
 
 
 class EngineSettings(Protocol):

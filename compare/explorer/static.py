@@ -25,7 +25,8 @@ MOST_PIXELS = 200_000
 TOSSED = 12, 9
 """Columns and rows of the pixels that are tossed, at most."""
 TOSSED_IN_FRAME = 8, 6
-"""Columns and rows in a notebook, at most, where one waits for the tosses and saves them with it."""
+"""The most columns and rows in a notebook, whose user waits for the tosses and saves them with the
+notebook."""
 SAMPLES = 300
 """Samples of the path of each toss."""
 HEIGHT = 860
@@ -35,7 +36,8 @@ HEIGHT = 860
 def write_static(map_path: Path, out: Path) -> None:
     """Write a page with a map and the tosses of a grid of its pixels, by both engines.
 
-    Where the package carries the engine for a browser, and it tosses such a map, it tosses any pixel there.
+    Where the package carries the engine for a browser, and that engine can toss such a map, the page itself
+    tosses any other pixel.
 
     Raises:
         MapError, ScenarioError: for what is no map.
@@ -50,7 +52,7 @@ def explore(shown: TossedMap) -> Frame:
 
 
 def _page(shown: TossedMap, tossed: tuple[int, int]) -> str:
-    """Return the page of a map, with at most so many columns and rows of its pixels tossed."""
+    """Return the page of a map, with at most `most` columns and rows of its pixels tossed."""
     sweep = shown.sweep
     columns, rows = (_spread(axis.count, most) for axis, most in zip((sweep.x, sweep.y), tossed, strict=True))
     pixels = [(column, row) for row in rows for column in columns]
@@ -78,6 +80,6 @@ def _engine(sweep: Sweep) -> dict[str, object] | None:
 
 
 def _spread(count: int, most: int) -> list[int]:
-    """Return the indices of at most so many pixels of an axis, evenly spread, none of them twice."""
+    """Return the indices of at most `most` pixels of an axis, evenly spread, none of them twice."""
     number = min(count, most)
     return ((np.arange(number) + 0.5) * count / number).astype(int).tolist()

@@ -14,7 +14,7 @@ from cointoss.compare.web.playable import MOST_SYMBOLS, SAMPLES, path_of, playab
 from cointoss.models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
 
 MOST_IMPACTS = {Engine.ANALYTIC: 20_000, Engine.MUJOCO: 500}
-"""A toss is followed up to so many impacts: some seconds of work."""
+"""A toss is followed up to this number of impacts: some seconds of work."""
 
 
 def toss_pixel(

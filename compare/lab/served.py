@@ -27,7 +27,7 @@ from cointoss.models.rows import row_of
 from cointoss.models.scenario import Scenario
 
 MOST_PIXELS = 4096
-"""Along each axis of the map."""
+"""The most pixels along each axis of the map."""
 NAMES = ("numbers", "x", "y", "columns", "rows", "after", "trust")
 """What a query for a map says: the numbers of the scenario's row and of both axes' ends, as the octets of
 doubles in hexadecimal; the fields and counts of the axes; the impacts before the touch that is mapped, or

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass, replace
 
 _MOST = 1e12
-"""Nobody makes so many tosses."""
+"""The largest sample that `needed` returns."""
 
 
 @dataclass(frozen=True)

@@ -11,13 +11,13 @@ from cointoss.compare.metrics.estimate import Estimate
 from cointoss.models.records import Array
 
 LEVEL = 0.99
-"""Of all confidence intervals: of a hundred verdicts by chance alone one would be wrong."""
+"""The level of all confidence intervals: of a hundred verdicts one would be wrong by chance alone."""
 Z = float(norm.ppf((1 + LEVEL) / 2))
 """Standard deviations of a normal interval of this level."""
 FEWEST = 20
-"""Values of a sample whose median is compared by a bootstrap."""
+"""The fewest values of a sample whose median is compared by a bootstrap."""
 PARTS = 20
-"""Parts of a sample, each left out in turn by `jackknife`."""
+"""The number of parts of a sample that `jackknife` leaves out in turn."""
 
 
 def share(met: ArrayLike, counted: str = "tosses") -> Estimate:
@@ -68,7 +68,7 @@ def wilson(met: ArrayLike, count: ArrayLike) -> tuple[Array, Array, Array]:
 def mean_share(shares: ArrayLike, counted: str = "tosses") -> Estimate:
     """Return the mean of shares, with Student's interval, or Wilson's where all are the same.
 
-    Wilson's is no narrower: shares scatter at most as yes and no with the same mean do.
+    Wilson's is no narrower: shares scatter at most as much as yes-or-no answers with the same mean.
 
     Args:
         shares: of a sample, (n,).
@@ -195,7 +195,7 @@ def scatter_of_shares(shares: Array, counts: ArrayLike) -> float:
 
 
 def chance_alike(counts: ArrayLike) -> float:
-    """Return the probability by chance of counts that differ so much between two samples, by a χ² test.
+    """Return the probability that counts of two samples differ by chance as much as these, by a χ² test.
 
     Args:
         counts: of each kind, by sample, (2, kinds).

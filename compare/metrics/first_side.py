@@ -11,7 +11,7 @@ from cointoss.models.batch import PLACE, states_of
 from cointoss.models.records import Array, Ending, Outcome
 
 TOUCHES = (0, 1, 2, 3)
-"""Impacts before each touch that is counted."""
+"""The numbers of impacts before the touches that are counted."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class FirstSide:
 
 
 def first_side(rows: Array, engine: Engine) -> FirstSide:
-    """Toss coins, and see where the side is up that was at the release.
+    """Toss coins, and return at which touches the side that was up at the release is up.
 
     Args:
         rows: of the scenarios, whose attitude is a quaternion, (n, 54).
@@ -43,7 +43,7 @@ def first_side(rows: Array, engine: Engine) -> FirstSide:
 
 
 def caught_side(rows: Array, engine: Engine) -> NDArray[np.bool_]:
-    """Toss coins to a hand, and see where the side is up in it that was at the release.
+    """Toss coins to a hand, and return in which catches the side that was up at the release is up.
 
     Args:
         rows: of the scenarios, with the height at which a hand catches the coin, (n, 54); their attitude is

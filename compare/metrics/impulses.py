@@ -28,7 +28,7 @@ class Differences:
 
 
 def match(a: Impacts, b: Impacts) -> Differences:
-    """Match the impacts of two tosses by their number, as many as both have."""
+    """Match the impacts of two tosses by their number, up to the last that both have."""
     n = min(len(a), len(b))
     return Differences(
         time=a.time[:n] - b.time[:n],
@@ -40,8 +40,8 @@ def match(a: Impacts, b: Impacts) -> Differences:
 def errors_of_impacts(toss: Toss) -> Array:
     """Return the error of each impulse against the impact law, from the very state in which the coin touched.
 
-    Unlike the difference of matched impacts this carries nothing on from the impacts before: it is the error
-    that the engine makes anew each time.
+    Unlike the difference of matched impacts, this error carries nothing over from earlier impacts: it is the
+    error that the engine makes in this impact alone.
 
     Returns:
         |S_law - S|/|S_law|, (n,); infinite where there is no impact by the law.

@@ -21,9 +21,9 @@ Codes = NDArray[np.int8]
 FINEST, DECADES = 1e-13, 13
 """Changes are tried from the finest on, in SI units; the last is 1."""
 CUTS = 8
-"""Parts into which a bisection cuts the change that was found."""
+"""The number of parts into which a bisection cuts the change that was found."""
 TOGETHER = 2048
-"""Tosses that are made together, about: they keep all cores busy."""
+"""About how many tosses are made together: enough to keep all cores busy."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,9 +31,9 @@ class SearchResolution:
     """How closely changes are searched."""
 
     per_decade: int
-    """Changes that are tried in each decade."""
+    """The number of changes that are tried in each decade."""
     bisections: int
-    """The change that is found is cut down so many times by `CUTS`."""
+    """How many times the change that was found is narrowed by the factor `CUTS`."""
 
     @property
     def ladder(self) -> Array:
@@ -54,11 +54,11 @@ class ReleaseQuantity:
     name: str
     unit: str
     factor: float
-    """Of the unit in one SI unit."""
+    """The number of the quantity's units in one SI unit."""
     change: Callable[[Array, Array], Array]
     """Returns rows, (n, 54), whose attitude is a quaternion, changed by numbers in SI units, (n,)."""
     fields: tuple[str, ...]
-    """What it changes of a row."""
+    """The fields of a row that it changes."""
 
 
 @dataclass(frozen=True)
@@ -69,8 +69,8 @@ class Margin:
     change: float
     """The change with its sign, in the quantity's unit; infinite where none up to 1 SI unit does."""
     proved: float = 0.0
-    """No smaller change to either side does, in the quantity's unit, rounded down to two digits; 0 where that
-    is not proved."""
+    """It is proved that no smaller change to either side changes the outcome, in the quantity's unit, rounded
+    down to two digits; 0 where nothing is proved."""
 
     @property
     def finite(self) -> float | None:

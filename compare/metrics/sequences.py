@@ -11,9 +11,9 @@ from cointoss.models.records import Array, Toss
 from cointoss.models.scenario import Scenario, euler_parameters
 
 TOUCHING = 1e-9
-"""A coin that is to touch at once is so much above the floor, over r."""
+"""The height above the floor of a coin that is to touch at once, over r."""
 SAFETY = 2.0
-"""The horizon supposes errors so many times larger than those measured."""
+"""The horizon assumes errors larger than those measured by this factor."""
 
 
 def common_prefix(a: str, b: str) -> int:
@@ -23,11 +23,11 @@ def common_prefix(a: str, b: str) -> int:
 
 
 def agreement_horizon(toss: Toss, errors: Array, late: Array | None = None) -> int:
-    """Count the leading impacts whose faces must be shared by an engine that makes `errors` in its impulses.
+    """Count the leading impacts whose faces an engine with these `errors` in its impulses must share.
 
     The toss is repeated from each of its impacts in turn, with that impulse too large, and too small, by
     `SAFETY` times the largest error up to there: only chaos separates these from the toss. After an impulse
-    that is as wrong as none, no face must be shared.
+    that is wrong by its whole size, no face must be shared.
 
     Args:
         toss: by the analytic engine.

@@ -9,7 +9,7 @@ class Within(NamedTuple):
 
     least: int
     most: int
-    """It is included, as is the least."""
+    """The largest number accepted; both bounds are included."""
 
 
 class Form(NamedTuple):

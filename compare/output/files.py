@@ -88,7 +88,7 @@ def require_replaceable(path: Path, source: str | None = None, *read: str | Path
     if path.is_symlink() or not path.is_file():
         kind = "folder" if path.is_dir() else "link or a device"
         raise UnwritableError(f"{path}: is a {kind}; accepted: a new name or a regular file")
-    # The bits are asked too: the superuser may write everything.
+    # The permission bits are checked too, because the superuser may write everything.
     if not (path.stat().st_mode & 0o222 and os.access(path, os.W_OK)):
         raise UnwritableError(f"{path}: is read-only; accepted: a new name or a file that can be written")
     if source is not None and Path(source).exists() and path.samefile(source):

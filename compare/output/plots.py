@@ -11,7 +11,7 @@ from cointoss.models.palette import COLORS
 from cointoss.models.records import Face, Toss
 
 DRAWN = 600
-"""Times of a path."""
+"""The number of times at which a path is drawn."""
 
 
 def axes_or_new(ax: Axes | None) -> Axes:

@@ -20,7 +20,7 @@ ANALYTIC, MUJOCO = BLUE, VERMILION
 
 
 class Look(NamedTuple):
-    """How an engine's toss is told from the others."""
+    """What distinguishes an engine's toss from the others on a page and in a plot."""
 
     kind: str
     """The class of what shows it on a page; shared.css has its colours."""

@@ -18,7 +18,7 @@ def table(head: Sequence[str] | str, rows: Iterable[Sequence[str]], *, words: bo
 
     Args:
         head: names of the columns, or all in one text, with bars between them.
-        rows: cells, as many as columns; a bar in one is escaped.
+        rows: cells, one for each column; a bar in a cell is escaped.
         words: whether the columns after the first are words; numbers stand at the right.
     """
     head = head.split(" | ") if isinstance(head, str) else head

@@ -33,7 +33,7 @@ BOTH = ("analytic", "mujoco")
 
 
 AFTER = 1.0
-"""An engine of another is asked for states up to so long after the analytic toss has ended [s]."""
+"""How long after the end of the analytic toss the states of a user's own engine end [s]."""
 
 
 class Comparison(ComparedTosses):

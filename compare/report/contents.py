@@ -14,7 +14,7 @@ FILES = (*OF_THE_FILM, "numbers.json", "path-analytic.csv", "path-mujoco.csv")
 _LONGEST = 80
 
 NOT_ASKED = "None was asked for; cointoss video draws one."
-"""Why a report has no video where its command was told so."""
+"""Why a report has no video where its command was asked for none."""
 
 
 def slug_of(engine: str) -> str:

@@ -13,4 +13,4 @@ class MapSection:
     numbers: dict[str, Any]
     """The dictionary `map` of numbers.json: `axes`, `after`, `fractions` and `settings` by engine,
     `agreement`, the share that is `untrusted` by the analytic engine or None, and the `command` that makes
-    the maps anew."""
+    the maps again."""

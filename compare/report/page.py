@@ -143,7 +143,7 @@ def _horizons(comparison: ComparedTosses) -> list[int]:
 
 
 def _impact_rows(comparison: ComparedTosses, horizons: list[int]) -> list[dict[str, Any]]:
-    """Return the rows of the table of impacts: as many as the longest toss has, at most `MOST_SHOWN`."""
+    """Return the rows of the table of impacts, one for each of the longest toss, at most `MOST_SHOWN`."""
     count = min(max(len(toss.impacts) for toss in comparison.tosses), MOST_SHOWN)
     return [
         {

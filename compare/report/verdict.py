@@ -12,26 +12,26 @@ from cointoss.models.records import Ending, Outcome, Toss, TrustEnd
 REPORT_IT = "One engine is wrong: please report it"
 TINY_ERRORS = "tiny errors decide, and neither engine is wrong"
 OFF_THE_LAW = (TrustEnd.SECOND_POINT, TrustEnd.RESTITUTION)
-"""Ends of MuJoCo's trust where its impulse is not that of the contact law, however well the toss is known."""
+"""How MuJoCo's trust ends where its impulse is not that of the law, however well the toss is known."""
 MISSES = 1e-2
 """A flight, or an impulse, of another engine than ours is off where its relative error is larger."""
 
 
 class VerdictKind(StrEnum):
-    """How good the news is."""
+    """The kind of a verdict."""
 
     AGREE = "agree"
     """The engines show the same."""
     DIFFER = "differ"
-    """They differ where they may."""
+    """The engines differ only where they may."""
     FAULT = "fault"
-    """They differ where they must not."""
+    """The engines differ where they must not."""
     ALONE = "alone"
     """One engine alone can toss the coin."""
 
 
 class Verdict(NamedTuple):
-    """A sentence or two on one engine, and how good the news is."""
+    """A sentence or two on one engine, and the kind of the verdict."""
 
     engine: str
     """The engine that is held against the analytic one, which is its own where it is alone."""
