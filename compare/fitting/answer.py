@@ -8,7 +8,7 @@ from cointoss.compare.output.answer import counted
 from cointoss.models.records import Face
 
 MOST_OTHERS = 5
-"""Other values that are printed."""
+"""The most other values that are printed."""
 
 
 def as_lines(fit: Fit) -> str:

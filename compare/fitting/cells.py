@@ -9,7 +9,7 @@ from cointoss.compare.fitting.errors import ObservationError
 from cointoss.models.bounded import TooLargeError, read_bounded
 
 LARGEST = 10_000_000
-"""Bytes of a file."""
+"""The most bytes of a file."""
 BEFORE_HEADER = 5
 """Lines above that with the names; Tracker writes the name of the track there."""
 

@@ -11,9 +11,9 @@ STEP = 1e-7
 LONGEST = 0.25
 """Step of the least squares, in parts of the span."""
 TOGETHER = 1 << 22
-"""Residuals that are in memory together, about."""
+"""About how many residuals are in memory together."""
 STEPS, SETTLED = 6, 1e-3
-"""Steps at most, and the change of χ² by less than which a point has arrived."""
+"""The most steps, and the change of χ² below which a point has converged."""
 
 
 class Descent:
@@ -78,7 +78,7 @@ class Descent:
         return found
 
     def _groups(self, count: int, rows: NDArray[np.intp]) -> list[slice]:
-        """Return how to share points out so that the memory holds the residuals of their slopes."""
+        """Return groups of points, so small that the memory holds the residuals of their slopes."""
         size = max(1, TOGETHER // (len(rows) * (self.size + 1)))
         return [slice(first, min(first + size, count)) for first in range(0, count, size)]
 

@@ -25,9 +25,9 @@ from cointoss.models.stages import counted
 from cointoss.models.unlikely import UnitWarning, unlikely_units
 
 VALUES = 9
-"""Values of the field at which coins are tossed; between them the share is interpolated."""
+"""Number of values of the field at which coins are tossed; between them the share is interpolated."""
 TRIED = 401
-"""Values of the field at which the likelihood is looked at."""
+"""Number of values of the field at which the likelihood is evaluated."""
 _FIELDS = {name: unit for name, unit in FIELDS.items() if name not in (*HAND, "coin.thickness")}
 _LYING = (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE)
 _EXAMPLE = '{"floor.restitution": (0.1, 0.6)}'

@@ -34,7 +34,7 @@ from cointoss.models.stages import stage
 
 STARTS, MOST_STARTS = 2048, 1 << 20
 MOST_FIELDS = 12
-"""The most free fields; more are not found from one toss."""
+"""The most free fields; one toss does not determine more."""
 Spans = Mapping[str, tuple[float | str, float | str] | str]
 
 
@@ -150,7 +150,7 @@ class Fit:
     def as_dict(self) -> dict[str, Any]:
         """Return it in the form of `cointoss fit --json`, which has null for what is infinite or NaN.
 
-        A model that is refused has no errors of its values: no `sd`, no interval, no covariance.
+        A model that cannot be right has no errors of its values: no `sd`, no interval, no covariance.
         """
         return {
             "values": {
@@ -241,37 +241,38 @@ def fit(
         cointoss.fit("heard.csv", "coin.toml", {"floor.restitution": (0.4, 0.9)}, sd={"time": "1 ms"})
         cointoss.fit("counts.csv")
 
-    The squares of the residuals of the analytic engine's toss are made least from many starts in the spans,
-    those of the first touches first. The standard deviations are those of linear propagation: of the errors
-    of what was seen alone, if the model is right. Faces are held against the toss; they determine no value.
+    The fit minimises the squared residuals of the analytic engine's toss, from many starts in the spans and
+    first for the first touches. The standard deviations are those of linear propagation: of the errors
+    of what was seen alone, if the model is right. Faces are compared with the toss; they determine no value.
 
-    Counts of flips, of people and of how often the side came up that had been up, tell each person's ψ, and
-    its scatter over people: of coins that are caught by a closed form, of a scenario's coin by tosses. Counts
-    of edges by thickness tell one field of a scenario, whose coin of each thickness is tossed.
+    Counts of how often the side that was up came up again determine each person's ψ, and its scatter over
+    people: by a closed form for coins that are caught, by tosses for a scenario's coin. Counts of edges by
+    thickness determine one field of a scenario, whose coin is tossed in each thickness.
 
     Args:
         observed: what was seen, or the path of a CSV file that has it.
-        scenario: what is held fixed; or a file's path, or a name such as "fig24a". Of flips its own release
-            is not used, and without it the coins are caught.
-        vary: for each field its first and last value, (START, STOP) or "START:STOP", in SI or with a unit;
-            of its name the part suffices that no other field has, such as "restitution". The field "clock" is
-            the time that the observer's clock shows at the release; where it does not vary, that is 0.
-        sd: of a file, standard deviations of "time", "height" and "attitude", in SI or as texts with a unit,
-            where it has none itself.
-        starts: how many, spread evenly.
-        hand: that tosses a scenario's coin where flips or edges were counted; by default `Hand()`, of whose ψ
-            flips tell, and of edges `Hand.people` with either side up.
-        tosses: of each of some 30 ψ, or of 9 values and each thickness, where counts are explained by tosses.
-        seed: of the order of the starts, or of the tosses.
-        device: "cpu" or "auto": the CPU tosses, for a card finds how a toss ends, not what it shows before;
-            of flips as of `shares`.
+        scenario: what is held fixed: a scenario, the path of its file, or a name such as "fig24a". For flips
+            its own release is not used; without a scenario the coins are caught.
+        vary: for each field its first and last value, (START, STOP) or "START:STOP", in SI or with a unit. A
+            name may be a part that no other field has, such as "restitution". The field "clock" is the time
+            that the observer's clock shows at the release; where it does not vary, that is 0.
+        sd: standard deviations of "time", "height" and "attitude" where the file has none, in SI or as texts
+            with a unit.
+        starts: the number of starting points, spread evenly.
+        hand: that tosses a scenario's coin where flips or edges were counted; by default `Hand()` for flips,
+            which determine its ψ, and `Hand.people` with either side up for edges.
+        tosses: where counts are explained by tosses, how many for each of some 30 ψ, or for each of 9 values
+            and each thickness.
+        seed: for the starting points, or for the tosses.
+        device: "cpu" or "auto": the CPU tosses, because a card finds how a toss ends, not what it shows
+            before; for flips as in `shares`.
 
     Raises:
         ObservationError: for a file or numbers that can't be used.
         ValueError: for a standard deviation that nothing has.
         SweepError: for a field or a span that can't be used.
         ScenarioError: for a scenario that can't be used, or where no value of the spans makes one.
-        UnsupportedError: for the device "cuda", but of flips.
+        UnsupportedError: for the device "cuda", except for flips.
     """
     require_whole("starts", starts, 1, MOST_STARTS)
     require_whole("seed", seed, 0, MOST_SEED)

@@ -11,7 +11,7 @@ from cointoss.models.records import Array
 
 MOST_PEOPLE = 1000
 MOST_FLIPS = 1_000_000
-"""Of a person; the quadrature over people would need too many nodes for more."""
+"""The most flips of one person; the quadrature over people would need too many nodes for more."""
 
 
 @dataclass(frozen=True, init=False, eq=False)

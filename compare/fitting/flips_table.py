@@ -35,7 +35,7 @@ _COUNTED = {"same", "other", "flips", "heads", "tails", "edge", *PAIRS}
 
 
 def key_of(name: str) -> str | None:
-    """Return what of `NAMES` or `PAIRS` a column is; None for another."""
+    """Return which of `NAMES` or `PAIRS` a column is; None for another."""
     plain = " ".join(re.split(r"[_\-.\s]+", re.sub(r"[(\[].*", "", name.lower()).strip()))
     plain = _AROUND.sub("", plain)
     if pair := _PAIR.fullmatch(plain):
@@ -85,7 +85,7 @@ def flips_of(head: Sequence[str], rows: Sequence[Sequence[str]]) -> Flips:
 
 
 def _columns(head: Sequence[str]) -> dict[str, int]:
-    """Return which column is what; refuse two for one thing, and what counts no sides."""
+    """Return what each column is; refuse two for one thing, and columns that count no sides."""
     found: dict[str, int] = {}
     for i, name in enumerate(head):
         key = key_of(name)
@@ -100,7 +100,7 @@ def _columns(head: Sequence[str]) -> dict[str, int]:
 
 
 def _way_of_counting(columns: Mapping[str, int], head: Sequence[str]) -> tuple[str, ...]:
-    """Return the columns that tell how often the same side came up."""
+    """Return the columns that say how often the same side came up."""
     has = columns.keys()
     sides = [key for key in ("same", "other", "flips") if key in has]
     pairs = [key for key in PAIRS if key in has]

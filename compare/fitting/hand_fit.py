@@ -55,7 +55,7 @@ class HandFit:
 
     flips: Flips
     people: tuple[PersonFit, ...]
-    """Each person apart, in the order of the counts."""
+    """What each person's counts say, in the order of the counts."""
     scatter: Estimate | None
     """Root of the mean square of 90° - ψ over people, |90° - ψ| being half-normal [rad]; None for one person.
     Its interval is as that of ψ."""
@@ -64,7 +64,7 @@ class HandFit:
     chances: dict[str, float]
     """How likely chance makes the right model miss by as much, by what is tested."""
     scenario: Scenario | None
-    """Whose coin was tossed; None for the closed form of a coin that is caught."""
+    """The scenario whose coin was tossed; None for the closed form of a coin that is caught."""
 
     @property
     def p_value(self) -> float:
@@ -201,9 +201,9 @@ def _psi_of(same: int, flips: int, side: SameSide) -> Estimate:
 
 
 def _chances_of_shares(flips: Flips, side: SameSide) -> dict[str, float]:
-    """Return the chance of so few flips, or so many, with the first side up, at the best ψ for them.
+    """Return the chances of as few, or as many, flips with the first side up, at the ψ that favours this.
 
-    Of several people it is that of their sum, and that of the one who is farthest out.
+    Of several people the chances are those of their sum, and of the person who is farthest out.
     """
     p, people = side.probability(ANGLES), len(flips.flips)
     same, count = (np.append(each, each.sum()) for each in (flips.same, flips.flips))
@@ -221,7 +221,7 @@ def _chances_of_shares(flips: Flips, side: SameSide) -> dict[str, float]:
 
 
 def _without_intervals(found: HandFit) -> HandFit:
-    """Return a fit of a model that cannot be: no value of it is the true one."""
+    """Return a fit of a model that cannot be right: no value of it is the true one."""
 
     def bare(one: Estimate) -> Estimate:
         return replace(one, low=math.nan, high=math.nan)

@@ -1,10 +1,11 @@
 """The intervals of fitted values: how far each may go while χ² stays near its least.
 
-Linear propagation holds where the misfit is a parabola. That of a tumbling coin is bent, jumps where another
-point of the rim comes down first, and has minima by the hundred within the errors. So an interval is that of
-the profile likelihood, across all minima: from the lowest to the highest value with which, all others free,
-χ² is at most so much above its least as chance makes it in so many cases. Each value is held, first far
-outside, and the others are looked for in many places: wherever less of what was seen would let them be.
+Linear propagation holds where the misfit is a parabola. The misfit of a tumbling coin is bent, jumps where
+another point of the rim comes down first, and has hundreds of minima within the errors. So an interval is
+that of the profile likelihood, across all minima: from the lowest to the highest value for which, all others
+free, χ² exceeds its minimum by no more than the limit of the χ² distribution at the interval's level. To find
+it, one value at a time is held fixed, first far outside. The others are searched for in many places:
+wherever the earlier observations alone would allow them.
 """
 
 from collections.abc import Sequence
@@ -18,13 +19,13 @@ from cointoss.compare.fitting.descent import LONGEST, Descent, squares
 from cointoss.models.records import Array
 
 NEARER = 0.6
-"""How far the next value that is held is from those known to be inside, over the one that was outside."""
+"""The distance of the next held value from the values known to be inside, over that of the last value
+outside."""
 CLOSE = 0.02
-"""An end is known so well, in parts of its distance from the best point."""
+"""The accuracy of an end, as a part of its distance from the best point."""
 MOST_STEPS = 60
 DRAWN, TRIED = 384, 12
-"""Points that are drawn for each value that is held, where five are free, and the best of them, which are
-fitted."""
+"""How many points are drawn for each held value, where five are free, and how many of the best are fitted."""
 
 
 class Known(NamedTuple):
@@ -43,11 +44,11 @@ class Region:
     ends: Array
     """The lowest and the highest of each coordinate, (k, 2)."""
     best: Array
-    """The point with the least χ² that was met, (k,)."""
+    """The point with the least χ² that was found, (k,)."""
     least: float
-    """χ² there."""
+    """χ² at `best`."""
     met: Array
-    """Points of it, (n, k)."""
+    """Points of the region that were found, (n, k)."""
 
 
 def region_of(

@@ -24,13 +24,14 @@ from cointoss.models.scenario import Scenario
 FACE_SD = 0.02
 """The normal's vertical part may be this far on the wrong side of 0 where a face was seen: 1 degree."""
 MISSING = 10.0
-"""Standard deviations that a touch misses at least by which the toss does not make."""
+"""The least residual of a touch that the toss does not make [standard deviations]."""
 IMPOSSIBLE = 1e6
-"""Standard deviations that everything misses by where the values make no scenario."""
+"""The residual of everything where the values make no scenario [standard deviations]."""
 BEFORE = 10.0
-"""Standard deviations of a touch before it by which a frame is surely before it."""
+"""A frame this many standard deviations before a touch is surely before it."""
 LATER, SOON = 0.25, 0.02
-"""A touch that was seen is waited for longer, by this part of the whole time and by these seconds."""
+"""How much longer than seen a toss is followed for a touch: this part of the whole time, and these
+seconds."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,7 +43,8 @@ class Predicted:
     is_tested: NDArray[np.bool_]
     """Which residuals the horizon of trust includes, (n,)."""
     touch_times: Array
-    """Of the touches that were seen, by the observer's clock, NaN where the toss makes none, (m,) [s]."""
+    """The times of the touches that were seen, by the observer's clock, NaN where the toss makes none, (m,)
+    [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,7 +84,7 @@ class Misfit:
 
     @cached_property
     def _most(self) -> int:
-        """How many touches are asked for."""
+        """How many touches of each toss are computed."""
         return int(self.observed.touch_numbers.max(initial=0))
 
     @cached_property

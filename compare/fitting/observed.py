@@ -12,7 +12,7 @@ from cointoss.models.quantities import LARGEST
 from cointoss.models.records import Array, Face
 
 MOST = 20_000
-"""Touches, and frames, that are fitted."""
+"""The most touches, and the most frames, that are fitted."""
 LEAST_SD = 1e-12
 """The least standard deviation, in SI units; nothing is measured better."""
 NORM_ERROR = 0.05

@@ -20,14 +20,15 @@ from cointoss.models.records import Array
 PANELS, ORDER = 150, 8
 """Panels of the quadrature over people by Gauss and Legendre before any is halved, and its order in each."""
 HALVINGS = 60
-"""Of a panel at most, toward a jump of p."""
+"""The most halvings of a panel, toward a jump of p."""
 SCANNED = 30
 """Spreads that are tried where p is simulated, so that its likelihood may have several peaks."""
 DROP = float(chi2.ppf(LEVEL, 1)) / 2
 """How far the logarithm of the likelihood falls from its largest value to the ends of an interval."""
 _LEAST = 1e-12
 _TOLERANCE = 1e-7
-"""Of a search for the largest likelihood: of parameters, which are below 1, and of its logarithm."""
+"""The tolerance of a search for the largest likelihood: of the parameters, which are below 1, and of the
+logarithm."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,7 @@ class People:
     latent: Any
     """The distribution of a number that each person has, of `scipy.stats`."""
     ends: tuple[float, float]
-    """Between which all but 1e-25 of it lies."""
+    """The ends between which all but 1e-25 of the distribution lies."""
     probability: Callable[[Array, Array], Array]
     """p, from the parameters and that number, (n,) to (n,)."""
     start: tuple[float, ...]
@@ -59,7 +60,7 @@ class People:
     largest: float = 1.0
     """The largest spread."""
     tosses: float = math.inf
-    """As of `SameSide`."""
+    """Simulated tosses behind each probability; infinite for a closed form."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +74,7 @@ class PeopleFit:
 
     @property
     def log_likelihood(self) -> float:
-        """That of all people."""
+        """The logarithm of the likelihood of all people."""
         return float(self.log_likelihoods.sum())
 
 
@@ -186,7 +187,7 @@ def _most_likely(
 
 
 def quantiles(people: People, parameters: Array, parts: Array) -> Array:
-    """Return p below which parts of the people are, (n,) to (n,); p must grow with the latent number."""
+    """Return the p below which parts of the people are, (n,) to (n,); p must grow with the latent number."""
     return people.probability(parameters, people.latent.ppf(parts))
 
 
@@ -236,7 +237,7 @@ def interval_of(likelihood: Callable[[Array], Array], tried: Array) -> tuple[flo
 
     Args:
         likelihood: the logarithm, (n,) to (n,); it may have several peaks.
-        tried: rising values where it is looked at first, (n,).
+        tried: rising values at which it is evaluated first, (n,).
     """
 
     def at(value: float) -> float:

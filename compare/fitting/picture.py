@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from cointoss.compare.fitting.fit import Fit
 
 DRAWN = 800
-"""Times of a path."""
+"""The number of times at which a path is drawn."""
 MARGIN = 0.05
-"""The part of the time that is drawn after what was seen last."""
+"""How much longer than the last observation the picture is, as a part of the time."""
 
 
 def plot_fit(fit: "Fit", ax: Axes | None = None) -> Axes:

@@ -1,9 +1,9 @@
-"""The least squares of a misfit that is riddled with minima, from many starts and touch by touch.
+"""The least squares of a misfit with very many minima, from many starts and touch by touch.
 
-Each impact multiplies a change of the release, so the squares of all touches have minima by the thousand, and
-those of the first touches few. The least squares are found of these first. Points all over what that leaves
-possible are kept, many neighbours are drawn within their errors, and what was seen next chooses of these,
-until all has.
+Each impact multiplies a change of the release, so the misfit of all touches has thousands of minima, and
+that of the first touches few. The search minimises the misfit of the first touches first. It keeps points
+from the whole region that these allow, draws many neighbours within their errors, and selects from them by
+the next observations, until all are used.
 """
 
 from dataclasses import dataclass
@@ -21,41 +21,45 @@ from cointoss.models.records import Array
 from cointoss.models.stages import stage
 
 DRAWN, CROWD, MODES, REFINED = 8192, 256, 256, 24
-"""Neighbours that are drawn at a stage, where five values are free; those of them that are fitted; points
-that go on, at most; and those refined at the end."""
+"""At each stage, where five values are free, how many neighbours are drawn, how many of them are fitted, and
+how many points go on at most; and how many points are refined at the end."""
 HOPELESS = 100.0
-"""A point that misses by so much more in χ² than the best does not go on."""
+"""A point whose χ² is larger than the least by more than this does not go on."""
 ALIKE = 15.0
-"""Points above the least χ² by no more are as good as the best: what was seen later may prefer them."""
+"""Points whose χ² exceeds the least by no more than this count as equally good: later observations may prefer
+them."""
 APART = 1.0
-"""χ² between two points that go on, at least."""
+"""The least distance between two points that go on, in χ²."""
 NEAR, FEW = 50.0, 512
-"""What is fitted next misses by so much more in χ² than the best of the points, at most, at a few of them."""
+"""The next observations are fitted while, at `FEW` points or more, their χ² exceeds the least by at most
+`NEAR`."""
 SPREAD = 1.0
-"""Of neighbours, in standard deviations."""
+"""The spread of neighbours, in standard deviations."""
 GROWTH, SLOWEST = 1.6, 64
-"""Numbers that are fitted at a stage, over those at the stage before, at most; and at least a part more."""
+"""How the count of fitted numbers grows from stage to stage: at most by the factor `GROWTH`, at least by the
+part 1/`SLOWEST`."""
 SAME = 1e-4
-"""Minima nearer than this part of every span are one, and at the end those within three deviations."""
+"""Minima nearer to each other than this part of every span are one, and at the end those within three
+deviations."""
 CLOSE = 60
-"""Steps of the last least squares, at most."""
+"""The most steps of the last least squares."""
 EARLIER = 4
-"""Stages before the last from whose points intervals are measured, too."""
+"""The number of stages before the last whose points also serve to measure intervals."""
 SURELY, REACH = 5.0, 5.0
-"""Standard deviations of the first touch by which what was seen is surely before it, and of a value by that
-alone, beyond which no end of an interval is looked for."""
+"""An observation this many standard deviations before the first touch is surely before it; and no end of an
+interval is sought beyond this many deviations of a value that such observations alone determine."""
 LEVEL = 0.99
 """Level of the intervals."""
 ABOVE = float(chi2.ppf(LEVEL, 1))
-"""χ² above its least, up to which a value is in its interval."""
+"""How far χ² may exceed its least for a value in the interval."""
 AGAIN, GAIN = 3, 1e-3
-"""Intervals are measured again so often, at most, where that meets a misfit that is less by so much."""
+"""How often intervals are measured again at most, and by how much χ² must have fallen for that."""
 UNTESTED = 3.0
 """χ² that an observation beyond the horizon counts when minima are compared: else the values that nothing
 could test would win."""
 UNDETERMINED = 1e-9
-"""A change of the fields, in parts of their spans, that changes what is seen by less than this part of the
-largest such change is none that could be seen."""
+"""A change of the fields, in parts of their spans, is undetermined if its effect on what is seen is less than
+this part of the largest effect of such a change."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -77,7 +81,7 @@ class Minimum:
 
     @property
     def score(self) -> float:
-        """What minima are compared by: χ², with a price for what is beyond the horizon."""
+        """The number by which minima are compared: χ², with a price for what is beyond the horizon."""
         return self.chi_square + UNTESTED * int(np.sum(~self.predicted.is_tested))
 
 
@@ -124,7 +128,7 @@ class LeastSquaresSearch:
                 rows = self._order[:fitted]
                 some = self._ranked(squares(missed), ALIKE)[: CROWD if known else None]
                 there, missed_there = self._descent.descended(points[some], missed[some], rows)
-                # Minima alone would not tell how far a bent region reaches, so that others are kept, too.
+                # Minima alone do not show how far a bent region reaches, so other points are kept, too.
                 among = np.vstack([there, points[some]]), np.vstack([missed_there, missed[some]])
                 points, information = self._modes(*among, rows, ALIKE)
                 known.append(Known(points, information))
@@ -142,13 +146,13 @@ class LeastSquaresSearch:
         return f"chi-square {square:.4g} of {count}: {told}"
 
     def _ends(self, minima: list[Minimum], points: Array, earlier: list[Known], again: int = AGAIN) -> Array:
-        """Return the ends of the intervals, (k, 2); minima that are met on the way are added.
+        """Return the ends of the intervals, (k, 2); minima that are found on the way are added.
 
         Args:
             minima: those known.
             points: others that explain what was seen, (n, k).
             earlier: points that explain less.
-            again: how often it may be done anew.
+            again: how often the measurement may be repeated.
         """
         best = min(minima, key=lambda each: each.score)
         rows = np.flatnonzero(best.predicted.is_tested)
@@ -187,7 +191,7 @@ class LeastSquaresSearch:
         return tuple(kept)
 
     def _next(self, points: Array, fitted: int) -> Array:
-        """Return the residuals to fit next, (p, n): as many as a few points are not far from explaining."""
+        """Return the residuals to fit next, (p, n): those that a few points nearly explain already."""
         least, seen = fitted + 1 + fitted // SLOWEST, len(self._order)
         most = min(max(least, int(GROWTH * fitted)), seen)
         missed = self._descent.residuals(points, self._order[:most])
@@ -195,17 +199,18 @@ class LeastSquaresSearch:
         near = np.sum(grown <= grown.min(axis=0) + NEAR, axis=0) >= min(FEW, len(points))
         if near.all():
             return missed
-        # A touch that a toss does not make misses by as much as is waited for: what is fitted decides.
+        # A touch that a toss does not make misses by the time the toss is followed, which depends on what is
+        # fitted.
         count = min(max(fitted + int(np.argmin(near)), least), seen)
         return self._descent.residuals(points, self._order[:count])
 
     def _modes(
         self, points: Array, missed: Array, rows: NDArray[np.intp], alike: float
     ) -> tuple[Array, Array]:
-        """Return points of which the residuals tell any two apart, (n, k), and their information, (n, k, k).
+        """Return points that the residuals distinguish, (n, k), and their information, (n, k, k).
 
-        They are in the order of `_ranked`, and none of them is hopeless. What no residual determines tells
-        nothing apart.
+        They are in the order of `_ranked`, and none of them is hopeless. A value that no residual determines
+        distinguishes no points.
         """
         square = squares(missed)
         self._best = points[np.argmin(square)], float(square.min()), len(rows)
