@@ -1,4 +1,4 @@
-"""The comparison of both engines, and the command line; imports the other three packages."""
+"""Both engines asked the same question, and the command line; imports the other three packages."""
 
 import inspect
 import sys

@@ -12,22 +12,22 @@ from cointoss.models.stages import stage
 
 
 def conform(engine: Any, *, cases: Iterable[str] = (), full: bool = False, time_limit: float = LIMIT) -> Card:
-    """Hold an engine against cases with known answers.
+    """Test an engine on cases with known answers.
 
     Args:
         engine: an object with a function `simulate(scenario, times)`, see
             `cointoss.compare.simulators.simulator.Simulates`; or "package.module:name" of one, or the name of
             an entry point `cointoss.engines`, which runs in processes of its own, side by side; or "analytic"
             or "mujoco". "PYTHON -m package.module:name" is run by another Python, which needs NumPy alone.
-        cases: the names of some, by default all.
-        full: an hour in place of a minute, and 10,000 tosses in place of 200.
+        cases: the names of the cases to run, by default all.
+        full: whether to simulate an hour in place of a minute, and 10,000 tosses in place of 200.
         time_limit: the longest time for one answer of the engine [s].
 
     Returns:
-        What came of each case.
+        The card, with the result of each case.
 
     Raises:
-        ValueError: for the name of no case.
+        ValueError: for a name that no case has.
         TypeError: for an object that is no engine.
         UnusableEngineError: for an engine that can't be started.
     """

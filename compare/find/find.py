@@ -142,19 +142,19 @@ def find(
                      sequence="HTTH")
         found.scenario, found.rooms
 
-    It is the toss that was found to be farthest from one that shows something else. What was found is
+    Of the tosses found, it returns the one farthest from tosses that show something else. The result is
     false, as in `if found`, where no toss shows it.
 
     Args:
         scenario: a `Scenario`, the path of its file, or the name of one that comes with the package.
-        vary: for each field that may have any value between two, these: numbers in SI, or texts, which may
-            carry a unit, as (START, STOP) or "START:STOP". A name may be a part that no other field has.
+        vary: the range of each field that may vary, (START, STOP) or "START:STOP", in numbers in SI or texts
+            with a unit. A name may be a part that no other field has.
         sequence: faces up at the first touches, as in "HTTH".
         outcome: such as `Outcome.EDGE` or "edge".
-        tosses: over the window, at most; where many show it, fewer are made.
-        seed: of the points of the window.
-        device: what tosses until the outcome: "cpu", "cuda" or "auto", as of `toss_many`; faces are always
-            found by the CPU.
+        tosses: the most tosses over the window; where many show it, the search stops earlier.
+        seed: for the points of the window.
+        device: what computes the outcomes: "cpu", "cuda" or "auto", as in `toss_many`; the CPU always finds
+            the faces.
 
     Raises:
         ScenarioError: naming file, field, value and what is accepted.

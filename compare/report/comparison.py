@@ -124,12 +124,12 @@ def compare(
     *,
     settings: Mapping[str, EngineSettings] | None = None,
 ) -> Comparison:
-    """Toss a scenario by several engines, and hold them against the analytic one.
+    """Toss a scenario by several engines, and compare them with the analytic engine.
 
     Args:
         scenario: what to toss, or its path or name.
         engines: "analytic", "mujoco", or any engine that simulates: an object with a function
-            `simulate(scenario, times)`, or its name, as of `cointoss.conform`. The analytic engine comes
+            `simulate(scenario, times)`, or its name, as in `cointoss.conform`. The analytic engine comes
             first, and is added where it is missing.
         settings: of our engines, by their names; by default those of one toss.
 
@@ -138,10 +138,10 @@ def compare(
 
     Raises:
         ScenarioError: for a scenario, a file or a name that can't be used.
-        TypeError: for what is no engine, and for settings of another engine.
-        UnusableEngineError: for an engine that can't be started, fails, or answers what can't be, and for
-            names that are alike.
-        ValueError: for settings in vain.
+        TypeError: for an object that is no engine, and for settings of another engine.
+        UnusableEngineError: for an engine that can't be started, that fails, or whose answer is impossible,
+            and for two engines with the same name.
+        ValueError: for settings of an engine that is not asked.
     """
     drawing_problem()  # Its back end is chosen before MuJoCo is imported, for a film.
     if isinstance(scenario, Scenario):

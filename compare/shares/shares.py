@@ -42,8 +42,8 @@ def shares(
         ds = cointoss.shares("zloty", {"restitution": "0.2:0.8:7"}, hand=Hand(speed=3.0), to=0.01)
         ds.share.sel(outcome="edge"), ds.cointoss.table(), ds.cointoss.plot()
 
-    The numbers are the same on any number of cores. An interrupt (Ctrl-C) returns what is counted, once
-    there is something; the attribute `complete` says so.
+    The numbers are the same on any number of cores. An interrupt (Ctrl-C) returns the counts so far,
+    if there are any; then the attribute `complete` is false.
 
     Args:
         scenario: a `Scenario`, the path of its file, or the name of one that comes with the package; its own
@@ -51,16 +51,18 @@ def shares(
         vary: up to two fields of the scenario, or of the hand, such as "hand.height", and for each a range
             START:STOP:N, as text, which may carry units, or as (START, STOP, N); both ends are included.
         hand: that releases the coin, or the path of its file; by default `Hand.people()`.
-        engine: "analytic", "mujoco", or "both", each with releases of its own.
-        tosses: of each setting; with `to` at most, by default ten million, without it 1000.
-        to: half the width of a setting's widest 99 % interval at which its counting stops, such as 0.005.
-        seed: of the releases.
-        device: "cpu", "cuda" or "auto", as of `toss_many`.
+        engine: "analytic", "mujoco", or "both"; each engine has releases of its own.
+        tosses: the tosses of each setting, by default 1000; with `to` the most tosses, by default ten
+            million.
+        to: counting of a setting stops when half the width of its widest 99 % interval is at most this, such
+            as 0.005.
+        seed: for the releases.
+        device: "cpu", "cuda" or "auto", as in `toss_many`.
 
     Returns:
         `count` and `share`, with the ends `low` and `high` of its 99 % interval (Wilson), over the fields
-        that vary and `outcome`, with both engines over `engine`, too; and `not_caught`, how many coins a
-        hand was to catch and did not, of which there is no share.
+        that vary and `outcome`, and with both engines over `engine`; and `not_caught`, how many coins the
+        hand was to catch and did not, which count in no share.
 
     Raises:
         ScenarioError: naming file, field, value and what is accepted.

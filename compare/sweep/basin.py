@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 MOST_AFTER = 999_999
-"""Impacts after which a face is shown, as of the command."""
+"""The most impacts after which a face can be shown, as in the command."""
 
 
 def basin(
@@ -40,7 +40,7 @@ def basin(
 ) -> "xr.Dataset":
     """Toss a coin once for each pair of values of two fields, on all cores, and return the map.
 
-    The command `cointoss basin` makes the same map tile by tile on disk, where a long one can be continued.
+    The command `cointoss basin` makes the same map tile by tile on disk, where a long run can be continued.
 
     Args:
         scenario: a `Scenario`, the path of its file, or the name of one that comes with the package.
@@ -49,19 +49,19 @@ def basin(
             range are included, in SI or with a unit.
         y: the field of the rows and its values.
         engine: "analytic" or "mujoco".
-        after: show the face at the touch after so many impacts; by default the final outcome.
+        after: show the face at the touch after this number of impacts; by default the final outcome.
         margin: also find the smallest change of this quantity of the release, such as "height", that changes
             a pixel's outcome; by the analytic engine only.
         trust: also find which pixels the engine's own errors may have decided, in two to three times the
             time with `after`, else in two to seven; by the analytic engine only.
-        device: "cpu", "cuda" or "auto", as of `toss_many`.
+        device: "cpu", "cuda" or "auto", as in `toss_many`.
 
     Returns:
         `outcome` in words and `impacts`, and where asked for `margin`, and `trusted_impacts` or
         `outcome_certain`, over y and x, whose coordinates are named by their fields. `ds.cointoss` draws,
         shows and saves the map.
 
-    Ctrl-C returns what is tossed by then, with a warning: the rest is "not_tossed".
+    Ctrl-C returns the tosses made so far, with a warning; the others have the outcome "not_tossed".
 
     Raises:
         ScenarioError: naming file, field, value and what is accepted.

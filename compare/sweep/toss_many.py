@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from cointoss.analytic import OwnLaw
 
 MOST_IN_MEMORY = 50_000_000
-"""Tosses whose answers are kept in memory, with their words 300 bytes each."""
+"""The most tosses whose answers are kept in memory: with their words, 300 bytes each."""
 MOST_WORKERS = 4096
 TRUSTS, ERRORS = (None, "impacts", "certain"), ("raise", "keep")
 
@@ -53,32 +53,32 @@ def toss_many(
         float((ds.outcome == "heads").mean()), ds.cointoss.shares("floor.restitution")
 
     Each toss is that of `cointoss.toss` with the same settings, to the bit, whatever the number of workers.
-    Ctrl-C returns what is tossed by then, with a warning: the rest is "not_tossed".
+    Ctrl-C returns the tosses made so far, with a warning; the others have the outcome "not_tossed".
 
     Args:
         scenario: a `Scenario`, the path of its file, or the name of one that comes with the package.
-        vary: by field, what it is: a number, a text with a unit or a word for all tosses; a range
-            "START:STOP:N" or (START, STOP, N), both ends included, along a dimension of its own that is named
-            by the field; an array or a list, which broadcasts with the other arrays as in NumPy, one of one
-            axis along the dimension `toss`; or a DataArray, whose dimensions have names. A field's name may
-            be a part that no other has, such as "restitution"; "height" and "spin" are C's height, and the
+        vary: by field, its value or values. A number, a text with a unit or a word holds for all tosses. A
+            range "START:STOP:N" or (START, STOP, N), both ends included, varies along a dimension of its own,
+            named by the field. An array or a list broadcasts with the other arrays as in NumPy; an array with
+            one axis varies along the dimension `toss`. A DataArray has named dimensions. A field's name may
+            be a part that no other has, such as "restitution"; "height" is the height of C, and "spin" the
             size of ω about the scenario's own axis. `Hand.releases` draws the fields of a release.
         engine: "analytic" or "mujoco".
         trust: "impacts" also finds how many leading impacts of each toss can be trusted, in two to three
             times the time; "certain" finds that, and whether the engine's own errors can't change its
             outcome, in two to seven; by the analytic engine only.
-        settings: of the engine, by default its own for many tosses.
+        settings: the engine's settings, by default its settings for many tosses.
         law: a contact law of one's own, in place of the scenario's, for the analytic engine.
         workers: number of threads, by default one for each core.
-        device: "cpu"; "cuda", a card of NVIDIA's, which hands some tosses over to the CPU; or "auto", the
-            card where there is one and it pays, else the CPU. Each toss is the same on all, to the bit.
-        errors: what becomes of values that make no scenario: "raise" refuses the first such toss before any
-            is made; "keep" makes all others, and gives these the outcome "refused".
-        progress: whether how far it is is shown; None shows it in a terminal or a notebook.
-        out: a Zarr store, whose name ends in .zarr, into which the answers go as they come: for more of them
-            than memory holds, and to go on after an end.
-        resume: whether to go on with a store that is there.
-        overwrite: whether to replace it.
+        device: "cpu"; "cuda", an NVIDIA card, which hands some tosses over to the CPU; or "auto", the card
+            where there is one and it is faster, else the CPU. Each toss is the same on all, to the bit.
+        errors: what happens with values that make no scenario: "raise" raises an error before the first toss;
+            "keep" makes all other tosses, and gives these the outcome "refused".
+        progress: whether to show progress; None shows it in a terminal or a notebook.
+        out: a Zarr store, whose name ends in .zarr, into which the answers are written as they come: for more
+            answers than memory holds, and to continue after an interruption.
+        resume: whether to continue an existing store.
+        overwrite: whether to replace an existing store.
 
     Returns:
         `outcome`, `ending` and `last_face` in words, `impacts`, `end_time` [s], and where asked for
@@ -93,12 +93,12 @@ def toss_many(
         ValueError: naming the argument, its value and what is accepted.
         UnsupportedError: for a scenario that the engine can't toss, or not on that device.
         DeviceError: for the device "cuda" where no card can be used, and where one fails.
-        OSError: for a store that can't be written, or one that is there, naming it and why.
+        OSError: for a store that can't be written, or that exists, naming it and why.
 
     Warns:
         UnusedFieldWarning: for a field that nothing uses.
-        ApproximationWarning: for what MuJoCo tosses by something near to it.
-        DeviceWarning: for a card that fails, with the device "auto": the CPU tosses what is left.
+        ApproximationWarning: for what MuJoCo approximates.
+        DeviceWarning: for a card that fails, with the device "auto": the CPU makes the remaining tosses.
     """
     batch = batch_of(scenario, vary)
     how = how_of(
