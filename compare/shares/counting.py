@@ -18,10 +18,10 @@ from cointoss.models.records import Outcome
 from cointoss.models.stages import stage
 
 BLOCK = {Engine.ANALYTIC: 250, Engine.MUJOCO: 25}
-"""Tosses that are drawn from one seed; counting stops after a whole block only, whoever tossed how many."""
+"""Tosses drawn from one seed. Counting stops only after a whole block, on any number of cores."""
 GROWTH, SECOND, MOST = 8, 1.0, 512
-"""Of the blocks that are tossed together: how many times as many as before, the time that they should take
-[s], and how many at most."""
+"""Blocks that are tossed together: the factor by which their number may grow, the time that they should take
+[s], and their largest number."""
 Counts = NDArray[np.int64]
 """Numbers of tosses by code of `Outcome`."""
 
@@ -36,7 +36,7 @@ class Block(NamedTuple):
 Part = tuple[Block, ...]
 """Blocks that are tossed together, of any settings."""
 Tosser = Callable[[Plan, Engine, Iterator[Block]], Iterator[tuple[Part, Counts]]]
-"""Tosses blocks, and yields parts of them in any order with their counts, (blocks, 6)."""
+"""Tosses blocks, and yields them in parts, in any order, with their counts, (blocks, 6)."""
 
 
 def toss_blocks(plan: Plan, engine: Engine, blocks: Part) -> Counts:
@@ -74,7 +74,7 @@ def toss_here(plan: Plan, engine: Engine, blocks: Iterator[Block]) -> Iterator[t
 
 
 class Count:
-    """How many tosses of a setting ended how, and whether that is enough."""
+    """How many tosses of a setting ended in each way, and whether that is enough."""
 
     def __init__(self, plan: Plan, engine: Engine) -> None:
         """Begin with none."""
@@ -84,7 +84,7 @@ class Count:
 
     @property
     def tosses(self) -> int:
-        """How many there are."""
+        """How many tosses there are."""
         return int(self.counts.sum())
 
     @property
@@ -103,7 +103,7 @@ class Count:
 
     @property
     def needed(self) -> int:
-        """Tosses at which it will be enough, about: an interval shrinks as 1/√n."""
+        """About how many tosses will be enough: an interval shrinks as 1/√n."""
         made = self.tosses
         if self.plan.to is None or (made and math.isinf(self.width)):
             return self.plan.tosses
@@ -111,7 +111,7 @@ class Count:
         return max(made, min(self.plan.tosses, math.ceil(tosses * (width / self.plan.to) ** 2)))
 
     def add(self, number: int, counts: Counts) -> None:
-        """Add a block after all before it, until it is enough; blocks beyond are left out."""
+        """Add a block, in the order of the blocks, until the count is enough; later blocks are left out."""
         self._waiting[number] = counts
         while not self.is_enough and (block := self._waiting.pop(self.blocks, None)) is not None:
             self.counts = self.counts + block
@@ -124,7 +124,8 @@ def _width(met: int, tosses: int) -> float:
 
 
 def wanted(counts: list[Count]) -> Iterator[Block]:
-    """Yield the blocks to toss next, of the setting that has fewest first, until none is needed about."""
+    """Yield the blocks to toss next, those of the setting with the fewest first, until about enough are
+    tossed."""
     queue = [(one.blocks, setting) for setting, one in enumerate(counts) if not one.is_enough]
     heapify(queue)
     while queue:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 MOST_PANELS, IN_A_ROW = 30, 3
 OF_THE_HAND = "release.position.z"
-"""What a title tells of a scenario's own release, and is not so of a hand's."""
+"""The field of the scenario's own release that a title leaves out, because the hand releases the coin."""
 _LINES: dict[Engine, Any] = {
     Engine.ANALYTIC: {"linestyle": "-", "marker": "o", "markersize": 3.5},
     Engine.MUJOCO: {"linestyle": "--", "marker": "s", "markersize": 4, "markerfacecolor": "none"},

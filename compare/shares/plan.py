@@ -28,9 +28,9 @@ from cointoss.models.unused import warn_of_unused_fields
 MOST_AXES = 2
 MOST_SETTINGS = 10_000
 MOST_TOSSES = 10_000_000
-"""Of a setting."""
+"""The most tosses of a setting."""
 USUAL_TOSSES = 1000
-"""Of a setting, where neither their number nor the width of an interval is asked for."""
+"""Tosses of a setting where neither their number nor the width of an interval is given."""
 FIELDS = {
     **HAND,
     **{name: unit for name, unit in UNITS.items() if not name.startswith("release.")},
@@ -38,14 +38,14 @@ FIELDS = {
 """What may vary, and its unit: the hand releases the coin, so the scenario's release is of no use."""
 _HIGH = Release(position=(0.0, 0.0, LARGEST))
 _GIVES = {"position": "height", "velocity": "speed", "angular_velocity": "spin"}
-"""What of the hand each part of a release is made of."""
+"""The number of the hand that gives each part of a release."""
 
 
 class GridPoint(NamedTuple):
     """A point of the grid."""
 
     values: tuple[float, ...]
-    """Of the fields that vary, in SI."""
+    """The values of the fields that vary, in SI."""
     scenario: Scenario
     hand: Hand
     place: str
@@ -68,7 +68,7 @@ class Plan:
     engines: tuple[Engine, ...] = (Engine.ANALYTIC,)
     seed: int = 0
     tosses: int = USUAL_TOSSES
-    """Of each setting, at most."""
+    """The most tosses of each setting."""
     to: float | None = None
     """Half the width of a setting's widest interval at which its counting stops; None: it does not."""
     processor: Processor = field(default_factory=Processor, compare=False)
@@ -108,7 +108,7 @@ class Plan:
         return varied or self.hand.caught is not None or self.scenario.ending.caught is not None
 
     def counted(self, counts: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return the counts of which shares are told, (..., 6): a coin that the hand does not catch has none.
+        """Return the counts that enter the shares, (..., 6): a coin that the hand does not catch enters none.
 
         Args:
             counts: of all tosses, by code of `Outcome`, (..., 6).
@@ -157,7 +157,7 @@ def plan_of(
     Args:
         vary: by field a range START:STOP:N, as text or as (START, STOP, N).
         scenario: whose coin is tossed.
-        tosses: of each setting, at most; None: as many as are usual.
+        tosses: the most tosses of each setting; None for the usual number.
         to: as in a plan.
         others: fields of the plan.
 

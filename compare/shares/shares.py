@@ -37,7 +37,7 @@ def shares(
     seed: int = 0,
     device: Device | str = Device.CPU,
 ) -> "xr.Dataset":
-    """Toss a coin by hand many times for each value of a field, and return how often it ends how.
+    """Toss a coin by hand many times for each value of a field, and return how often it ends in each way.
 
         ds = cointoss.shares("zloty", {"restitution": "0.2:0.8:7"}, hand=Hand(speed=3.0), to=0.01)
         ds.share.sel(outcome="edge"), ds.cointoss.table(), ds.cointoss.plot()

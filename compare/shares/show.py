@@ -39,7 +39,7 @@ def outcomes_of(shares: "xr.Dataset") -> list[str]:
 
 
 def alike(shares: "xr.Dataset") -> NDArray[np.float64]:
-    """Return the probability by chance of counts that differ so much between both engines, for each setting.
+    """Return the probability, for each setting, that both engines' counts differ by chance as much as these.
 
     It is that of a χ² test; NaN where an engine tossed nothing. With one engine there is none, (0,).
     """
@@ -101,7 +101,7 @@ def markdown(shares: "xr.Dataset") -> str:
 
 
 def texts_of(values: NDArray[np.float64]) -> list[str]:
-    """Return values in few digits, but so many that no two are alike."""
+    """Return values in as few digits as keep them different from each other."""
     if values.dtype.kind not in "iuf":
         return [str(value) for value in values.tolist()]
     written = ([f"{value:.{digits}g}" for value in values.tolist()] for digits in range(6, 18))

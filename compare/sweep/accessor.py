@@ -77,7 +77,7 @@ def in_codes(dataset: xr.Dataset) -> xr.Dataset:
 
 
 def _named(attributes: Mapping[Any, Any]) -> dict[str, Any]:
-    """Return the attributes of words, whose codes are told no more."""
+    """Return the attributes of words, without those that explain the codes."""
     return {"long_name": attributes["long_name"]}
 
 

@@ -31,7 +31,7 @@ class Source(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Job(PictureStyle):
-    """A map of a scenario, or one by each engine, with what is told of them and how they are drawn."""
+    """A map of a scenario, or one by each engine, with what is printed about them and how they are drawn."""
 
     x: Annotated[str, Form("FIELD=START:STOP:N")]
     """Field that varies along x, and its N values."""

@@ -18,7 +18,7 @@ from cointoss.models.units import in_si, lambda_unit, printed_unit
 from cointoss.models.unlikely import warn_of_unlikely_units
 
 MOST_VALUES = 1_000_000
-"""On one axis: a map of more than 1e12 pixels fits no disk."""
+"""The most values on one axis: a map of more than 1e12 pixels fits no disk."""
 HAND = {f"hand.{name}": unit for name, (_, unit) in QUANTITIES.items()}
 """The SI units of a hand's numbers, by field."""
 NUMBERS = {**UNITS, SPIN: "rad/s"}

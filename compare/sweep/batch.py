@@ -76,7 +76,7 @@ class Batch:
     """With the values of all fields that do not vary."""
     varied: tuple[Varied, ...]
     sizes: dict[str, int]
-    """Of the dimensions, the last varying fastest."""
+    """The lengths of the dimensions, the last varying fastest."""
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -14,7 +14,7 @@ from cointoss.models.distribution import DISTRIBUTION
 Part = TypeVar("Part")
 Tossed = TypeVar("Tossed")
 AHEAD = 2
-"""Parts given out for each thread of a worker: one that it tosses, and one that waits."""
+"""Parts that each thread of a worker gets at a time: one to toss, and one that waits."""
 PATIENCE, PATIENCE_FOR_WORKERS = 10, 60
 """How long to wait for the scheduler, and for a first worker [s]."""
 
@@ -31,7 +31,7 @@ class Workers(Protocol):
 
 @contextmanager
 def cluster(address: str | None, say: Callable[[str], None], way_on: str) -> Iterator[Workers | None]:
-    """Give what has the workers of a cluster toss; None without an address.
+    """Yield what lets the workers of a cluster toss; None without an address.
 
     The workers keep nothing: a part lost with its worker is tossed again by another. A worker tosses on all
     its cores, so one thread for each is enough.
@@ -39,7 +39,7 @@ def cluster(address: str | None, say: Callable[[str], None], way_on: str) -> Ite
     Args:
         address: of the Dask scheduler, such as tcp://10.0.0.1:8786; None to toss here.
         say: called with what is waited for.
-        way_on: what to do where the cluster is lost.
+        way_on: what the user can do if the cluster is lost, as the error says it.
 
     Raises:
         SweepError: if dask.distributed is not installed, or the cluster can't be reached or has no worker;
@@ -63,7 +63,7 @@ def cluster(address: str | None, say: Callable[[str], None], way_on: str) -> Ite
         raise SweepError(
             f"`scheduler` {address}: accepted: the address of a running Dask scheduler ({why})"
         ) from None
-    # A scheduler that is lost is told of in one line.
+    # cointoss reports a lost scheduler itself, in one line.
     logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
     with client:
         if not client.nthreads():
@@ -97,7 +97,7 @@ def cluster(address: str | None, say: Callable[[str], None], way_on: str) -> Ite
 
 @contextmanager
 def naming_loss(address: str, way_on: str) -> Iterator[None]:
-    """Name the cluster in what is raised where it is lost, or what it was asked for, and the way on."""
+    """Raise an error that names the cluster, and the way on, where the cluster is lost or fails."""
     from distributed import CancelledError, KilledWorker
 
     try:
@@ -125,7 +125,7 @@ async def _reach(address: str) -> None:
 
 
 def _room(client: Any) -> int:
-    """Give how many parts may be out at a time."""
+    """Return how many parts may be with the workers at a time."""
     return max(1, AHEAD * sum(client.nthreads().values()))
 
 

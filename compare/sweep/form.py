@@ -1,4 +1,4 @@
-"""The form of a map on disk: all that is not as cointoss writes it is refused before anything is decoded.
+"""The form of a map on disk: a folder not of cointoss's own form is refused before anything is decoded.
 
 A Zarr folder names the codecs that its numbers are decoded by. A foreign one may name any, some of which run
 what they decode, and sizes that fill the memory. Zarr is asked only after this module has accepted a folder.
@@ -20,9 +20,10 @@ from cointoss.models.errors import shown
 from cointoss.models.fields import FIELDS
 
 FORMAT = 1
-"""Of a map, under the attribute `cointoss_map`."""
+"""The version of the form of a map, under the attribute `cointoss_map`."""
 TOSSES_FORMAT = 2
-"""Of a store of tosses, under the attribute `cointoss_tosses`; in 1 its certainties were bools."""
+"""The version of the form of a store of tosses, under the attribute `cointoss_tosses`; version 1 had bools
+for certainties."""
 _MAP, _TOSSES = "cointoss_map", "cointoss_tosses"
 _FORMATS = {_MAP: FORMAT, _TOSSES: TOSSES_FORMAT}
 MARGIN_ALONG = "margin_along"
@@ -32,9 +33,9 @@ TRUST = "trust"
 DESCRIPTION = "zarr.json"
 """Name of the file that describes a map, and of those that describe its arrays."""
 MOST_DESCRIBED = 1 << 20
-"""Bytes of such a file."""
+"""The most bytes of such a file."""
 MOST_IN_TILE = 1 << 20
-"""Pixels of a tile."""
+"""The most pixels of a tile."""
 _ATTRIBUTES = {
     "scenario": str,
     "engine": str,
@@ -72,7 +73,7 @@ class StoreForm(NamedTuple):
     arrays: dict[str, dict[str, Any]]
     """The description of each array, by its name."""
     grid: MapGrid | None
-    """Of a map; None for a store of tosses."""
+    """The grid of a map; None for a store of tosses."""
 
     def has(self, field: str, coordinate: Any) -> bool:
         """Return whether there is a coordinate of a field, of this shape and along these dimensions."""

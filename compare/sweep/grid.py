@@ -25,13 +25,13 @@ if TYPE_CHECKING:
     from cointoss.compare.metrics.margin import ReleaseQuantity
 
 TILE_TOSSES = {Engine.ANALYTIC: 1 << 14, Engine.MUJOCO: 1 << 10}
-"""Most tosses in a tile, which is a file: seconds of work, so that many workers have some."""
+"""The most tosses in a tile, which is a file: seconds of work, so that each of many workers has some."""
 SLOW_TILE_TOSSES = 1 << 6
-"""Where the air is not linear, each toss is thousands of times slower."""
+"""The most tosses in a tile where the air is not linear: each toss is thousands of times slower."""
 MARGIN_TOSSES = 64
-"""Tosses that the margin of a pixel takes, about."""
+"""About how many tosses the margin of a pixel takes."""
 MOST_TILES = 1 << 13
-"""In a map, about; a large one has larger tiles."""
+"""About the most tiles in a map; a large map has larger tiles."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,13 +43,13 @@ class Sweep:
     x: Axis
     y: Axis
     settings: EngineSettings
-    """Of its engine."""
+    """The settings of the engine."""
     after: int | None = None
-    """The map shows the face at the touch after so many impacts; None for the final outcome."""
+    """The map shows the face at the touch after this number of impacts; None for the final outcome."""
     margin: str | None = None
     """Name of the quantity of the release along which each pixel has its margin; with its axis in Greek."""
     trust: bool = False
-    """Whether it is found which pixels can be trusted."""
+    """Whether to find which pixels can be trusted."""
     device: Device = Device.CPU
     """What tosses."""
     name: str = ""

@@ -23,7 +23,7 @@ from cointoss.models.devices import Device
 from cointoss.models.stages import stage
 
 Say = Callable[[str], None]
-"""Called with what is waited for."""
+"""Called with a message on what the command waits for."""
 
 
 def sweeps_of(job: Job, source: Source, x: Axis, y: Axis) -> dict[Path, Sweep]:
@@ -57,7 +57,7 @@ def _engines_of(job: Job) -> dict[Path, Engine]:
 
 
 def make(job: Job, source: Source, command: str, say: Say) -> Iterator[str]:
-    """Make what is asked for, and give the results as text, each as soon as it is there.
+    """Make what is asked for, and yield the results as text, each as soon as it is ready.
 
     Nothing is begun before all is checked that can be.
 

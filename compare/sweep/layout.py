@@ -27,12 +27,12 @@ class Layout:
     """What a store is made of: its dimensions, arrays and coordinates, and what made it."""
 
     sizes: dict[str, int]
-    """Of its dimensions, the last varying fastest."""
+    """The lengths of the dimensions, the last varying fastest."""
     tile: tuple[int, ...]
-    """The lengths of a tile, which is a file of each array, along them."""
+    """The lengths of a tile along the dimensions; a tile is one file of each array."""
     layers: dict[str, AnswerColumn]
     coordinates: dict[str, Coordinate]
-    """By field."""
+    """The coordinates by field."""
     attributes: dict[str, Any]
 
 

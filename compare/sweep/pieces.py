@@ -19,11 +19,13 @@ from cointoss.models.stages import stage
 from cointoss.models.unused import warn_of_unused_fields
 
 FIRST, GROWTH, SECOND = 64, 8, 1.0
-"""Tosses of the first piece; how many times as many the next may have; and the time of one [s]."""
+"""Tosses of the first piece; the factor by which the next may grow; and the time that a piece should take
+[s]."""
 MOST = 1 << 17
-"""Tosses of a piece, whose rows take 50 MB."""
+"""The most tosses of a piece: their rows take 50 MB."""
 LEAST_ON_CARD, MOST_ON_CARD = 1 << 14, 1 << 20
-"""Tosses of a piece that a card makes: fewer leave a part of it idle; the rows of more take over 400 MB."""
+"""The fewest and the most tosses of a piece on a card: fewer leave a part of the card idle; the rows of more
+take over 400 MB."""
 Columns = dict[str, NDArray[Any]]
 """Arrays by the names of answers, or of a map's layers."""
 
@@ -34,14 +36,14 @@ class How:
 
     engine: Engine
     settings: Any
-    """Of the engine."""
+    """The settings of the engine."""
     trust: Trust | None = None
     law: Any = None
     """A `cointoss.OwnLaw` in place of the scenarios' laws."""
     workers: int | None = None
     """Number of threads; by default one for each core."""
     keeps: bool = False
-    """Whether a row that is no scenario is answered as such; else no row is looked at again."""
+    """Whether a row that is no scenario gets the answer "refused"; else the rows are not checked again."""
     processor: Processor = field(default_factory=Processor, compare=False)
     """What tosses, and counts what a card tossed."""
 
@@ -112,7 +114,7 @@ def gather(
         arrays: by name, (n,), `outcome` among them, which holds `NOT_TOSSED`.
         tossed: the numbers of the tosses of each part, and what the arrays have of them.
         name: of the job, for who waits.
-        shown: whether how far it is is shown; None shows it in a terminal or a notebook.
+        shown: whether to show progress; None shows it in a terminal or a notebook.
     """
     count, done = len(arrays["outcome"]), 0
     with stage(name, "tosses", total=count, shown=shown) as progress:
@@ -155,7 +157,7 @@ def pieces(
 
 
 def whole(count: int, most: int = MOST) -> Iterator[NDArray[np.intp]]:
-    """Yield the numbers from 0 up to a count, in parts of at most so many."""
+    """Yield the numbers from 0 up to a count, in parts of at most `most`."""
     for first in range(0, count, most):
         yield np.arange(first, min(first + most, count))
 

@@ -24,11 +24,11 @@ if TYPE_CHECKING:
     import xarray as xr
 
 MOST_READ = 50_000_000
-"""Pixels of a map that is read."""
+"""The most pixels of a map that is read."""
 MOST_NAME = 255
-"""Characters of a scenario's name, as of a file's."""
+"""The most characters of a scenario's name, as of a file's."""
 MOST_TILES = 1_000_000
-"""Tiles of one."""
+"""The most tiles of a map that is read."""
 _ACCEPTED = "accepted: a map that cointoss basin made"
 
 

@@ -23,13 +23,14 @@ from cointoss.models.stages import stage
 
 Numbers = NDArray[np.intp]
 Tosser = Callable[[Iterable[Numbers]], Iterator[tuple[Numbers, Columns]]]
-"""Tosses what has these numbers, each part within a tile, and gives it or parts of it, in any order."""
+"""Makes the tosses with these numbers, each part within a tile, and yields the parts, whole or cut, in any
+order."""
 DRAWING_BYTES_PER_PIXEL = 80
 """Memory that measuring and drawing a map takes, at most."""
 
 
 def toss_here(sweep: Sweep) -> Tosser:
-    """Return what tosses pixels one part after the other, on all cores of this machine."""
+    """Return a `Tosser` of pixels, one part after the other, on all cores of this machine."""
 
     def toss(parts: Iterable[Numbers]) -> Iterator[tuple[Numbers, Columns]]:
         for numbers, answers in pieces(sweep.batch, sweep.how, parts):

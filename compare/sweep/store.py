@@ -279,7 +279,7 @@ def _write_empty(folder: Path, layout: Layout) -> None:
 def _same(path: Path, target: Path, mode: Literal["r", "r+"], layout: Layout) -> Store:
     """Open a store of this layout.
 
-    One of another layout or of other versions is refused: its tosses would be of two kinds.
+    A store of another layout or of other versions raises an error: its tosses would be of two kinds.
     """
     with _readable(path):
         form = read_form(target, len(layout.sizes))
@@ -296,7 +296,7 @@ def _same(path: Path, target: Path, mode: Literal["r", "r+"], layout: Layout) ->
 
 
 def _unlike(form: StoreForm, layout: Layout, path: Path) -> str | None:
-    """Return what of a store is described otherwise than a layout, for a person; None where nothing is."""
+    """Return how a store's description differs from a layout, in words; None where it does not."""
     stored, due = form.attributes, layout.attributes
     try:
         same_scenario = parse(stored["scenario"], str(path)) == parse(due["scenario"], str(path))
@@ -316,7 +316,7 @@ def _unlike(form: StoreForm, layout: Layout, path: Path) -> str | None:
 
 
 def _unlike_values(found: Store, form: StoreForm, layout: Layout) -> str | None:
-    """Return which values or versions of a store are others than those of a layout; None where none are."""
+    """Return which values or versions of a store differ from those of a layout; None where none do."""
     for field, one in reversed(layout.coordinates.items()):
         if not np.array_equal(found.whole(field), one.values, equal_nan=one.values.dtype.kind == "f"):
             return f"grid in {one.dims[0]}"
@@ -340,9 +340,9 @@ def _readable(path: Path) -> Iterator[None]:
 
 @contextmanager
 def _locked(path: Path, target: Path) -> Iterator[None]:
-    """Keep a map for this process; the system lets go of it when the process ends, however it ends.
+    """Keep a map for this process; the system releases the map when the process ends, however it ends.
 
-    The lock is a file beside the map: within, it would be no part of it, and Windows renames no open folder.
+    The lock is a file beside the map: inside, it would be a foreign file, and Windows renames no open folder.
     """
     lock = target.with_name(f".{target.name}.lock")
     with ExitStack() as held:
@@ -357,7 +357,7 @@ def _locked(path: Path, target: Path) -> Iterator[None]:
 
 
 def _unlink(lock: Path) -> None:
-    """Remove a lock's file while it is held; on Windows it goes when it is let go of."""
+    """Remove a lock's file while the lock is held; Windows removes it when the lock is released."""
     with suppress(OSError):
         lock.unlink()
 

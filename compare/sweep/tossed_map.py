@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 MOST_STEPS = 1_000_000_000
-"""Of an engine, in the settings of a map."""
+"""The most steps of an engine in the settings of a map."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -43,7 +43,7 @@ class TossedMap:
     sweep: Sweep
     """The scenario, the axes, the engine with its settings, and which face or outcome is shown."""
     layers: Columns
-    """By name, (ny, nx) each; `outcome` is -1 where no toss was made yet."""
+    """The arrays by name, (ny, nx) each; `outcome` is -1 where no toss was made yet."""
     name: str
     stride: int = 1
     """Every n-th pixel of the sweep is here, along both axes."""
@@ -115,7 +115,7 @@ class TossedMap:
 
 
 def stride_of(shape: tuple[int, ...], most: int) -> int:
-    """Return the least n of which every n-th pixel along both axes are at most so many."""
+    """Return the least n for which every n-th pixel along both axes makes at most `most` pixels."""
     return next(n for n in count(1) if math.prod(-(-side // n) for side in shape) <= most)
 
 
