@@ -13,7 +13,8 @@ from cointoss.models.scenario import Scenario
 
 WIDTHS = {"position": 3, "velocity": 3, "quaternion": 4, "angular_velocity": 3}
 ROUNDING = 1e-4
-"""Of a state against its size: single precision leaves 1e-7, and a quaternion that is not normalised 1e-5."""
+"""The error allowed in a state, relative to its size: single precision leaves 1e-7, and a quaternion that is
+not normalised 1e-5."""
 
 
 def checked_states(scenario: Scenario, times: Array, dt: float | None, answer: Mapping[str, Any]) -> States:

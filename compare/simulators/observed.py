@@ -31,7 +31,8 @@ from cointoss.models.state import State, state
 HELD = 0.3
 """The floor acts in an interval in which it gives more than this part of the weight's impulse."""
 STRUCK = 5.0
-"""It strikes where it gives more than so many times the weight's impulse, and `SLOWEST`."""
+"""An interval holds an impact if the floor gives more than `SLOWEST`, and more than this many times the
+weight's impulse."""
 SLOWEST = 0.02
 """The smallest change of speed that is an impact, against √(g r)."""
 NEAR = 0.1
@@ -48,7 +49,7 @@ class ObservedToss:
 
     scenario: Scenario
     states: States
-    """From the release on, at times close enough to see impacts apart."""
+    """The states from the release on, at times close enough to separate the impacts."""
     told: tuple[Array, Array] | None = None
     """The times of the impacts, (k,) [s], and their impulses, (k, 3) [N s], where the engine gives them."""
     processor_time: float = 0.0
@@ -216,7 +217,7 @@ class Samples:
 
     states: States
     forces: Array
-    """Of the floor in each interval, (n - 1, 3) [N]."""
+    """The force of the floor in each interval, (n - 1, 3) [N]."""
 
     def sample(self, times: Array) -> States:
         """Return the states at `times` [s]."""

@@ -112,7 +112,8 @@ def simulated(engine: Any, scenario: Any, times: np.ndarray, dt: "float | None")
 
 
 def scenario_of(text: str) -> Any:
-    """Return the scenario that is told: cointoss's own, or where that is missing its fields as attributes."""
+    """Return the scenario of a message: a `Scenario` of cointoss, or, without cointoss, its fields as
+    attributes."""
     told = json.loads(text)
     try:
         from cointoss.models.scenario import Scenario

@@ -98,5 +98,5 @@ def path_of(toss: Toss, samples: int, *, with_spin: bool = False) -> dict[str, A
 
 
 def rounded(numbers: Array, digits: int) -> list[float]:
-    """Return numbers with so many significant digits."""
+    """Return numbers with the given number of significant digits."""
     return [float(f"{number:.{digits}g}") for number in numbers.tolist()]

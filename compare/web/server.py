@@ -20,7 +20,8 @@ from cointoss.models.records import UnsupportedError
 
 ADDRESS = "127.0.0.1"
 LONGEST_TARGET = 1500
-"""The longest target of a request, in characters: a map in the lab has a scenario of 54 numbers in it."""
+"""The longest target of a request, in characters: the query for a map of the lab holds a scenario of 54
+numbers."""
 _KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 _HEADERS = {
     "X-Content-Type-Options": "nosniff",
@@ -96,7 +97,7 @@ class PageRequest(BaseHTTPRequestHandler):
         self._client = Client(self.connection, self.protocol_version.encode())
 
     def parse_request(self) -> bool:
-        """Return whether the request is one to be answered; what is not is refused here."""
+        """Return whether the request can be answered; if not, refuse it here."""
         if not super().parse_request():
             return False
         if self.command != "GET":

@@ -1,4 +1,4 @@
-"""Requests that wait for each other, and are given up where their client has gone meanwhile."""
+"""Requests that wait for each other, and that end where their client has gone meanwhile."""
 
 import select
 import socket

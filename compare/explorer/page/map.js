@@ -6,9 +6,9 @@ import { colorsOf, mask, picture } from "./pixels.js";
 
 const SIDE = 32; // of a tile, in its own pixels
 const FINEST = 30;
-const COARSE = 9; // a pixel larger than so many on the screen is cut finer
+const COARSE = 9; // a pixel larger than this on the screen is cut finer
 const KEPT = 400; // tiles
-const AROUND = 10; // a click so near to a dot takes it [px]
+const AROUND = 10; // a click this near to a dot chooses the dot [px]
 
 export function makeMap({ canvas, map, grid, anywhere, tile, onHover, onChoose, onProblem }) {
   const { x, y } = map.axes, nx = x.count, ny = y.count;
@@ -21,7 +21,7 @@ export function makeMap({ canvas, map, grid, anywhere, tile, onHover, onChoose, 
   const drawn = () => picture(codes, columns, rows, colorsOf(map.outcomes));
   let base = drawn();
   const untrusted = map.arrays.untrusted ? mask(Int8Array.from(bytes(map.arrays.untrusted)), columns, rows) : null;
-  // Before the view, which draws anew after it.
+  // Before the view, which draws again after this.
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => (base = drawn()));
 
   const view = makeView({

@@ -98,7 +98,7 @@ export function makeControls(boxes, fields, change) {
   }
   boxes.coin.append(presets);
 
-  // A coin as it is told: with the cylinder's inertia, and its mass centre in the middle.
+  // Sets a coin as described: with the cylinder's inertia, and its mass centre in the middle.
   function preset(coin) {
     const kept = Object.entries(state.scenario).filter(([field]) => !field.startsWith("coin."));
     change({ scenario: { ...Object.fromEntries(Object.entries(coin).map(([key, each]) => [`coin.${key}`, each])), ...Object.fromEntries(kept) } });

@@ -13,7 +13,7 @@ export function spread(scenario, hair) {
   return Float64Array.from({ length: COINS }, (_, i) => middle * (1 + hair * ((2 * i) / (COINS - 1) - 1)));
 }
 
-// Tosses all of them; `toss` returns the toss of a scenario with so many samples.
+// Tosses all coins; `toss` returns the toss of a scenario, with a number of samples.
 export function tossHundred(toss, scenario, hair) {
   const field = variedField(scenario);
   return Promise.all([...spread(scenario, hair)].map((value) => toss({ ...scenario, [field]: value }, SAMPLES)));

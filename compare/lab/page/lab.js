@@ -133,7 +133,7 @@ function take(found, fresh, isOnTheWay = false) {
   show(fresh, isOnTheWay);
 }
 
-// Takes what is other in the state; what is no scenario is told, and nothing changes.
+// Changes the state; where that gives no scenario, says why and changes nothing.
 function change(more, fresh = false) {
   stopGlide();
   ahead = null;

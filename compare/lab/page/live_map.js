@@ -1,4 +1,4 @@
-// The map of the lab: tossed anew while its scenario or its window changes, coarse pixels first.
+// The map of the lab: tossed again whenever its scenario or its window changes, coarse pixels first.
 
 import { indexOf, valueAt } from "./axes.js";
 import { drawCursor, drawHatch, makeView, style } from "./map_view.js";
@@ -10,10 +10,10 @@ const ULP = 2 ** -52;
 const WIDEST = 8; // times the whole map: the widest window
 const FRAME = 80; // [ms] between two pictures of one map
 
-// `fields` has the word and the unit of each field, `outcomes` { color } by code. `told` has what is called: place
+// `fields` has the word and the unit of each field, `outcomes` { color } by code. `told` has callbacks: place
 // and choose, with { x, y, code, trusted }; moved, with both windows; end; progress, with the part that is tossed and
-// whether coarse pixels cover the map; problem, with a message; and, where it is wanted, depth, with a text.
-// `marks` returns what is dotted on it, each with { values } by field and a color.
+// whether coarse pixels cover the map; problem, with a message; and optionally depth, with a text.
+// `marks` returns the dots on the map, each with { values } by field and a color.
 export function makeLiveMap({ canvas, workers, fields, outcomes, marks, told }) {
   let state = null, behind = null, job = null, next = null, drawn = 0, isLast = false, depth = "";
   const identity = { start: 0, stop: 1, count: 2 }; // u and v are the values themselves

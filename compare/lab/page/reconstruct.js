@@ -62,7 +62,7 @@ function disorder(codes, wide, high) {
   return Float32Array.from({ length: wide * high }, (_, at) => sums[2 * at] / Math.max(sums[2 * at + 1], 1));
 }
 
-// Sums of tuples of `size` numbers over so many places to each side, and above and below.
+// Sums of tuples of `size` numbers over `reach` places to each side, and above and below.
 function summed(values, wide, high, size, reach) {
   const made = Float32Array.from(values), sums = new Float64Array(Math.max(wide, high) + 1);
   const along = (from, step, count) => {

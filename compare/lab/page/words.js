@@ -2,7 +2,7 @@
 
 export const counted = (number, thing, things = `${thing}s`) => `${number.toLocaleString("en")} ${number === 1 ? thing : things}`;
 
-// A value in full where few digits tell it, else with ten.
+// A value in full where ten digits suffice, else with ten digits.
 export const shownAs = (value) => String(Number(value.toPrecision(10)));
 
 // On sliders, axes and read-outs alike.

@@ -14,7 +14,7 @@ export function title(axis) {
   return axis.unit ? `${axis.word} [${axis.unit}]` : axis.word;
 }
 
-// A value with as many digits as tell it from the next, `step` away.
+// A value with enough digits to differ from the next value, `step` away.
 export function shown(value, step) {
   const size = Math.max(Math.abs(value), Math.abs(step));
   const digits = size === 0 || step === 0 ? 6 : Math.ceil(Math.log10(size / Math.abs(step))) + 2;

@@ -14,8 +14,8 @@ export const style = (name) => getComputedStyle(document.documentElement).getPro
 // A window is { left, right, bottom, top } in the coordinates u, v of the pixels. `about` has: the canvas; axes(),
 // of { x, y } as in axes.js; whole(), the window of all; hold(window), which keeps one on the map; limits(), the
 // least and the largest part of the whole, { least, most }; paint(pen, at), which draws inside of the axes;
-// and what is called: hover(u, v), choose(u, v), step(columns, rows), about() for where keys zoom, and where they
-// are wanted moved() and end(whether), when the window changes and when it can be no smaller.
+// and callbacks: hover(u, v), choose(u, v), step(columns, rows), about() for where keys zoom, and optionally
+// moved(), when the window changes, and end(whether), when it can be no smaller.
 export function makeView(about) {
   const { canvas, axes, whole, hold = (window) => window, limits, paint } = about;
   let window_ = whole(), glide = null, waiting = 0, drag = null, pinch = null;

@@ -52,9 +52,9 @@ export function makeSpan(tosses) {
   return span;
 }
 
-// Puts a plot into a box. `about` has: title, unit, lines of { name, kind, time, values }; and where wanted
+// Puts a plot into a box. `about` has: title, unit, lines of { name, kind, time, values }; and optionally
 // height, log, range (both ends, or from which value on), at (ticks of [value, text]), levels of { value, text },
-// dots of { kind, time, values }, marks (times), and bars of { time, text } and where wanted kind.
+// dots of { kind, time, values }, marks (times), and bars of { time, text } and optionally kind.
 export function makePlot(box, about, span) {
   const { title, unit = "", lines, height = 290, levels = [], dots = [], marks = [], bars = [] } = about;
   const svg = element("svg", { role: "img", tabindex: "0", height, "aria-label": label(about) });
