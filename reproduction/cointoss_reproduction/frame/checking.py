@@ -36,13 +36,13 @@ class Run:
 
     claims: tuple[Claim, ...]
     cells: pd.DataFrame
-    """Its table, an empty one where it has none."""
+    """The table of the run, empty where it has none."""
     made_of: Mapping[str, Any] | None
-    """See `provenance`; None of an earlier run."""
+    """What the run was made of, see `provenance`; None for runs that did not keep it."""
 
     @property
     def named(self) -> dict[str, Claim]:
-        """The claims by their words, alike ones numbered."""
+        """The claims by their words; claims with the same words are numbered."""
         seen, claims = Counter[str](), dict[str, Claim]()
         for one in self.claims:
             seen[one.claim] += 1
@@ -196,7 +196,7 @@ def _as_many(place: str, there: Any, here: Any, what: str) -> Iterator[Compared]
 def compared(
     place: str, there: Any, here: Any, *, exact: bool, beside: float = 0.0, small: float = 0.0
 ) -> Compared:
-    """Return how a number, an estimate or a word of two runs compares, with what it may differ by.
+    """Return how a number, an estimate or a word of two runs compares, with its tolerance.
 
     Neither run is preferred: exchanged, they agree in the same places.
 

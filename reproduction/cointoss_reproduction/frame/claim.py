@@ -37,7 +37,7 @@ class Criterion:
     relation: Relation
     threshold: int | float
     reason: str
-    """Why this is the threshold."""
+    """Why the threshold has this value."""
 
     @property
     def is_met(self) -> bool | None:

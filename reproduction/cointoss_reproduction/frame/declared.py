@@ -21,11 +21,11 @@ if TYPE_CHECKING:  # names are listed without it
     from matplotlib.figure import Figure
 
 Data = dict[str, NDArray[Any]]
-"""Arrays by name."""
+"""The data of pictures: arrays by name."""
 OPEN = "open"
 """The verdict that a declaration expects of a claim which cannot be tested."""
 UNITS = {"cm": 1e2, "mm": 1e3, "µm": 1e6, "ms": 1e3, "µs": 1e6}
-"""How many make an SI unit."""
+"""Units by name: how many of them make an SI unit."""
 SELECTING = ("claim", "measure", "table", "picture")
 """What a declaration says of its results."""
 _WORDS = ("claim", "headline", "analytic", "mujoco", "missing")

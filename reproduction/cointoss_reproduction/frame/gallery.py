@@ -36,9 +36,10 @@ class MainClaim:
     says: str
     """The claim in a sentence."""
     sources: Sequence[tuple[str, str]]
-    """Names of what tests it, each with its picture; the first that was reproduced is shown."""
+    """Names of the figures or studies that test the claim, each with its picture; the first that was
+    reproduced is shown."""
     number: int = 0
-    """Which of its headlines, from 0."""
+    """The number of the headline among those of that test, from 0."""
 
 
 MAIN = (

@@ -12,9 +12,9 @@ from cointoss_reproduction.frame.files import PAGE
 from cointoss_reproduction.frame.result import Reproduction, Result
 
 MOST_IN_TITLE = 100
-"""Letters of a claim that a title holds."""
+"""The most letters of a claim that a title holds."""
 MOST_ROWS = 5
-"""Of a table of what was measured; a longer one is folded below a heading."""
+"""The most rows of an open table of measurements; a longer table is folded below a heading."""
 _PLURAL = {True: "hold", False: "do not hold", None: "cannot be tested"}
 
 

@@ -14,7 +14,7 @@ from cointoss.study import code_digest, fingerprints, read_bounded, versions_of
 from cointoss_reproduction.frame.files import CLAIMS, MOST_BYTES, PROVENANCE, TABLE
 
 PACKAGES = ("mujoco", "numpy", "scipy")
-"""Those whose numbers a result is made of."""
+"""The packages from whose numbers a result is made."""
 _OUTPUTS = (CLAIMS, TABLE)
 _BOOK = Path(__file__).parents[1]
 

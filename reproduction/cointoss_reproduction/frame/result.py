@@ -33,7 +33,8 @@ class Reproduction:
     seconds: float
     """Roughly how long it takes on two cores [s]."""
     make: Callable[..., Result]
-    """Computes it, from a `Progress`; one that `resumes`, with a folder `kept` of what was done before."""
+    """Computes the result, from a `Progress`; if it `resumes`, also from a folder `kept` with the work done
+    before."""
     read: Callable[[Path], Result] | None = None
     """Reads what a run of it left in its folder, where that is more than claims."""
     draw: "Mapping[str, Callable[[Any], Figure]]"

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from cointoss_reproduction.frame.result import Reproduction, Result
 
 PARTS = "parts"
-"""Holds what an interrupted run had done."""
+"""The folder with the finished part of an interrupted run."""
 
 
 def names() -> list[str]:

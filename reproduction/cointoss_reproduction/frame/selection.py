@@ -44,7 +44,7 @@ TAKEN = {
 }
 """The functions that make one number of several."""
 COLORS = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY, INK, GREY)
-"""Of the lines of a picture."""
+"""The colours of the lines of a picture."""
 
 
 def selected(cells: pd.DataFrame, said: Declared) -> pd.DataFrame:
@@ -61,15 +61,16 @@ def _added(rows: pd.DataFrame, per: list[str]) -> pd.DataFrame:
 
 
 def measured(cells: pd.DataFrame, said: Declared) -> Any:
-    """Return what a measure selects: one number or estimate, or several by what tells their rows apart.
+    """Return what a measure selects: one number or estimate, or several by what distinguishes their rows.
 
     A measure has `value`, a column or an expression of columns, or `share`, the columns of a part and of its
-    whole; of a part of which some is open `share` has those of what is known, of that with all that is open,
-    and of the whole, and its interval goes from the low end of the one to the high end of the other. Of them
-    `less` is subtracted, a number or, without `take`, a column of the row; `take` makes one of `TAKEN` of all
-    rows, or of those of each `key`. `key` has the columns that name the rows, by default none where one row
-    is selected. `alike` has columns of counts: the probability by chance that rows of the same `key` differ
-    as they do. A row of another cell, which has no such value, is not selected.
+    whole. If some of the part is undecided, `share` has three columns: the part that is known, the part with
+    all that is undecided, and the whole; the interval then goes from the low end of the first share to the
+    high end of the second. `less` is subtracted: a number or, without `take`, a column of the row. `take`
+    names one of `TAKEN`, which makes one number of all rows, or of the rows of each `key`. `key` has the
+    columns that name the rows, by default none where one row is selected. `alike` has columns of counts: the
+    probability by chance that rows of the same `key` differ as they do. A row of another cell, which has no
+    such value, is not selected.
 
     Raises:
         ValueError: where nothing is selected.
@@ -129,7 +130,7 @@ def _names(rows: pd.DataFrame, columns: list[str]) -> list[str]:
 
 
 def _name(key: Any) -> str:
-    """Return what tells a row apart, in words."""
+    """Return what distinguishes a row from the others, in words."""
     parts = key if isinstance(key, tuple) else (key,)
     return ", ".join(f"{one:g}" if isinstance(one, float) else str(one) for one in parts)
 

@@ -8,7 +8,7 @@ from os import cpu_count
 
 @contextmanager
 def all_cores() -> Iterator[ThreadPoolExecutor]:
-    """Give a pool of as many threads as there are cores; what it has not begun at its end is given up."""
+    """Yield a pool with a thread for each core; at its end it cancels the work that it has not begun."""
     pool = ThreadPoolExecutor(cpu_count())
     try:
         yield pool

@@ -13,9 +13,9 @@ from cointoss_reproduction.setups.ends import ends_of
 
 SEED = 1993
 DIAMETER, THICKNESS, MASS = 21.21e-3, 1.95e-3, 5e-3
-"""Of the US nickel [m, m, kg]; the other coins are as wide, and of its metal."""
+"""The US nickel [m, m, kg]; the other coins have its width and its metal."""
 NICKEL = THICKNESS / DIAMETER
-"""Its h/D."""
+"""h/D of the nickel."""
 PUBLISHED = 1 / 6000
 """Murray and Teare's share of a nickel's tosses on edge."""
 DIAMETRAL, WOBBLING = HANDS = ("about a diameter", "as people")
@@ -27,7 +27,7 @@ BASE: dict[str, Any] = {
     "rolling_friction": 1e-4,
     "pivoting_friction": 1e-4,
 }
-"""The floor where nothing else is said."""
+"""The floor by default."""
 AS_SAID, FREE, RESISTING = "as said", "δ = p = 0", "δ = p = 1 mm"
 FACTORS: dict[str, dict[str, Any]] = {
     AS_SAID: {},
@@ -45,7 +45,7 @@ FACTORS: dict[str, dict[str, Any]] = {
     "40 rad/s": {"hand": {"spin": 40.0}},
     "250 rad/s": {"hand": {"spin": 250.0}},
 }
-"""What is other than χ = 0.5, μ = 0.3, δ = p = 0.1 mm, from 1 m with 120 rad/s, in air."""
+"""What differs from χ = 0.5, μ = 0.3, δ = p = 0.1 mm, a release at 1 m with 120 rad/s, in air."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,12 +53,12 @@ class EdgeClass:
     """A coin, its air and floor, and the hand that tosses it."""
 
     name: str
-    """Of the class; its draws follow from it."""
+    """The name of the class, which also seeds its draws."""
     aspect: float = NICKEL
     """h/D."""
     hand: Hand
     floor: Mapping[str, Any]
-    """What is other than in `BASE`."""
+    """What differs from `BASE`."""
     air: bool = True
 
     @property

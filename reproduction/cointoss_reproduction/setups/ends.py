@@ -1,4 +1,4 @@
-"""How many tosses end how, as a row of a study's table."""
+"""How many tosses end in each way, as a row of a study's table."""
 
 from collections.abc import Sequence
 

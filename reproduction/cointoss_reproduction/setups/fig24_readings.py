@@ -23,7 +23,7 @@ PRINTED = {
 """The sequences of section 5.1; impacts between two ∘ are read as a cluster."""
 MARK = "∘"
 BEGINNING = "H∘HHH∘"
-"""Of all six."""
+"""The beginning of all six sequences."""
 CLUSTER = 0.03
 """Impacts within this time of each other cannot be distinguished in the scale of Fig. 24 [s]."""
 NEARBY = (0.39, 0.41)
@@ -31,7 +31,7 @@ NEARBY = (0.39, 0.41)
 APART = 1e-5 * np.arange(6)
 """Heights of the six tosses above the first [m]."""
 IMPACTS = 18
-"""Of the longest printed sequence."""
+"""The number of impacts of the longest printed sequence."""
 COINS = {
     "ideal, 2 mm": (2e-3, 0.0),
     "ideal, thin": (0.0, 0.0),
@@ -49,7 +49,7 @@ class Reading:
     """A coin and a floor that Fig. 24 may mean."""
 
     coin: str
-    """One of `COINS`."""
+    """The coin: one of `COINS`."""
     law: ContactLaw
     friction: float
 

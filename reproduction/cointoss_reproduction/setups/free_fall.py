@@ -9,5 +9,5 @@ MODELS = {
     "2D imperfect": ("fig18_2d_imperfect", SKY),
     "2D ideal": ("fig18_2d_ideal", VERMILION),
 }
-"""Their scenarios and colours."""
+"""The scenarios of the models, and their colours."""
 MEDIA = {"vacuum": Air(), "air": Air(normal=0.8, tangential=0.2)}

@@ -20,7 +20,7 @@ def states_of_hands(
         hands: how many.
         each: tosses of each hand.
         spread: standard deviation of each quantity of a release, relative to the hand's habit.
-        aside: the habit's spins about ξ and ζ are up to so much [rad/s].
+        aside: the largest of the habit's spins about ξ and ζ [rad/s].
     """
     habits = np.column_stack(
         [rng.uniform(low, high, hands) for low, high in (HEIGHTS, SPEEDS, (-aside, aside), SPINS)]

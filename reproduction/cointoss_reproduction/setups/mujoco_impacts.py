@@ -13,11 +13,11 @@ from cointoss_reproduction.setups.general_coins import PAPER_OFFSET
 CLEARANCE = 1e-9
 """Height of the lowest rim point at release [m]: nothing happens on the way down."""
 AT_ONCE = 1e-7
-"""A touch comes so soon after the release [s]."""
+"""The longest time from the release to the touch [s]."""
 ALONE = 1e-4
-"""No second rim point may land so soon after the first [s]."""
+"""The time after the first touch in which no second rim point may land [s]."""
 SLOWEST = 0.3
-"""The contact point comes down at least so fast [m/s]."""
+"""The least speed at which the contact point comes down [m/s]."""
 
 
 def touch(

@@ -38,9 +38,9 @@ class Grid:
     """Points of a map: every spin with every height."""
 
     heights: Array
-    """(x) [m]."""
+    """The heights, (x) [m]."""
     spins: Array
-    """(y) [rad/s]."""
+    """The spins, (y) [rad/s]."""
 
     def rows(self, scenario: Scenario) -> Array:
         """Return the tosses of all points, line by line, as rows, (y x, 54)."""
@@ -54,7 +54,7 @@ class Grid:
 
 
 def whole_grid(points: int) -> Grid:
-    """Return the grid of a whole map with so many points along each side."""
+    """Return the grid of a whole map with a given number of points along each side."""
     return Grid(heights=np.linspace(*HEIGHTS, points), spins=np.linspace(*SPINS, points))
 
 
@@ -87,7 +87,7 @@ def case(*, air: bool, restitution: float = 0.6, max_impacts: int | None = None)
     Args:
         air: whether there is any.
         restitution: χ.
-        max_impacts: as many as that end a toss, by default those of the scenario.
+        max_impacts: the number of impacts that ends a toss, by default the scenario's.
     """
     scenario = load("fig29")
     medium, most = scenario.air if air else Air(), max_impacts or scenario.ending.max_impacts

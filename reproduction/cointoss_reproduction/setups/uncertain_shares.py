@@ -24,13 +24,14 @@ CHIS = {
     AIR: (0.3, 0.6, 0.8),
     ROUGH: (0.3, 0.6),
 }
-"""By floor and medium. A rough floor adds energy above χ = √5/3, and a face is then never settled."""
+"""Restitutions by floor and medium. A rough floor adds energy above χ = √5/3, and a face is then never
+settled."""
 CEILING = 0.75
 """f where three tosses have nothing to do with each other: the chance that fair coins do not all agree."""
 FEWEST = 5
 """Groups of ancestors whose boundaries are counted."""
 LEAST = 1e-300
-"""In the place of a share that no ancestor met."""
+"""The least share, in place of 0 where no ancestor has an uncertain toss."""
 
 
 @cache
