@@ -34,7 +34,8 @@ PREFERENCES = (0, 2, 5)
 LITTLE = 1.0
 """Energy left below which a part is preferred no less [m g r]; nothing diverges below it."""
 EARLY = (4, 4, 3, 3, 2, 2)
-"""How many times the population there is at the first levels: most of the scatter comes of ancestors."""
+"""The factor by which the population is larger at the first levels: most of the scatter comes from
+ancestors."""
 NEAR = 1e-3
 """A coin this near stands or lands flat [m g r, rad]."""
 NARROWEST = 1e-30
@@ -52,11 +53,11 @@ class Branches:
     parted: Array
     """Share of the tosses that diverge from the toss one ε away, (GROUPS, n)."""
     energy: Array
-    """That is left where they part, times this share [m g r], (GROUPS, n)."""
+    """The energy left where those tosses diverge, times their share [m g r], (GROUPS, n)."""
     boundaries: NDArray[np.int64]
     """Boundaries that were drawn by weight among those of all groups, and resolved, (GROUPS, n)."""
     flat: NDArray[np.int64]
-    """Those of them at which a coin lands flat, not one that stands, (GROUPS, n)."""
+    """The boundaries among these at which a coin lands flat, not those at which it stands, (GROUPS, n)."""
     tosses: int
     undecided: int
 
@@ -66,9 +67,9 @@ class Expanded:
     """An interval of release cut into parts, and what the tosses from their ends do."""
 
     points: list[PlanarRelease]
-    """Releases, (PARTS + 1,)."""
+    """The releases at the ends of the parts, (PARTS + 1,)."""
     outcomes: NDArray[np.int8]
-    """Theirs, (PARTS + 1,)."""
+    """The outcomes of these releases, (PARTS + 1,)."""
     lives: NDArray[np.bool_]
     """Whether the tosses from the ends of a part have diverged, (PARTS,)."""
     energy: Array
@@ -160,7 +161,7 @@ def branch(
 
 
 def _of(chosen: NDArray[np.bool_], releases: list[PlanarRelease], *numbers: Any) -> tuple[Any, ...]:
-    """Return the chosen ones of several lists."""
+    """Return the chosen entries of several lists."""
     return list(compress(releases, chosen)), *(each[chosen] for each in numbers)
 
 
@@ -193,10 +194,10 @@ def expand(coin: PlanarCoin, units: Units, quantity: str, step: Fraction, parent
 def what_lies_there(
     coin: PlanarCoin, units: Units, quantity: str, width: Fraction, low: PlanarRelease
 ) -> tuple[bool, bool]:
-    """Return whether at a boundary in an interval lies a coin that stands, and one that lands flat.
+    """Return whether a coin at a boundary in an interval stands, and whether it lands flat.
 
-    The boundary is found by bisection. The tosses at its sides come as near to standing, or to landing flat,
-    as they have been stretched apart; where that is not near neither is known.
+    The boundary is found by bisection. The tosses at its sides come as near to standing, or to
+    landing flat, as they have been stretched apart; where they come near to neither, nothing is known.
 
     Args:
         coin: the coin.

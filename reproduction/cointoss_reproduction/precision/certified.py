@@ -1,4 +1,4 @@
-"""Planar tosses whose face is proved, one of them or all about it, or which are undecided.
+"""Planar tosses whose face is proved, one toss or all tosses near it, or which are undecided.
 
 More bits decide what is undecided, but for tosses on a boundary.
 """
@@ -16,7 +16,7 @@ from cointoss_reproduction.precision.planar_toss import UNTIL_SETTLED, PlanarTos
 from cointoss_reproduction.precision.taylor_models import ORDER, UndecidedError, varying
 
 LEAST = Fraction(1, 2**40)
-"""Part of a change that is still tried."""
+"""The least part of a change that is tried."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,7 +26,7 @@ class Certified:
     outcome: Outcome
     """Heads or tails, proved; else undecided."""
     impacts: tuple[Impact, ...]
-    """Those that are proved to happen, in this order."""
+    """The impacts that are proved to happen, in this order."""
     energy: Any
     """An enclosure of the energy with which it was settled [m g r]; see `planar_toss.PlanarToss`."""
     bits: int
@@ -79,7 +79,7 @@ def outcome_within(
         coin: in vacuum.
         units: of it.
         release: the one in their middle.
-        change: those are meant that are this one times -1 to 1 away.
+        change: the largest; the releases differ from the middle by this change times -1 to 1.
         bits: of the proof.
         ending: what ends a toss before its face is settled.
 

@@ -19,11 +19,11 @@ class Magnified:
     """What windows about a boundary show, each a tenth as long as the one before."""
 
     counts: NDArray[np.int64]
-    """Boundaries in each, (n,)."""
+    """The number of boundaries in each window, (n,)."""
     from_upright: Array
     """How near to standing the tosses at its two sides came in their last contact, (n, 2) [m g r]."""
     impacts: NDArray[np.int64]
-    """Of these, (n, 2)."""
+    """The number of impacts of these two tosses, (n, 2)."""
 
     @property
     def isolated_from(self) -> int | None:

@@ -27,7 +27,8 @@ class PlanarCoin(NamedTuple):
     slowing: Fraction
     """d_t/J_ξ: at this rate air slows the spin."""
     sliding_share: float
-    """Of the energy of horizontal motion, what air can still turn into height; see `cointoss.models.drag`."""
+    """The part of the energy of horizontal motion that air can still turn into height; see
+    `cointoss.models.drag`."""
 
 
 class Units(NamedTuple):
@@ -40,14 +41,14 @@ class Units(NamedTuple):
 
 
 class PlanarRelease(NamedTuple):
-    """A release of a coin at rest but for its spin, or how far one is from another."""
+    """A release of a coin at rest but for its spin, or the difference of two such releases."""
 
     height: Fraction = Fraction(0)
-    """Of C [m]."""
+    """The height of C [m]."""
     spin: Fraction = Fraction(0)
-    """[rad/s]."""
+    """The spin [rad/s]."""
     tilt: Fraction = Fraction(0)
-    """Within ±π/2 [rad]."""
+    """The tilt, within ±π/2 [rad]."""
 
 
 _REFUSED = ("restitution_threshold", "restitution_exponent", "restitution_viscous", "slope")
@@ -102,6 +103,6 @@ def units(scenario: Scenario) -> Units:
 
 
 def square_root(number: Fraction, bits: int = 400) -> Fraction:
-    """Return the square root to so many bits."""
+    """Return the square root to a given number of bits."""
     shifted = number * 4**bits
     return Fraction(isqrt(shifted.numerator // shifted.denominator), 2**bits)

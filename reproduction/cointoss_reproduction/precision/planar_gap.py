@@ -9,13 +9,13 @@ from flint import arb, arb_poly, ctx
 from cointoss_reproduction.precision.taylor_models import UndecidedError
 
 MOST_STEPS = 20_000
-"""Of the search for a touch."""
+"""The most steps of the search for a touch."""
 NEAR = 1e-9
-"""Below this gap, and what it is uncertain by, a zero is enclosed by the gap's falling."""
+"""Below this gap, plus its uncertainty, a zero is enclosed from the rate at which the gap falls."""
 TINY = 2.0**-43
-"""An angle below it is turned by the first term of its series [rad]."""
+"""For an angle below this the first term of the series is used [rad]."""
 NEWTON_STEPS = 12
-"""That the middle of an enclosure takes at most."""
+"""The most Newton steps for the middle of an enclosure."""
 _DOUBLINGS = 100
 
 

@@ -22,18 +22,19 @@ from cointoss_reproduction.precision.taylor_models import UndecidedError
 
 BITS = 128
 ORDER = 24
-"""Of a series in time in a contact."""
+"""The order of a series in time in a contact."""
 STEP, SLOW = 0.15, 0.4
 """A series is used for as long as the coin turns by the first angle, at the second rate above its own."""
 MOST_STEPS = 2000
 NEWTON_STEPS = 60
 CHATTERING, CHATTERING_ROUGH = 1e-10, 1e-15
-"""The coin stays on the floor when all bounces to come last so short against what else changes. Contact errs
-by the third power of it on a smooth floor, by the second on a rough one."""
+"""The coin stays on the floor when all bounces to come are this short, compared with the other motion. The
+error of contact grows as its third power on a smooth floor, as its second power on a rough floor."""
 COMPARED = 400
-"""Touches that are compared with those of a neighbour, at most."""
+"""The most touches that are compared with those of a neighbour."""
 APART = 0.1
-"""Two tosses have diverged when height, velocity and spin differ by so much in all, or the faces do."""
+"""Two tosses have diverged when height, velocity and spin together differ by this much, or the faces
+differ."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,11 +42,12 @@ class Toss:
     """How a toss went."""
 
     outcome: Outcome
-    """Heads or tails; undecided where a limit was met."""
+    """Heads or tails; undecided where a limit was reached."""
     impacts: tuple[Impact, ...]
-    """All, those of bounces that die away included."""
+    """All impacts, including those of bounces that die away."""
     contacts: tuple[tuple[int, ...], ...]
-    """Those that lasted: how many impacts came before, and the rim points that left the floor, if any."""
+    """The contacts that lasted: how many impacts came before, and the rim points that left the floor, if
+    any."""
     energy: float
     """With which it was settled [m g r]: after its last impact, or in the contact that came before lying."""
     from_upright: float
@@ -131,7 +133,7 @@ class NumericToss(PlanarToss):
             self.flattest = min(self.flattest, abs(float(state.tilt)))
 
     def is_over(self, e: Any) -> bool:
-        """Return whether a coin in flight is settled, and nothing more is wanted of it."""
+        """Return whether a coin in flight is settled, and need not be followed further."""
         return e < 1 and not self.to_contact
 
     def chatter(self, state: State, corner: int) -> Any:

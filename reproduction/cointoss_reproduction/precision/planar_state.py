@@ -22,11 +22,11 @@ class Impact(NamedTuple):
     corner: int
     """The rim point that touches, 1 or -1: it lies at `corner` (cos θ, sin θ) from C."""
     impulse: Any
-    """Upward."""
+    """The impulse, upward."""
     state: tuple[Any, Any, Any]
     """Height of C, its velocity and the spin, after the impact."""
     energy: Any
-    """After the impact."""
+    """The energy after the impact."""
 
 
 @dataclass
@@ -40,7 +40,7 @@ class State:
     u: Any
     heads: bool = True
     time: Any = field(default_factory=arb)
-    """At most so long after the release; of a coin in vacuum."""
+    """An upper bound of the time since the release, for a coin in vacuum."""
 
     def let(self, change: Callable[[Any], Any]) -> None:
         """Change each number."""
@@ -55,7 +55,7 @@ def ball(number: Fraction) -> Any:
 
 @contextmanager
 def precision(bits: int, order: int) -> Iterator[None]:
-    """Compute with so many bits, and with series of so many coefficients."""
+    """Compute with these numbers of bits, and of coefficients of series."""
     before = ctx.prec, ctx.cap
     ctx.prec, ctx.cap = bits, order
     try:

@@ -21,15 +21,15 @@ from cointoss_reproduction.precision.taylor_models import TaylorModel, Undecided
 
 MOST_IMPACTS = 5000
 MOST_TURNED = 5000
-"""By a flight [rad]."""
+"""The largest turn in a flight [rad]."""
 SLAPS = 1000
-"""Impacts of a flat coin on its two rim points in turn, at most."""
+"""The most impacts of a flat coin on its two rim points in turn."""
 IN_HAND = 0
 """No rim point: the coin is caught."""
 TURN = 4.0
-"""At most this angle is flown on one series in air [rad]."""
+"""The largest turn on one series in air [rad]."""
 TERMS = 8
-"""Of a series, after which it is seen whether they suffice."""
+"""After each group of this many terms of a series the toss checks whether they suffice."""
 UNTIL_SETTLED = PlanarEnding()
 
 
@@ -46,7 +46,7 @@ class PlanarToss:
         self.hand, self.max_time = (None if x is None else ball(x) for x in (ending.caught, ending.max_time))
         self.impacts: list[Impact] = []
         self.contacts: list[tuple[int, ...]] = []
-        """Those that lasted: how many impacts came before, and the rim points that leave the floor."""
+        """The contacts that lasted: how many impacts came before, and the rim points that leave the floor."""
         self.last_energy: Any = None
         """With which the toss was settled [m g r]: after its last impact, or in contact before it lay."""
 
@@ -130,7 +130,7 @@ class PlanarToss:
         return self.push(state, corner, -(1 + self.chi) * down)
 
     def push(self, state: State, corner: int, wanted: Any) -> Any:
-        """Change a rim point's vertical velocity by what is wanted; a rough floor stops it aside, too.
+        """Change a rim point's vertical velocity by a given amount; a rough floor also stops it sideways.
 
         Returns:
             The upward impulse.

@@ -14,9 +14,10 @@ from typing import Any
 from flint import arb, arb_series
 
 ORDER = 2
-"""Of the remainder; of more orders the toss of a margin has no use, as its touches change places first."""
+"""The order of the remainder; a higher one would not help margins, because touches change their order
+first."""
 ACROSS = arb(0, 1)
-"""All p."""
+"""The enclosure of all p."""
 
 
 class UndecidedError(Exception):
