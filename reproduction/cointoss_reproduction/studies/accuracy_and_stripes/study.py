@@ -17,15 +17,15 @@ SEED = 53
 LADDER = np.geomspace(1e-10, 0.1, 91)
 """Steps of the height by which a boundary is sought, 10 in a decade [m]."""
 RATIOS = 10.0 ** np.arange(-2, 5)
-"""ε over W."""
+"""The ratios ε/W."""
 W_100, TEN = "0.01", "10"
-"""Names of two of them."""
+"""The names of two of these ratios."""
 WIDEST = 0.1
 """Largest ε [m]: the release must stay above the floor."""
 HAND = 1e-3
 """An accuracy that a hand may reach [m]."""
 FEWEST = 5
-"""Tosses from which a ratio is given."""
+"""The fewest tosses for which a ratio is given."""
 
 
 def released(centers: int = 200, count: int = 60) -> Iterator[dict[str, Any]]:

@@ -23,17 +23,17 @@ SEED = 71
 ASIDE = (0.0, 0.01, 0.1, 1.0, 3.0, 10.0, 20.0)
 """Spins about ζ that are added to that about ξ, first none [rad/s]."""
 NONE, LITTLE, SHOWN = "0", "0.01", "10"
-"""Those of `ASIDE` whose effect is shown."""
+"""The spins of `ASIDE` whose effect is shown."""
 HEIGHTS_OF_DROP = (0.015, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0)
-"""From which coins spin with `DROP_SPINS` [m]."""
+"""The heights from which coins spin with `DROP_SPINS` [m]."""
 LOWEST, MIDDLE, HIGHEST = "0.015", "0.2", "1"
-"""Those of them that are shown."""
+"""The heights of drop that are shown."""
 DROP_SPINS = (2.0, 20.0)
-"""[rad/s]"""
+"""The spins of the coins that are dropped [rad/s]."""
 FOLLOWED, IMPACTS = 6, 3
-"""Tosses whose places are compared with MuJoCo's, and through so many impacts."""
+"""How many tosses are compared with MuJoCo's in position, and through how many impacts."""
 ACCURACY = 1e-6
-"""By which the height of nearby tosses differs [m]."""
+"""The difference in height of nearby tosses [m]."""
 
 
 def tossed(count: int = 2000, tosses_mujoco: int = 200) -> Iterator[dict[str, Any]]:

@@ -5,9 +5,9 @@ import numpy as np
 from cointoss.study import Array, Body, Rules, strike
 
 SPEED = 1.0
-"""Of C, along each axis at most [m/s]."""
+"""The largest velocity of C along each axis [m/s]."""
 SPIN = 100.0
-"""About each axis of the body at most [rad/s]."""
+"""The largest spin about each axis of the body [rad/s]."""
 
 
 def draw_states(body: Body, rules: Rules, count: int, rng: np.random.Generator) -> Array:

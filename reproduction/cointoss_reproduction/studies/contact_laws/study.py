@@ -46,7 +46,7 @@ RESTITUTIONS = {f"χ = {tenth / 10:g}": tenth / 10 for tenth in range(1, 11)}
 SUFFICIENT = tuple(round(0.05 * step, 2) for step in range(61))
 """Frictions of floors in whose cone impulses may lie."""
 FRICTIONS = (0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0)
-"""With which onsets are searched."""
+"""Frictions with which onsets are searched."""
 UNSOLVED = (0.5, 1.0, 1.5, 2.0, 3.0)
 """Frictions with which sliding_friction may have no solution."""
 ROUNDING = 1e-12
@@ -75,7 +75,7 @@ class Drawn:
     body: Body
     states: Array
     friction: Array
-    """From 0 to 1, (n,)."""
+    """The friction of each impact, drawn from 0 to 1, (n,)."""
 
 
 @cache

@@ -47,9 +47,9 @@ CHIS = {f"χ = {chi:g}": chi for chi in (0.0, 0.2, 0.4, 0.6, 0.8)}
 CURVE = {DIAMETRAL: 2400, WOBBLING: 120}
 """Tosses of each coin and restitution, by hand."""
 MOST, SOME = {DIAMETRAL: 100_000, WOBBLING: 2000}, {DIAMETRAL: 8000, WOBBLING: 500}
-"""Tosses of the nickel as said, and with something other, by hand."""
+"""Tosses of the nickel as described, and with one thing changed, by hand."""
 SCATTERS = (0.1, 0.3, 1.0, 3.0, 30.0)
-"""Of ψ [deg]."""
+"""Standard deviations of ψ [deg]."""
 BY_MUJOCO = {DIAMETRAL: 1000, WOBBLING: 100}
 """Tosses of each class by MuJoCo, by hand, twice as many of a square; the analytic engine makes 4 times as
 many."""
@@ -107,7 +107,7 @@ def followed(parts: int = 1) -> Row:
 
 
 def touching(turned: str, touches: int = 4000) -> Row:
-    """Look at first touches of coins that are turned so, on a floor without rebound; let some go at rest."""
+    """Toss coins that turn in one way to a first touch on a floor without rebound; let some go at rest."""
     aspect, law, formula = LAWS[turned]
     kind = EdgeClass(name=turned, aspect=aspect, hand=hand_of(DIAMETRAL), floor={"restitution": 0.0})
     rng = np.random.default_rng(SEED)

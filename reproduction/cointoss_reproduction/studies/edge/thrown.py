@@ -18,18 +18,18 @@ throws at frankforce.com/?p=5559.
 """
 SHAPES = {f"h/D = {float(aspect):.3f}": aspect for aspect in QUOTED}
 THROWS, AS_QUOTED = 1000, "quoted of 1,000 throws each"
-"""Of each of the two coins, and what the table calls them."""
+"""How often each of the two coins was thrown, and what the table calls the throws."""
 CHIS = (0.0, 0.05, 0.1, 0.2, 0.3, 0.5)
 FLOORS: dict[str, tuple[str, dict[str, Any]]] = {
     **{f"χ = {chi:g}": (WOBBLING, {"restitution": chi}) for chi in CHIS},
     **{f"χ = 0.1, μ = {mu:g}": (WOBBLING, {"restitution": 0.1, "friction": mu}) for mu in (0.15, 0.6)},
     "χ = 0.1, about a diameter": (DIAMETRAL, {"restitution": 0.1}),
 }
-"""Hand, and what is other than in `BASE`, by what the table calls it."""
+"""The hand, and what differs from `BASE`, by the name in the table."""
 _NORMAL, _INSIDE = 2.5758, 6.635
 """Half the width of an interval of 99 %, in standard deviations; the square of it."""
 _FINE = np.linspace(0, max(CHIS), 501)
-"""Where the model's shares are compared."""
+"""The restitutions at which the model's shares are compared."""
 
 
 class FittedFloor(NamedTuple):
@@ -37,11 +37,11 @@ class FittedFloor(NamedTuple):
 
     chi: Estimate
     chance: float
-    """The probability by chance of shares that differ from the model's as much, χ being at its best."""
+    """The probability that shares differ by chance as much from the model's, at the best χ."""
 
 
 def fitted_floor(cells: pd.DataFrame) -> FittedFloor:
-    """Return the one χ of both coins, all else as in `BASE`; a parabola smooths the model's shares over χ.
+    """Return the one χ that fits both coins, all else as in `BASE`; a parabola smooths the shares over χ.
 
     Args:
         cells: rows of "thrown", by floor and h/D, with the share on edge as `part`.

@@ -32,7 +32,7 @@ LAWS = {
 
 
 def attitudes(turned: str, rng: np.random.Generator, count: int) -> Array:
-    """Draw Euler parameters of coins that are turned in one of these ways, (count, 4)."""
+    """Draw Euler parameters of coins turned in one of these ways, (count, 4)."""
     if turned == DIAMETRAL:
         tilts = rng.uniform(0, 2 * np.pi, count)
         return np.array([quaternion_from_angles((0.0, tilt, 0.0)) for tilt in tilts])
@@ -70,7 +70,7 @@ def way_to_rest(kind: EdgeClass, count: int) -> Array:
     """Toss coins of a class, and return of those that end on their edge how they came to rest there.
 
     Returns:
-        The time from their last impact to the end [s], and the way of C in it, as the crow flies [m], (2, n).
+        The time from their last impact to the end [s], and the straight distance of C in it [m], (2, n).
     """
     logs = [run(kind.scenario.body, kind.scenario.rules, state) for state in kind.starts(count)]
     ends = [(log, log.rows[-1]) for log in logs if log.outcome == Outcome.EDGE]

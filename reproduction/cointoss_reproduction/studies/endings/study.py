@@ -24,7 +24,7 @@ ENERGETIC = "coulomb, energetic"
 FLOORS = {"smooth": (0.1, 0.95), "coulomb, kinematic": (0.1, 0.7), ENERGETIC: (0.1, 0.95)}
 """Range of the restitution, by the contact law and the kind of its restitution."""
 Kind = tuple[str, str, str]
-"""Of a toss: thickness, floor and medium."""
+"""The kind of a toss: thickness, floor and medium."""
 
 
 def draw_toss(rng: np.random.Generator, coin: str) -> tuple[Kind, Scenario]:

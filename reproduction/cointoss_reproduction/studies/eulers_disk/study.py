@@ -11,7 +11,7 @@ from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
 
 MASS, RADIUS, GRAVITY = 2e-3, 1.25e-2, 9.81
-"""Of the thin disc, and g [kg, m, m/s²]."""
+"""Mass and radius of the thin disc, and g [kg, m, m/s²]."""
 RATE = (GRAVITY / RADIUS) ** 0.5
 LOSSES = {
     "contour friction": ("floor.contour_friction", 2e-5 * RADIUS, 0.1, 2 / 3, 2 * 2e-5),

@@ -16,7 +16,7 @@ from cointoss_reproduction.setups.planar_maps import faces_after, toss_rows_by_m
 
 SEED = 2
 SPREAD = 0.05
-"""Of the tosses of one hand, relative."""
+"""The relative standard deviation of the tosses of one hand."""
 ONE_AXIS, ALL_AXES = "about one axis", "about all axes"
 ASIDE = {ONE_AXIS: 0.0, ALL_AXES: 10.0}
 """Spins about ξ and ζ of the two kinds of tosses, at most [rad/s]."""

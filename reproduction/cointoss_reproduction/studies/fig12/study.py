@@ -15,7 +15,7 @@ from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.both_engines import by_both, first_touch
 
 STYLES = {"analytic": (ANALYTIC, "-", 4), "MuJoCo": (MUJOCO, ".", 10)}
-"""Of the path by each engine: its colour, its line, and of how many samples one is drawn."""
+"""For the path by each engine: its colour, its line, and every how many samples one is drawn."""
 COINS = {"imperfect": "fig12_imperfect", "ideal": "fig12_ideal"}
 IMPACTS = 4
 """The motion is followed until this one."""

@@ -25,9 +25,9 @@ from cointoss_reproduction.frame.declared import Data, Findings, declared
 from cointoss_reproduction.studies.fig13.velocity_field import SurfaceFields, velocity_fields
 
 FINE = {"rings": 100, "spokes": 240, "levels": 41}
-"""Points of the sums."""
+"""How many points the sums have."""
 COARSE = {"rings": 3, "spokes": 12, "levels": 3}
-"""Points of the picture."""
+"""How many points the picture has."""
 ARROW = 0.014
 """Length of an arrow of 1 m/s in the picture [m]."""
 PANELS = (
@@ -38,9 +38,9 @@ PANELS = (
     ("thin", "outward", "Fig. 15(a): normal, outwards"),
     ("thin", "tangential", "(b): tangential"),
 )
-"""Coin, part of its velocities, and title."""
+"""For each panel: the coin, the part of its velocities, and the title."""
 COLORS = (BLUE, ORANGE, GREEN)
-"""Of the faces ζ = +h/2 and -h/2, and the wall."""
+"""The colours of the faces ζ = +h/2 and -h/2, and of the wall."""
 
 
 class Wrench(NamedTuple):

@@ -17,7 +17,7 @@ class VelocityField:
     point: Array
     """The points of the surface from B, (n, 3) [m]; eqs (60), (62), (64)."""
     normal: Array
-    """Outward unit vectors, (n, 3); eq. (57)."""
+    """The outward unit normals, (n, 3); eq. (57)."""
     velocity: Array
     """The velocities of the points, (n, 3) [m/s]; Fig. 14(a)."""
     outward: Array

@@ -13,7 +13,7 @@ from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.both_engines import by_both, first_touch
 
 SHOWN, SAMPLES = 6.0, 300
-"""How long the picture follows the fall [s], and of how many samples."""
+"""How long the picture follows the fall [s], and with how many samples."""
 IN_AIR = "in air"
 MEDIA = {"without air": 1000, IN_AIR: 2000}
 """How often a fall is sampled."""

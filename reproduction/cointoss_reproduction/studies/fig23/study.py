@@ -14,12 +14,12 @@ from cointoss_reproduction.setups.both_engines import by_both, first_touch
 from cointoss_reproduction.setups.free_fall import MEDIA, MODELS
 
 IMPACTS = 6
-"""That are followed."""
+"""The number of impacts that are followed."""
 REAL, SIMPLEST = "3D imperfect", "2D ideal"
 SHOWN = {"analytic": 300, "MuJoCo": 60}
 """Samples of a path by each engine."""
 LEFT_OUT = 0.5
-"""The picture leaves out so much of the way down to the first impact [s]."""
+"""How much of the fall to the first impact the picture leaves out [s]."""
 
 
 def toss() -> Iterator[dict[str, Any]]:

@@ -34,12 +34,12 @@ SEED = 24
 SHOWN = "ideal, 2 mm, smooth"
 """The reading whose paths are drawn."""
 SEARCHES = 4000
-"""Searches through all readings at random heights, for how good the best is by chance."""
+"""Number of searches through all readings at random heights: they show how good the best is by chance."""
 DETAIL = (1.0, 1.5)
-"""Times of Fig. 25 [s]."""
+"""The times that Fig. 25 shows [s]."""
 SEQUENCES, NUMBER = len(PRINTED), len(READINGS)
 SAMPLES = 300
-"""Of a path, which is drawn."""
+"""The number of samples of a path that is drawn."""
 
 
 def toss(letter: str) -> Iterator[dict[str, Any]]:

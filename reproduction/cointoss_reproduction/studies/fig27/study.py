@@ -27,17 +27,17 @@ FOLLOWED_IMPACTS = 150
 LONGEST = 60
 """Most steps of the series to which a line is fitted."""
 FITTED = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 60)
-"""Those of which slopes are drawn."""
+"""The numbers of steps for which slopes are drawn."""
 NUMBERED = 6
-"""First impacts whose numbers are drawn."""
+"""How many of the first impacts have their numbers drawn."""
 LEAST = 20
-"""Neighbours of which quartiles are drawn, or more."""
+"""The fewest neighbours whose quartiles are drawn."""
 LONG = 20_000
 """Impacts of the toss in which near neighbours are sought."""
 APART = 10.0 ** np.arange(-7, 1)
 """Bounds of the distances of neighbours [rad]."""
 FUNCTION = 0.1
-"""Where φ(n + 1) is a function of φ(n), points that are so near have images nearer than this [rad]."""
+"""If φ(n + 1) is a function of φ(n), points nearer than `CLOSE` have images nearer than this [rad]."""
 CLOSE = FUNCTION / 100
 OTHER_SPINS = "tosses of other spins"
 

@@ -33,9 +33,9 @@ CLEAR = {"after a row": 0.0, "after one": 0.5}
 SEEN = 0.05
 """The shortest time drawn [s]."""
 BEFORE = 0.01
-"""The paths drawn begin so long before their first impact and end so long after their last [s]."""
+"""How long before their first impact the drawn paths begin, and how long after their last they end [s]."""
 STROBES = 28
-"""Positions drawn of a path."""
+"""How many positions of a path are drawn."""
 
 
 def count_changes(reading: Reading, count: int = 1000) -> Iterator[dict[str, Any]]:

@@ -23,7 +23,7 @@ UNKNOWN = {
     "not seen",
     "expected": None,
 }
-"""Of an imperfect coin."""
+"""What the text leaves unknown about an imperfect coin."""
 
 
 def fall(drop: str) -> pd.DataFrame:

@@ -33,26 +33,26 @@ from cointoss_reproduction.setups.uncertain_shares import (
 )
 
 WINDOWS_BELOW = 25
-"""A line through the map is magnified so many times, 1 included; the last is 4e-25 m long."""
+"""How many lines through the map there are, each magnified more, 1 included; the last is 4e-25 m long."""
 POINTS = 50
-"""On a line."""
+"""Points on a line."""
 DECADES = 3
-"""α is the slope over so many of them."""
+"""α is the slope over this number of decades."""
 DOUBLES = (3, 7)
-"""Index of the first and last of those for which doubles would do: 1e-6 m to 1e-10 m."""
+"""Index of the first and the last decade for which doubles would suffice: 1e-6 m to 1e-10 m."""
 UPRIGHT = 1e-6
-"""A coin stands when it comes so near to the upright coin at rest [m g r]."""
+"""A coin stands when its energy comes this near to that of the upright coin at rest [m g r]."""
 TENFOLDS = 3
-"""Over so many magnifications it is seen to come nearer."""
+"""The number of magnifications over which the coin's approach to standing is measured."""
 SEED = 30
 WINDOWS = ((0.05, 5.0), (5e-4, 0.05))
 """Height and spin of the enlarged maps [m, rad/s]."""
 NEAR = (0.258, 39.0)
-"""They are centred on the boundary of this spin that is nearest to this height [m, rad/s]."""
+"""Height and spin: the windows are centred on the boundary at this spin nearest to this height [m, rad/s]."""
 REACH = 0.02
-"""How far it may be [m]."""
+"""How far from this height the boundary may be [m]."""
 ACCURACY_MUJOCO = 1e-4
-"""By which nearby tosses of MuJoCo differ [m]."""
+"""The difference in height of nearby tosses by MuJoCo [m]."""
 
 
 def make(

@@ -31,32 +31,32 @@ from cointoss_reproduction.setups.planar_maps import (
 
 SHOWN = (0, 2, 5, 9)
 TOUCHES = 10
-"""Faces are compared after 0 to so many impacts, less one."""
+"""The number of touches whose faces are compared: after 0, 1, ... impacts, to one less than this."""
 RESOLUTIONS = 10.0 ** -np.arange(2, 13)
 """ε, distances of nearby tosses [m]."""
 MOST_RUNS = 10
 """Most runs of twins at one ε over the tosses of the maps."""
 PART = 1 / 8
-"""Twins at 1 nm over these tosses."""
+"""The number of twins at 1 nm over the number of tosses."""
 FEWEST = 250
-"""Twins that must differ for a number of boundaries to be taken."""
+"""The fewest twins that must differ for a count of boundaries."""
 BLOCK = 1 << 10
-"""Runs that are tossed together."""
+"""The number of runs that are tossed together."""
 FINER = 10
-"""Twins of a run; the first and the last toss are twins at so many times ε."""
+"""Pairs of twins in a run, whose first and last toss are twins at this many times ε."""
 CONVERGED = 1.25
-"""Below so many times the boundaries at ten times ε all of them are taken as counted."""
+"""All boundaries count as found when there are fewer than this many times those at ten times ε."""
 FEW_TWINS = "too few twins differ to count boundaries at two resolutions"
 ELASTIC = 30
 """Impacts through which faces are compared where none loses energy."""
 ELASTIC_STEPS = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10)
-"""Distances of twins there [m]."""
+"""Distances of twins where none loses energy [m]."""
 MOST = 100
 """Impacts within which a toss that loses energy ends."""
 LENGTH = HEIGHTS[1] - HEIGHTS[0]
 SEED = 31
 NARROW = 1e-9
-"""At which stripes are looked for that are narrower than a hand is accurate [m]."""
+"""The distance at which stripes narrower than a hand's accuracy are sought [m]."""
 HALF = 0.4
 """A share of twins that differ: nearly chance."""
 COUNTED, AT_LEAST = "counted", "at least"
@@ -146,11 +146,12 @@ def _boundaries(
 ) -> Iterator[tuple[float, Estimate, Estimate]]:
     """Yield what twins see after n impacts at each of `RESOLUTIONS`, until all boundaries are counted.
 
-    Of each it is ε, the number of boundaries, and how many times those that are seen at ten times ε.
+    Each result has ε, the number of boundaries, and this number over that at ten times ε.
 
-    Between twins lies one boundary at most where ε is small: of N on a length L a part N ε/L does. At each ε
-    runs of them are tossed, each twin the next one's other, until `FEWEST` differ; where fewer of the most
-    do, none are made that are finer. The ends of a run show a boundary where an odd number lies between.
+    Where ε is small, at most one boundary lies between twins. With N boundaries on a length L, a part N ε/L
+    of the twins has one between them. At each ε runs are tossed, in which each toss is the twin of the next,
+    until `FEWEST` twins differ; if fewer differ in the most runs, no finer ε follows. The two ends of a run
+    differ where an odd number of boundaries lies between them.
 
     Args:
         scenario: of the tosses.

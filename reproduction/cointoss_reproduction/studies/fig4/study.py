@@ -21,9 +21,9 @@ CASES = {
     "imperfect in vacuum": ("fig4_imperfect", Air()),
 }
 DURATION, SAMPLES = 0.5, 400
-"""Of a random toss [s], and how often its face is sampled."""
+"""The duration of a random toss [s], and how often its face is sampled."""
 DRAWN = 300
-"""Random tosses that are drawn."""
+"""The number of random tosses that are drawn."""
 MUJOCO_TOSSES = 10
 TURNS = 4000
 """Samples of one turn of the normal about the angular momentum."""

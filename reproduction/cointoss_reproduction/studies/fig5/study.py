@@ -22,9 +22,9 @@ from cointoss_reproduction.setups.planar_maps import faces_after
 
 ROWS, COLUMNS = 3, 5
 BEFORE = 0.02
-"""The stills begin so long before the first impact, and end so long after the sixth [s]."""
+"""How long before the first impact the stills begin, and how long after the sixth they end [s]."""
 SHOWN_IMPACTS, IMPACTS = 6, 10
-"""That the stills show, and that both engines follow."""
+"""The number of impacts that the stills show, and that both engines follow."""
 SLIDES = 0.01
 """A speed of the contact point that counts as sliding [m/s]."""
 SPREAD, SEED = 5e-2, 5

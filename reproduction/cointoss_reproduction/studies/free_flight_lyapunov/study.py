@@ -31,7 +31,7 @@ ENGINES = {"analytic": analytic.toss, "MuJoCo": coin_mj.toss}
 SHORT, CHANGE = 0.6, 1e-6
 """Time of two nearby tosses by both engines [s], and how far apart they start, relative to the spin."""
 SPIN = 40.0
-"""About the middle axis [rad/s]."""
+"""The spin about the middle axis [rad/s]."""
 
 
 def falling(medium: str, model: str) -> Iterator[dict[str, Any]]:

@@ -22,9 +22,9 @@ MUJOCO_RADIUS = 1e-12
 REACH, SAMPLES = 0.1, 200
 """How far up a boundary is sought [m], and at how many heights."""
 FEW = 20
-"""Tosses from each of many balls."""
+"""The number of tosses from each of many balls."""
 INSIDE, BORDER, MANY = "inside a basin", "on a boundary", "of many"
-"""Releases in the middles of balls."""
+"""The names of the releases in the middles of the balls."""
 
 
 def tossed(

@@ -38,24 +38,24 @@ from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case, plana
 
 SEED = 316
 COUNT = 120
-"""Tosses of the general coin."""
+"""The number of tosses of the general coin."""
 PLANAR = 1000
-"""Tosses of the planar coin."""
+"""The number of tosses of the planar coin."""
 PROOFS = 200
 """The first of them whose margin is proved from below too."""
 FAMILY = CoinClass(thick=True, imperfect=True, air=True, coulomb=False)
-"""Whose releases the general coin has."""
+"""The class of coins whose releases the general coin has."""
 HEIGHT = QUANTITIES[0]
 HAND = 1.0
 """An ordinary hand's accuracy in height [mm]."""
 ACCURACIES = (1.0, 1e-3, 1e-6)
-"""At which P(margin < ε) is compared with f(ε) [mm]."""
+"""The accuracies at which P(margin < ε) is compared with f(ε) [mm]."""
 PARTS = (0.01, 0.1, 0.5, 0.9)
-"""Of the tosses, whose largest margins are given."""
+"""The parts of the tosses whose largest margins are given."""
 KINDS = {"height": INK, "velocity": BLUE, "attitude": ORANGE, "spin": GREEN}
-"""Of quantities, and their colours."""
+"""The kinds of quantities, and their colours."""
 STYLES = ("-", "--", ":")
-"""Of the axes."""
+"""The line styles of the axes."""
 
 
 PLANAR_HEIGHT = "height of the planar coin"

@@ -85,4 +85,4 @@ BACKENDS: dict[str, Stepped] = {
     "MJX, float64": partial(by_mjx, double=True),
     "Warp, float32": by_warp,
 }
-"""By the names of their columns."""
+"""The backends by the names of their columns."""

@@ -31,9 +31,9 @@ from cointoss_reproduction.studies.mujoco_backends.backends import BACKENDS, Ste
 E, STEP = 0.8, 2e-3
 """Restitution; step [s]."""
 PHASES = 4
-"""Of the touch between two steps."""
+"""The number of phases of the touch between two steps."""
 SLIP, FRICTION, SLIDING = 1.0, 0.3, FlatBody("sphere", (0.1,))
-"""Of a ball that slides [m/s]; coefficient; the ball."""
+"""For a ball that slides: its slip [m/s], the coefficient of friction, and the ball."""
 RUNS = "runs"
 """The answer of a backend that refuses nothing."""
 EXACT = recipe_of(E, STEP)

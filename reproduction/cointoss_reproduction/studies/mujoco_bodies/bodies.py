@@ -13,7 +13,7 @@ from cointoss.study import GRAVITY, LONGEST, PHASES, SPEED, Array, ContactSettin
 from cointoss_reproduction.setups.mujoco_models import model_of
 
 SIZE = 0.1
-"""Of the bodies [m]."""
+"""The size of the bodies [m]."""
 BODY = 1
 """Number of the body and of its geom; the world and its plane come first."""
 
@@ -49,11 +49,11 @@ class Touch(ContactSettings):
     speculative: bool = False
     """The flag of this name: contacts that would come within the step act at its beginning."""
     mass: float = 1.0
-    """Of the body [kg]."""
+    """The mass of the body [kg]."""
     body: str = 'priority="1"'
     """More attributes of the body's geom."""
     plane: str = ""
-    """More attributes of the plane's."""
+    """More attributes of the plane's geom."""
 
 
 @dataclass(frozen=True)
@@ -61,9 +61,9 @@ class BodyRebounds:
     """What bodies did that touched anywhere between two steps."""
 
     restitutions: Array
-    """Of each point that touched first, (`PHASES`, points); 0 where a body did not leave."""
+    """The restitution of each point that touched first, (`PHASES`, points); 0 where a body did not leave."""
     depth: float
-    """Greatest, over `SPEED` [s]."""
+    """The greatest depth over `SPEED` [s]."""
 
 
 def rebounds(shape: Shape, touch: Touch) -> BodyRebounds:

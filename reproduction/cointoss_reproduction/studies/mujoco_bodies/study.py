@@ -29,7 +29,7 @@ from cointoss_reproduction.studies.mujoco_bodies.bodies import (
 
 RESTITUTION = 0.8
 STEP, FINE = 1e-3, 1e-4
-"""Of the simulation [s]."""
+"""The timesteps of the simulation [s]."""
 MASSES = (0.01, 1.0, 100.0)
 """[kg]."""
 CONTACTS = ("one step", "spring")
@@ -43,7 +43,8 @@ MIXED = {
 }
 """Attributes of the two geoms."""
 WAYS = (0.1, 0.5, 1.5, 3.0)
-"""Of a ball in one step, over its radius; speculative contacts act where it goes further than its size."""
+"""The way of a ball in one step, over its radius; speculative contacts act where this way exceeds its
+size."""
 
 
 def touch_of(contact: str, dt: float, **others: Any) -> Touch:
@@ -106,7 +107,7 @@ def resting(contact: str, mass: float) -> dict[str, float]:
 
 
 def speculative(contact: str, way: float) -> dict[str, float]:
-    """Let a ball come down on speculative contacts, that goes so many radii in a step."""
+    """Let a ball that moves a given number of radii in a step come down on speculative contacts."""
     e = rebounds(SHAPES["ball"], touch_of(contact, way * SIZE / SPEED, speculative=True)).restitutions
     return {"least": float(e.min()), "most": float(e.max()), "error": _error(e)}
 

@@ -28,7 +28,7 @@ from cointoss_reproduction.setups.mujoco_impacts import (
 COUNT, SEED = 80, 17
 RESTITUTIONS, FRICTION = (0.1, 1.0), 0.2
 FRICTIONS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 100.0, 1000.0)
-"""That lead to the perfectly rough floor."""
+"""The frictions that approach the perfectly rough floor."""
 REALISED = 1e-2
 """A law is realised where the median error of its impulses is below this."""
 NATIVE = MujocoSettings(friction=Friction.NATIVE)

@@ -24,17 +24,17 @@ from cointoss_reproduction.setups.mujoco_impacts import (
 from cointoss_reproduction.studies.mujoco_many.fixed_steps import loop_model, restitutions_of_coins
 
 SCENARIO = "fig24a"
-"""Tossed from random releases."""
+"""The scenario whose coin is tossed from random releases."""
 RESTITUTIONS, RUBBED = (0.2, 1.0), 0.3
-"""Of the impacts; the coefficient of friction where there is some."""
+"""The restitutions of the impacts; the coefficient of friction where there is friction."""
 ENOUGH = 1e-2
-"""An error of restitution that may do."""
+"""An error of restitution that may suffice."""
 LOOP_STEPS = 20_000
-"""Of the loop, to be timed."""
+"""The number of steps of the loop that is timed."""
 LONGEST_STEP = {Realisation.SPRING: np.pi / MANY.stiffness**0.5 / 5, Realisation.ONE_STEP: 1e-3}
-"""Of the loop: the first that is tried [s]."""
+"""The first step of the loop that is tried [s]."""
 FINEST_STEP = 1e-7
-"""The last [s]; with much finer ones MuJoCo takes impacts for errors."""
+"""The last step that is tried [s]; with much finer steps MuJoCo takes impacts for errors."""
 
 
 def timed(

@@ -16,21 +16,22 @@ from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
 
 MASS, RADIUS, GRAVITY = 2e-3, 1.25e-2, 9.81
-"""Of all bodies [kg], [m], and on them [m/s²]."""
+"""Mass [kg] and radius [m] of all bodies, and gravity [m/s²]."""
 THIN = 1e-5
 """Thickness of the shapes of disc and hoop [m]: the friction of two contacts apart would resist turning."""
 SIZE = 1e-3
 """δ and p [m]; μ is 1."""
 SPEED, SPIN = 0.3, 40.0
-"""At the start: of what rolls [m/s], and of what turns about the vertical [rad/s]."""
+"""At the start, the speed of a body that rolls [m/s], and the spin of one that turns about the vertical
+[rad/s]."""
 LEFT = 1e-2
 """A motion has ended when this part of it is left."""
 STEP, STEPS = 5e-4, (2e-3, 5e-4, 1e-4)
-"""Of `mj_step`, and those over which the largest error of a setting is compared [s]."""
+"""The step of `mj_step`, and the steps over which the largest error of a setting is compared [s]."""
 SETTLING, LONGEST = 0.5, 10.0
-"""A body rests so long before it is set going, and is followed so long [s]."""
+"""How long a body rests before it is set going, and how long it is followed at most [s]."""
 SAMPLED = 20
-"""Of so many steps one is drawn."""
+"""One in this many steps is drawn."""
 INERTIA = {"disc": (0.25, 0.5), "hoop": (0.5, 1.0), "ball": (0.4, 0.4)}
 """Moments of inertia about a diameter, and about the axis that is level, over m r²."""
 
@@ -41,9 +42,9 @@ class Start:
 
     body: str
     speed: float
-    """Of rolling [m/s]."""
+    """The speed of rolling [m/s]."""
     spin: float
-    """About the vertical [rad/s]."""
+    """The spin about the vertical [rad/s]."""
 
     @property
     def motions(self) -> list[str]:

@@ -12,7 +12,7 @@ from cointoss_reproduction.setups.mujoco_models import RECIPE, model_of, sliding
 STACK = (0.1, 0.1, 0.1, 0.1, 10.0)
 """Masses of boxes, from below [kg]."""
 RADIUS = 0.1
-"""Of the balls [m]."""
+"""The radius of the balls [m]."""
 
 
 def stack(contact: ContactSettings, condim: int) -> tuple[float, float]:

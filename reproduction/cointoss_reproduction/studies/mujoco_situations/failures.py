@@ -12,7 +12,7 @@ from cointoss_reproduction.setups.mujoco_models import FLOOR, model_of, rubbing_
 BALL = 0.02
 """Radius of the ball that falls on a floor [m]."""
 FALLS, FALLING = 10, 3.0
-"""At as many phases of a step; at a speed [m/s]."""
+"""The number of falls, each at another phase of a step; the speed of a fall [m/s]."""
 PINCH, PINCHED, MU = 20.0, 0.1, 1.0
 """Force of either plate on a body [N]; the body's mass [kg]; friction."""
 

@@ -59,7 +59,7 @@ CONTACTS = {
 }
 ONE = CONTACTS["one step"]
 FORCES = {"its weight": 0.0, "500 N": 500.0}
-"""On a body of 1 kg, beside its weight [N]."""
+"""The forces on a body of 1 kg, beside its weight [N]."""
 STACKS = {"as printed": (1, True), "with condim 3": (3, True), "and no diagexact": (3, False)}
 """condim of the printed line, and whether the flag diagexact is set, of stacks."""
 HITS = {
@@ -77,7 +77,7 @@ RUBBED = {
 }
 """μ and slip [m/s]."""
 FLOORS = {"a plane": None} | {f"a box of {1e3 * thick:g} mm": thick for thick in (3e-3, 30e-3, 96e-3, 98e-3)}
-"""Thicknesses [m]."""
+"""The floors, and their thicknesses [m]."""
 TURNED = {
     "leg": leg,
     "cylinder on the middle": partial(cylinder, beside=0),

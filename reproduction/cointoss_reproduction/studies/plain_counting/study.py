@@ -26,9 +26,9 @@ from cointoss_reproduction.setups.uncertain_shares import ACCURACIES, AIR, SMOOT
 
 SEED = 271
 FINEST = 1e-13
-"""Below it ε comes near the rounding of a height [m]."""
+"""The smallest ε: below this, ε comes near the rounding of a height [m]."""
 PIECE = 1_000_000
-"""Tosses in memory at a time."""
+"""The number of tosses in memory at a time."""
 FEWER = 10
 """A coin that may stand on its edge takes about as many times as long, so fewer of them are tossed."""
 THICK = (0.35, 0.6)
@@ -44,7 +44,7 @@ COINS = {
 }
 """Coins that may end on their edge, and which rows of `edge` are of the same, by name."""
 COMPARED = "accuracy in (1e-3, 1e-6) or (accuracy == 1e-9 and chi == 0.6)"
-"""Where enough tosses are uncertain to compare their share with the branching's."""
+"""The rows with enough uncertain tosses to compare their share with that from branching."""
 UNCOUNTED = "`cointoss reproduce predictability rotor edge` has not been run into this folder"
 
 

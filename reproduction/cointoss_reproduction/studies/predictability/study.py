@@ -26,18 +26,19 @@ from cointoss_reproduction.studies.predictability.picture import draw
 
 SEED = 2014
 CHI = 0.6
-"""At which spin and tilt vary, too [rad/s, rad]; the paper's."""
+"""The restitution at which spin and tilt vary, too [rad/s, rad]; it is the paper's."""
 AXES = {"floor": tuple(CHIS), "chi": CHIS[SMOOTH], "quantity": ("height", "spin", "tilt")}
 POPULATION = {SMOOTH: 1200, AIR: 800, ROUGH: 1600}
 """Intervals at each level but the first; in air a toss takes longest."""
 FEW = 4
-"""Above `NONE`, where nearly all tosses are uncertain and each takes long, so many times fewer intervals."""
+"""The factor by which there are fewer intervals above `NONE`, where nearly all tosses are uncertain and each
+takes long."""
 NONE = 0.85
 """Restitution above which a toss is unpredictable."""
 WINDOWS = {1e-3: 1e-6, 1e-6: 1e-9, 1e-9: 1e-12, 1e-12: 1e-18, 1e-18: 1e-24}
 """α is the slope between two accuracies [m]."""
 HAND, FINE, QUANTUM = 1e-3, 1e-9, 1e-16
-"""Of accuracies [m]: a hand's, an atom's size, and about the coin's quantum width."""
+"""Accuracies [m]: a hand's, an atom's size, and about the coin's quantum width."""
 PREDICTABLE = 0.01
 """At most this share uncertain: 99 % of all tosses are predictable."""
 NEARLY_SMOOTH = 0.9

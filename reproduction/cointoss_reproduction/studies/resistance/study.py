@@ -30,17 +30,17 @@ from cointoss_reproduction.setups.ends import tally
 NICKELS = {"0": FREE, "0.1": AS_SAID, "1": RESISTING}
 """δ = p on a nickel's floor [mm], and what the edge study calls that floor."""
 LEAST = PUBLISHED
-"""Of the share of nickels on edge."""
+"""The least share of nickels on edge."""
 SPEED, ROLLING = 0.3, 1e-3
-"""Of the disc and the hoop that roll upright [m/s], and their δ [m]."""
+"""The speed of the disc and the hoop that roll upright [m/s], and their δ [m]."""
 SPIN, PIVOTING, SLIDING = 80.0, 1e-3, 0.3
-"""Of the coins that pivot upright [rad/s], their p [m], and the μ of the thick one."""
+"""The spin of the coins that pivot upright [rad/s], their p [m], and the μ of the thick coin."""
 TILT, SAMPLES, SMALL = 0.3, 300, (2e-4, 1e-2)
 """Euler's disk starts from this tilt [rad]; its fall is sampled so often, and fitted between these tilts."""
 DISKS = {"rolling": (2e-5, 17.8), "pivoting": (1e-4, 3.0)}
 """δ, or p, on the floor of Euler's disk [m], and how long it is followed [s]."""
 MASS, RADIUS = 2e-3, 1.25e-2
-"""Of all coins but the nickel [kg, m]."""
+"""Mass and radius of all coins but the nickel [kg, m]."""
 Row = dict[str, Any]
 
 

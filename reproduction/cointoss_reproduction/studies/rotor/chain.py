@@ -1,4 +1,4 @@
-"""A planar coin whose phase is drawn anew at each apex, and how far it stretches a difference of its release.
+"""A planar coin whose phase is redrawn at each apex, and how far it stretches a difference of its release.
 
 Units are r, m and g. The lowest point of the coin lies q(θ) = |sin θ| + b |cos θ| below the mass centre, b
 half its thickness. While one corner is the lowest, q'' = -q. The coin meets the floor where q = z, at the
@@ -20,7 +20,7 @@ AT_FLOOR = 1e-13
 IN_CONTACT = 1e-7
 """A corner that leaves the floor at less speed stays there, unless the coin turns too fast."""
 MOST_STEPS = 100_000
-"""Of the search for a touch."""
+"""The most steps of the search for a touch."""
 
 
 class Coin(NamedTuple):
@@ -37,7 +37,7 @@ class Coin(NamedTuple):
     slowing: float
     """Rate at which air slows the spin."""
     drag: float
-    """Rate at which it slows the centre."""
+    """Rate at which air slows the centre."""
 
 
 @njit(cache=True)
@@ -115,7 +115,7 @@ def fly(coin: Coin, state: Array, change: Array, time: float) -> None:
 
 @njit(cache=True)
 def shift(state: Array, change: Array, time: float) -> None:
-    """Move a change to a time that is later by so little."""
+    """Move a change to a slightly later time."""
     change[Z] += state[V] * time
     change[V] -= time
     change[ANGLE] += state[SPIN] * time
@@ -164,9 +164,9 @@ def strike(coin: Coin, state: Array, change: Array) -> tuple[float, float]:
 def stretch(
     coin: Coin, state: Array, change: Array, known: float, target: float, rng: np.random.Generator
 ) -> float:
-    """Toss until a difference is stretched so far, or the coin has no energy left to pass over a corner.
+    """Toss until a difference is stretched to the target, or the coin lacks the energy to pass over a corner.
 
-    At each apex above `reach` the angle is drawn anew. A coin that stays in contact is let go.
+    At each apex above `reach` the angle is redrawn. A coin that stays in contact is followed no further.
 
     Args:
         coin: the coin.

@@ -24,11 +24,11 @@ import numpy as np
 from scipy.optimize import root_scalar
 
 NODES, FARTHEST = 200, 6.0
-"""Of the quadrature in y."""
+"""The nodes of the quadrature in y, and its farthest point."""
 LEAST, MOST = 0.05, 8.0
-"""Of β, between which the exponent is sought."""
+"""The bounds of β between which the exponent is sought."""
 STEP = 1e-4
-"""Of β, in its derivative."""
+"""The step of β in the derivative."""
 
 
 @cache
@@ -65,7 +65,7 @@ def moment(beta: float, chi: float, energy: float) -> float:
 
 
 def asked(beta: float, chi: float, energy: float) -> float:
-    """Return the ln(r/ε) at which α is so large: the moment's slope.
+    """Return the ln(r/ε) at which α has this value: the moment's slope.
 
     Args:
         beta: α.

@@ -1,4 +1,4 @@
-"""The share of tosses that stretch a difference by more than so much, by splitting.
+"""The share of tosses that stretch a difference by more than given levels, by splitting.
 
 Tosses that reach a level go on from there, drawn with preference for energy; each has a weight of one over
 its chance. So shares are without bias at every level (H. Kahn, T. E. Harris, 1951).
@@ -35,7 +35,7 @@ def coin_of(scenario: Scenario) -> Coin:
 
 
 def shares_beyond(scenario: Scenario, levels: Array, rng: np.random.Generator, tosses: int) -> Array:
-    """Return the share of tosses that stretch a difference of height by more than so much, (n,).
+    """Return the share of tosses that stretch a difference of height by more than each of the levels, (n,).
 
     Releases are flat, at rest but for the spin, with the heights and spins of the maps.
 

@@ -29,11 +29,11 @@ from cointoss_reproduction.studies.rotor.splitting import coin_of, shares_beyond
 
 SEED = 54
 RUNS = 20
-"""Of the splitting; their scatter gives the intervals."""
+"""The number of runs of the splitting; their scatter gives the intervals."""
 DECADES = 91
-"""Accuracies at which the law is looked at, down to 1e-93 m."""
+"""Accuracies at which the law is evaluated, down to 1e-93 m."""
 WINDOW = {1e-6: 1e-9, 1e-12: 1e-18, 1e-18: 1e-24}
-"""Between which accuracies exponents are compared [m]."""
+"""The accuracies between which exponents are compared [m]."""
 COMPARED = 1e-9
 """The accuracy at which the claims compare them [m]."""
 LEAST = 0.3

@@ -42,14 +42,14 @@ SEED = 2025
 STEPS = ("first touch", *(f"touch {n + 1}" for n in TOUCHES[1:]), "at rest")
 CHIS, HEIGHTS = (0.2, 0.5, 0.8), (0.3, 1.0)
 PSI = 60
-"""Of a coin that wobbles much [deg]."""
+"""The ψ of a coin that wobbles much [deg]."""
 MUCH, PEOPLE = f"{PSI}°", "as of people"
-"""Names of its ψ, and of that of people."""
+"""The names of this ψ, and of people's."""
 CHI = 0.5
-"""Of the floor on which people's tosses bounce."""
+"""The restitution of the floor on which people's tosses bounce."""
 SMOOTH, ROUGH = FLOORS = ("smooth", "rough, μ = 0.2")
 CLOSE, SMALL = 0.01, 0.05
-"""A share that is another within a per cent, or nearly."""
+"""A share within `CLOSE` of another is the same to the per cent; a share within `SMALL` differs little."""
 WOBBLE = "wobble, |90° - ψ| half-normal"
 FAMILIES = {WOBBLE: WOBBLING, "p normal": NORMAL, "p - 1/2 exponential": EXPONENTIAL}
 """How p may be distributed over people."""

@@ -26,7 +26,7 @@ velocity about the vertical [rad/s]: √(2 g/r) is 45 rad/s, and 2 √(g/r) is 6
 USUAL, FAR = (0.3, 120.0), (1.0, 1e-4)
 """Friction and spin at which every scatter and offset is tried; scatter and offset of all the rest."""
 SPINS = {1.0: 1000, 10.0: 2000}
-"""Of each coin, by the scatter."""
+"""How often each coin is spun, by the scatter."""
 COIN: dict[str, Any] = {
     "coin": {"mass": 2.5e-3, "radius": 9.525e-3},
     "air": {"normal": 0.8, "tangential": 0.2},

@@ -19,13 +19,13 @@ class Standing:
     """Energy of its tilting, and that which its tilt lacks to the top, (n,) [m g r]; infinite where the spin
     leaves no top."""
     angle: Array
-    """Between coin and vertical, + where heads is up, (n,) [rad]."""
+    """The angle between coin and vertical, + where heads is up, (n,) [rad]."""
     lean: Array
-    """This angle at the top, (n,) [rad]."""
+    """The angle between coin and vertical at the top, (n,) [rad]."""
     energy: Array
-    """Of the coin that stands, horizontal motion aside, (n,) [m g r]."""
+    """The energy of the coin that stands, horizontal motion aside, (n,) [m g r]."""
     rate: Array
-    """At which the standing coin falls, exp(rate t), (n,) [1/s]."""
+    """The rate at which the standing coin falls, exp(rate t), (n,) [1/s]."""
 
 
 def standing(body: Body, states: Array) -> Standing:

@@ -25,28 +25,28 @@ from cointoss_reproduction.studies.standing_coins.standing import Standing, stan
 
 SEED = 522
 CHI = 0.3
-"""So low that doubles resolve most boundaries."""
+"""The restitution: so low that doubles resolve most boundaries."""
 IN_AIR = {"thin, in air": False, "thick, in air": True}
 """Kinds of coin, and whether they are thick."""
 SPANS = {"height": 0.02, "spin": 2.0, "tilt": 0.05}
 """What varies along a line of releases, and how far [m, rad/s, rad]."""
 POINTS = 40
-"""On a line."""
+"""Points on a line."""
 SETTINGS = AnalyticSettings(contact_steps=20_000)
 STANDS = 1e-3
 """A coin that lacks no more than this comes to stand [m g r]."""
 AT_REST = 0.01
-"""A coin stands at rest whose energy is so near to that of the upright coin [m g r]."""
+"""A coin stands at rest if its energy is this near to that of the upright coin [m g r]."""
 STAYS = {"thin, in air": True, "thick, in air": None}
 """Whether coins are known to stay so long: one thick coin of 68 stays five times as long."""
 NEAR, FAR = 2.0**8, 2.0**14
-"""So many last digits from a boundary the time is taken for which a coin stands."""
+"""Distances from a boundary, in last digits, at which the time that a coin stands is measured."""
 FALLEN = 0.1
-"""It has fallen when it leans so much further than at the top [rad]."""
+"""A coin has fallen when it leans this much further than at the top [rad]."""
 AFTER, SAMPLED = 1.0, 1e-3
-"""A coin is followed so long after its face is settled, and looked at in such steps [s]."""
+"""How long a coin is followed after its face is settled, and the steps in which its state is sampled [s]."""
 BESIDE = Fraction(1, 10**12)
-"""So far from a release that lands flat its neighbours are tossed [m]."""
+"""The distance from a release that lands flat to the neighbours that are tossed [m]."""
 _HEADS_AND_TAILS = {int(Outcome.HEADS), int(Outcome.TAILS)}
 
 
@@ -60,7 +60,7 @@ class Boundary:
     quantity: str
     """What varies along it: one of `SPANS`."""
     places: tuple[float, float]
-    """Where on it."""
+    """The places of the two releases on the line."""
     outcomes: tuple[int, int]
 
 

@@ -26,14 +26,14 @@ from cointoss_reproduction.setups.general_coins import CoinClass
 TESTS = {"paper": ("E < m g r", Ending.PAPER), "paper_smooth": ("eq. (20)", Ending.PAPER_SMOOTH)}
 """The paper's stop tests, each with its name and the ending by which it names a face."""
 SETTINGS = AnalyticSettings(contact_steps=20_000)
-"""Of tosses that never rest, and so are not followed for ever."""
+"""Settings for tosses that never rest, and so are not followed for ever."""
 STEP = 1e-3
-"""Between two looks at a thin coin in contact [s]: in half of it the coin turns less than a thousandth of a
-radian beyond its edge, and back."""
+"""The time between two samples of a thin coin in contact [s]: in half of it the coin turns less than a
+thousandth of a radian beyond its edge, and back."""
 LONGEST = 3.0
-"""For which a toss that ends nowhere is looked at after the stop [s]."""
+"""How long a toss that ends nowhere is followed after the stop [s]."""
 SIGNS = {int(Outcome.HEADS): 1, int(Outcome.TAILS): -1}
-"""Of n_z where a face is up."""
+"""The sign of n_z where a face is up."""
 ENDS = (*SIGNS, Outcome.EDGE)
 """How a toss ends that is decided."""
 AXES = {
@@ -47,11 +47,11 @@ AXES = {
 def stopped(
     balance: bool, floor: bool, medium: bool, thickness: bool, ideals: int = 40_000, others: int = 8_000
 ) -> Iterator[dict[str, Any]]:
-    """Toss `ideals` ideal coins or `others` until their face is decided; look where the tests had stopped.
+    """Toss `ideals` ideal coins or `others` until their face is decided; compare with the tests' stops.
 
-    The tests look at the coin after each impact and each step of a sustained contact, and stop the toss. The
-    named face is left where after the stop the other one is up at a touch or in contact, or the toss ends on
-    that or on the edge; it may be where the toss ends nowhere.
+    The tests look at the coin after each impact and each step of a sustained contact, and stop the toss. A
+    toss leaves the named face if after the stop the other face is up at a touch or in contact, or if the toss
+    ends on the other face or on the edge; a toss that ends nowhere may leave it.
     """
     kind = CoinClass(thick=thickness, imperfect=balance, air=medium, coulomb=floor)
     starts = kind.starts(others if balance else ideals)

@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 Array = NDArray[np.float64]
 
 SINGULAR = 1e-8
-"""Below this |det B| the first and third angle are no longer told apart: rounding of R, divided by it, is
-as large."""
+"""Below this |det B| the first and the third angle cannot be distinguished: rounding of R, divided by |det
+B|, is as large as they are."""
 
 _AXES = np.eye(3)
 

@@ -39,9 +39,9 @@ LEAST = tuple(0.3 * 10.0**-k for k in range(11))
 CONE, ACROSS = np.radians(40), 40.0
 """Angle between the normal and the angular momentum; spin across the normal [rad/s]."""
 TOLERANCE = 1e-10
-"""Relative, of the solver that chooses its steps."""
+"""The relative tolerance of the solver that chooses its steps."""
 STEPS = 1000
-"""In the turn of the solver that does not."""
+"""The number of steps in the turn of the solver with fixed steps."""
 
 
 ENGINES = ("analytic", "MuJoCo")

@@ -25,7 +25,7 @@ FLOORS = {
 }
 AXES = {"floor": tuple(FLOORS), "coin": COINS}
 STEP = 1e-5
-"""By which the height of a release differs from the next toss of Fig. 24 [m]."""
+"""The difference in height from one toss of Fig. 24 to the next [m]."""
 
 
 def bounced(floor: str, coin: str, count: int = 20_000, count_real: int = 2000) -> dict[str, Any]:

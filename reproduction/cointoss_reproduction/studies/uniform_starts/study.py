@@ -14,7 +14,7 @@ from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case, faces
 
 SEED = 37
 CELLS = (1, 2, 4, 8, 16, 32)
-"""Cells along each side of the map."""
+"""Numbers of cells along each side of the map."""
 SHOWN, FINEST = "8", "32"
 """Cells along each side whose spread is shown."""
 UNIFORM, LEAN = 0.15, 0.06
@@ -62,7 +62,7 @@ def spread_over_cells(z: Array, w: Array, heads: NDArray[np.bool_], cells: int) 
 
     Args:
         z: heights, from 0 to 1 over the map, (n,).
-        w: spins, likewise, (n,).
+        w: spins, from 0 to 1 over the map, (n,).
         heads: whether a toss ends so, (n,).
         cells: along each side.
     """
