@@ -93,8 +93,8 @@ class Criterion:
         nearest = min(self._limits, key=lambda limit: abs(limit - sample.value))
         needed = sample.needed(nearest)
         if needed is None:
-            return f"no number of {sample.counted} would tell"
-        return f"about {needed:,d} {sample.counted} would tell, not {sample.count:,d}"
+            return f"no number of {sample.counted} would decide it"
+        return f"about {needed:,d} {sample.counted} would decide it (there were {sample.count:,d})"
 
 
 @dataclass(frozen=True, kw_only=True)
