@@ -78,12 +78,12 @@ def reproduce(
     as_list: bool,
     device: str,
 ) -> None:
-    """Compute the paper's figures and the studies anew.
+    """Compute the paper's figures and the studies.
 
     Each NAME writes its data, tables, pictures and page and checks its claims; `all` computes all figures of
     the paper and writes REPRODUCTION.md, claims.csv and gallery.html. Without NAME, list the names, as with
     --list. Exit status 1: a claim comes out otherwise than known; with --check, a verdict changes or a
-    number is off; with --older, something is.
+    number is off; with --older, a result is older than the engines.
     """
     known = runner.names()
     asked = names
