@@ -11,8 +11,8 @@ from cointoss.models.scenario import Scenario
 WHY = (
     "why        At a touch the coin still turns over; at rest it lies flat. A smooth floor keeps the angular",
     "           momenta about the vertical and about the coin's axis. They are equal at a flat release, and",
-    "           opposite in a coin that lies on its other side. So without air a coin that wobbles always",
-    "           comes to rest on its first side.",
+    "           opposite in a coin that lies on its other side. So without air a coin that wobbles much",
+    "           (psi of 70 deg or less) comes to rest on its first side. Nearer to 90 deg some coins don't.",
 )
 """Why a coin rests on its first side far more often than it shows this side at a touch."""
 
