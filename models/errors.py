@@ -30,6 +30,8 @@ def require_type(name: str, value: object, kind: type, accepted: str) -> None:
 
 def shown(value: Any) -> str:
     """Return a value as a message shows it, cut where it is long."""
+    if isinstance(value, type):
+        return value.__name__
     if hasattr(value, "model_dump"):  # a part of a scenario; pydantic and numpy are not imported for it
         value = value.model_dump(exclude_none=True)
     if isinstance(value, tuple):

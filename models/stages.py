@@ -61,7 +61,9 @@ class Stage:
             return None
         first, delay = self._first
         enough = self.done - self._before >= TELLING_PART * (self.total - self._before)
-        if self.done <= first or not (enough or self.seconds >= TELLING_TIME):
+        # The first parts of several workers are reported together.
+        bursts = self.done <= first or self.seconds - delay < delay / 10
+        if bursts or not (enough or self.seconds >= TELLING_TIME):
             return None
         return (self.total - self.done) * (self.seconds - delay) / (self.done - first)
 

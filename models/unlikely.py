@@ -30,9 +30,9 @@ class UnitWarning(UserWarning):
 def unlikely_units(
     gravity: float, coin: Coin, release: Release, ending: EndingCriteria, other: Mapping[str, float] = NONE
 ) -> dict[str, str]:
-    """Return a line for each number that was probably meant in mm or g, by its field.
+    """Return a line for each number that was probably meant in mm, cm or g, by its field.
 
-    Lengths and mass of a coin are judged by its density.
+    Lengths and mass of a coin are judged by its density, which is unlikely as given and likely as meant.
 
     Args:
         gravity: of the scenario.
@@ -60,12 +60,19 @@ def unlikely_units(
         return found
     (density, unit), (low, high) = _density(numbers), _usual(numbers)
     lengths = [name for name in (_RADIUS, _THICKNESS) if density < low and numbers[name] >= LARGE]
-    meant, _ = _density(numbers | {name: numbers[name] / 1000 for name in lengths})
     why = f"; as given, the coin's density is {density:.3g} {unit}"
-    for name in lengths:
-        found[name] = f"{name} = {numbers[name]:g} m: is it mm? write {_quoted(numbers[name], 'mm')}{why}"
-    if meant > high and numbers[_MASS] >= LARGE:
-        found[_MASS] = f"{_MASS} = {numbers[_MASS]:g} kg: is it g? write {_quoted(numbers[_MASS], 'g')}{why}"
+    for meant, part in (("mm", 1e-3), ("cm", 1e-2)):
+        read = numbers | {name: numbers[name] * part for name in lengths}
+        dense, _ = _density(read)
+        is_gram = meant == "mm" and dense > high and numbers[_MASS] >= LARGE
+        is_coin = read[_THICKNESS] <= 10 * read[_RADIUS]
+        if is_coin and low <= dense * (1e-3 if is_gram else 1.0) <= high:
+            asked = dict.fromkeys(lengths, ("m", meant)) | ({_MASS: ("kg", "g")} if is_gram else {})
+            return found | {
+                name: f"{name} = {numbers[name]:g} {si}: is it {other}? "
+                f"write {_quoted(numbers[name], other)}{why}"
+                for name, (si, other) in asked.items()
+            }
     return found
 
 

@@ -9,7 +9,7 @@ from cointoss.compare.commands.common import Place, ReadPlace, plain_errors, pri
 
 
 @click.command()
-@click.argument("model", metavar="MODEL.xml", type=ReadPlace("accepted: an XML file of MuJoCo that exists"))
+@click.argument("model", metavar="MODEL.xml", type=ReadPlace("no such file; accepted: an XML file of MuJoCo"))
 @click.argument("one", metavar="GEOM")
 @click.argument("two", metavar="GEOM")
 @click.option("--png", type=Place(), help="Draw the restitution over the speed.")

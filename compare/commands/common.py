@@ -56,8 +56,13 @@ class ReadPlace(Place):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return the path, or refuse one where there is nothing."""
         path = super().convert(value, param, ctx)
-        if not path.exists():
-            refuse(f"{path}: {self._missing}")
+        if ctx is None or not ctx.resilient_parsing:  # as it is while a shell completes a word
+            try:
+                path.stat()
+            except (FileNotFoundError, NotADirectoryError):
+                refuse(f"{path}: {self._missing}")
+            except OSError as error:
+                refuse(f"{path}: can't be read ({error.strerror})")
         return path
 
 

@@ -149,5 +149,5 @@ def _answer(
     if not_caught:
         click.echo(f"left out  {not_caught:,d} coins that never came down to the hand")
     if not_flat:
-        click.echo(f"left out  at rest: {not_flat:,d} coins that ended on no face")
+        click.echo(f"left out  at rest: {not_flat:,d} coin{'s' * (not_flat != 1)} that ended on no face")
     click.echo("\n".join(["", *lines.below]))

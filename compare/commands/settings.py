@@ -36,13 +36,14 @@ set_option = click.option(
 )
 
 
-def described(source: str, settings: Sequence[str] = ()) -> "tuple[Scenario, str]":
+def described(source: str, settings: Sequence[str] = (), text: str | None = None) -> "tuple[Scenario, str]":
     """Return a scenario in which some fields have other values, and the text of its file.
 
     Args:
         source: its file, or the name of one that comes with the package.
         settings: FIELD=VALUE each, which take their places in turn. A field may be named in part, as
             "restitution"; a value is a number, a text with a unit, a word or a list, as in a file.
+        text: of the file, where it was read: a pipe can be read only once.
 
     Raises:
         ScenarioError: naming the source, field, value and what is accepted.
@@ -54,7 +55,7 @@ def described(source: str, settings: Sequence[str] = ()) -> "tuple[Scenario, str
     from cointoss.models.unlikely import warn_of_unlikely_units
     from cointoss.models.unused import warn_of_unused_fields
 
-    text = scenario_text(source)
+    text = scenario_text(source) if text is None else text
     scenario = parse(text, source)
     if settings:
         from cointoss.compare.sweep.axes import named
@@ -84,23 +85,22 @@ def with_scenario(command: Callable[..., None]) -> Callable[..., None]:
     def called(*arguments: Any, scenario: str | None, settings: tuple[str, ...], **asked: Any) -> None:
         if scenario is None and settings:
             raise click.UsageError(f"--set {settings[0]}: accepted: only with a SCENARIO")
-        if scenario is not None:
-            _require(scenario)
+        text = None if scenario is None else _text_of(scenario)
         with plain_errors("cointoss" if scenario is None else scenario):
             is_none = scenario is None
-            source = None if is_none else Source(scenario, *described(scenario, settings), settings)
+            source = None if is_none else Source(scenario, *described(scenario, settings, text), settings)
             command(*arguments, source=source, **asked)
 
     return called
 
 
-def _require(source: str) -> None:
-    """Refuse a scenario that is not there, before what reads one is imported, which takes longest."""
+def _text_of(source: str) -> str:
+    """Return a scenario's text, or refuse one that is not there before the slow imports that read it."""
     from cointoss.models.errors import ScenarioError
     from cointoss.models.sources import scenario_text
 
     try:
-        scenario_text(source)
+        return scenario_text(source)
     except ScenarioError as error:
         refuse(str(error))
 

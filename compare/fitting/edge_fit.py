@@ -10,6 +10,7 @@ import numpy as np
 from scipy.stats import chi2
 
 from cointoss.compare.fitting.edges import Edges
+from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.fitting.people import interval_of, log_binomial
 from cointoss.compare.fitting.search import LEVEL
 from cointoss.compare.metrics.estimate import Estimate
@@ -18,6 +19,7 @@ from cointoss.compare.shares.shares import shares
 from cointoss.compare.sweep.axes import HAND, Span, spans_of
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.devices import Device
+from cointoss.models.errors import ScenarioError
 from cointoss.models.hand import Hand
 from cointoss.models.records import Array, Outcome
 from cointoss.models.scenario import Scenario
@@ -137,7 +139,11 @@ def fit_edges(
     met, made, left = np.empty((3, len(edges.thickness), VALUES))
     thicknesses = counted("fitting the edges", "thicknesses", edges.thickness.tolist())
     for n, thickness in enumerate(thicknesses):
-        coin = scenario.replace("coin.thickness", thickness)
+        try:
+            coin = scenario.replace("coin.thickness", thickness)
+        except ScenarioError:
+            accepted = 'a coin that this scenario can release; in mm, name the column "thickness (mm)"'
+            raise ObservationError(f"thickness = {thickness:g} m: accepted: {accepted}") from None
         ranges = {span.field: (tossed[0], tossed[-1], VALUES)}
         shown = shares(coin, ranges, hand=usual, tosses=tosses, seed=seed + n, device=device)
         if not shown.attrs["complete"]:

@@ -174,6 +174,8 @@ def as_lines(toss: Toss, *, whole: bool = False) -> str:
 def _meaning_of_trust(toss: Toss) -> str:
     """Return what it means that impacts are trusted, and what the bar in the sequence is."""
     errors = "rounding errors" if toss.engine == "analytic" else "errors of the steps"
+    if toss.trusted_impacts == len(toss.impacts) == 1:
+        return f"{errors}, {TRUSTED.replace('these', 'this')} impact"
     bar = "; the | is the horizon of trust" if toss.trusted_impacts < len(toss.impacts) else " impacts"
     return f"{errors}, {TRUSTED}{bar}"
 

@@ -72,6 +72,7 @@ def completed(line, number):
         ("cointoss toss fig18", 2, [f"fig18_{n}d_{kind}" for n in (2, 3) for kind in ("ideal", "imperfect")]),
         ("cointoss basin fig29 --x release.po", 4, [f"release.position.{axis}=" for axis in "xyz"]),
         ("cointoss toss fig24a --set floor.roll", 4, ["floor.rolling_friction="]),
+        ("cointoss fit gone.csv tab", 3, ["table"]),
         ("cointoss throw fig", 2, []),
     ],
 )

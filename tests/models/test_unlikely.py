@@ -33,6 +33,10 @@ def questioned(case, **other):
         # A steel wheel, a coin of 3 cm on its edge, a foil, and what no scenario accepts.
         ({"coin_radius": 0.6, "coin_thickness": 0.05, "coin_mass": 450.0}, []),
         ({"coin_thickness": 0.03}, []),
+        # 1.25 cm, and light discs: read in mm they would be heavier than any metal.
+        ({"coin_radius": 1.25}, ["coin.radius"]),
+        ({"coin_radius": 1.0, "coin_thickness": 0.1, "coin_mass": 5.0}, []),
+        ({"coin_radius": 0.5, "coin_thickness": 0.05, "coin_mass": 0.589}, []),
         ({"coin_thickness": 1e-7}, []),
         ({"coin_radius": 0.0}, []),
         ({"coin_mass": -1.0}, []),
@@ -40,6 +44,11 @@ def questioned(case, **other):
 )
 def test_lengths_in_mm_and_a_mass_in_g_are_questioned_where_no_coin_is_so_light_or_heavy(numbers, fields):
     assert questioned(TABLE, **numbers) == fields
+
+
+def test_a_radius_in_cm_is_asked_for_in_cm():
+    doubted = unlikely_units(9.81, TABLE.coin, TABLE.release, TABLE.ending, {"coin.radius": 1.25})
+    assert doubted["coin.radius"].startswith('coin.radius = 1.25 m: is it cm? write "1.25 cm";')
 
 
 def test_a_scenario_in_units_of_its_own_is_not_questioned():

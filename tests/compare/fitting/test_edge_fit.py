@@ -16,6 +16,7 @@ from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.fitting.table import read_seen
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.scenario import Scenario
+from cointoss.models.unlikely import UnitWarning
 from tests.helpers.command_line import cointoss
 
 COIN = Scenario(
@@ -74,6 +75,13 @@ def test_shares_that_no_value_explains_are_refused():
     bad = fit(Edges(thickness=thick, edge=[490, 310], tosses=[1000, 1000]), COIN, SPAN, tosses=10**7)
     assert not bad.is_possible
     assert math.isnan(bad.value.low)
+
+
+def test_thicknesses_in_a_wrong_unit_are_questioned():
+    wrong = Edges(thickness=[2.0, 5.0], edge=[10, 20], tosses=[100, 100])
+    named = r'"thickness \(mm\)"'
+    with pytest.warns(UnitWarning, match=named), pytest.raises(ObservationError, match=f"2 m: .*{named}"):
+        fit(wrong, COIN.replace("release.position.z", 0.1), SPAN)
 
 
 @pytest.mark.usefixtures("linear")

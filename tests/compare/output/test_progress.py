@@ -66,6 +66,19 @@ def test_a_log_says_how_many_there_are_and_when_it_ends():
     assert desk.wait(7) == "cointoss: map.zarr: 30,000 of 90,000 tosses, about 66 s left\n"
 
 
+def test_parts_of_several_workers_that_come_together_tell_no_time_left():
+    desk = Desk(rewrites=False)
+    tossing = desk.begin("map.zarr", "tosses", total=80)
+    desk.now = 100.0
+    for done in range(1, 9):
+        desk.now += 0.01
+        tossing.progress(done, 80)
+    assert tossing.seconds_left is None
+    desk.now = 200.0
+    tossing.progress(16, 80)
+    assert tossing.seconds_left == pytest.approx(64 * 100 / 15, rel=1e-3)
+
+
 def test_time_left_is_told_after_a_twentieth_and_a_second_report():
     desk = Desk(rewrites=False)
     tossing = desk.begin("map.zarr", "tosses", total=38_400)
