@@ -105,7 +105,6 @@ def chosen_hand(given: dict[str, Any], described: "Scenario") -> "tuple[Hand, Sc
 
     from cointoss.models.errors import ScenarioError
     from cointoss.models.hand import OF_A_TOSS, Hand, load_hand
-    from cointoss.models.unlikely import warn_of_unlikely_units
 
     file = given.pop("hand_file")
     options = {item.name: given.pop(item.name, None) for item in fields(Hand)}
@@ -118,9 +117,6 @@ def chosen_hand(given: dict[str, Any], described: "Scenario") -> "tuple[Hand, Sc
     values = {name: one.value if isinstance(one, Given) else one for name, one in typed.items()}
     with naming_options({name: (f"--{name.replace('_', '-')}", one) for name, one in typed.items()}):
         hand = replace(usual, **values)
-    warn_of_unlikely_units(
-        described.gravity, described.coin, described.release, described.ending, {"hand.height": hand.height}
-    )
     try:
         return hand, hand.scenario(described)
     except ScenarioError as error:

@@ -83,7 +83,7 @@ def test_files_are_written_and_the_results_printed(tmp_path):
     assert answered.stdout.startswith("as drawn\n\nsum\n───\n5\n\n✓ holds: two and two are five\n")
     assert answered.stdout.endswith(f"\n\nfake-good: 1 holds\n{old}\n")
     kept = {path.name: path.read_text() for path in old.iterdir()}
-    assert sorted(kept) == ["cells.csv", "claims.json", "mine.txt", "provenance.json"]
+    assert sorted(kept) == ["cells.csv", "claims.json", "index.md", "mine.txt", "provenance.json"]
     assert (kept["cells.csv"], kept["mine.txt"]) == ("sum\n5\n", "old")
 
 
@@ -129,7 +129,8 @@ def test_an_interrupted_study_goes_on_where_it_was_and_a_finished_one_leaves_no_
     assert [path.name for path in folder.iterdir()] == ["parts"]
     assert cointoss("reproduce", "long", "--out", tmp_path).exit_code == 0
     assert (tmp_path / "studies" / "long" / "0").read_text() == "x"
-    assert sorted(path.name for path in folder.iterdir()) == ["cells.csv", "claims.json", "provenance.json"]
+    left = sorted(path.name for path in folder.iterdir())
+    assert left == ["cells.csv", "claims.json", "index.md", "provenance.json"]
 
 
 @pytest.mark.usefixtures("fakes")

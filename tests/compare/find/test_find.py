@@ -20,6 +20,7 @@ from cointoss.models.quantities import LARGEST
 from cointoss.models.reading import load, parse
 from cointoss.models.records import Outcome
 from cointoss.models.stages import stages
+from cointoss.models.unlikely import UnitWarning
 from tests.helpers.basin_runs import SCENARIO
 
 COIN = parse(SCENARIO, "coin")
@@ -185,6 +186,7 @@ def test_a_spin_may_vary_about_the_axis_that_the_coin_has():
     assert w[0] / w[1] == pytest.approx(4 / 3)
 
 
+@pytest.mark.filterwarnings(f"ignore::{UnitWarning.__module__}.UnitWarning")
 def test_margins_are_looked_for_in_numbers_that_a_release_can_have():
     window = window_of({"release.position.z": (-1e9, 1e9)}, load("fig24a"))
     # A margin may be as wide as the window, to either side.

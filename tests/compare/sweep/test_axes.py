@@ -8,6 +8,7 @@ from cointoss.compare.sweep.axes import Axis, parse_axis
 from cointoss.models.fields import UNITS, split
 from cointoss.models.reading import load
 from cointoss.models.scenario import Scenario
+from cointoss.models.unlikely import UnitWarning
 from tests.helpers.basin_runs import TUMBLING
 from tests.helpers.draws import scenario
 
@@ -29,6 +30,7 @@ def test_every_numeric_field_but_the_inertia_can_vary():
     assert keys == numeric_fields(Scenario) - {"coin.inertia"}
 
 
+@pytest.mark.filterwarnings(f"ignore::{UnitWarning.__module__}.UnitWarning")
 @pytest.mark.parametrize(("field", "unit"), [pair for pair in UNITS.items() if pair[1]])
 def test_a_value_may_be_given_in_the_unit_of_its_field(field, unit):
     assert parse_axis(f"{field}=0.3 {unit}:9:2", TUMBLING).start == pytest.approx(0.3, rel=1e-15)
