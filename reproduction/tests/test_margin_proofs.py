@@ -40,6 +40,6 @@ def test_long_arithmetic_is_imported_only_where_a_margin_is_proved(tmp_path, is_
     )
     ran = python("-c", code)
     *lines, imported = ran.stdout.splitlines()
-    assert sum(line.startswith("margin") for line in lines) == len(QUANTITIES)
+    assert sum(line.startswith("margin ") for line in lines) == len(QUANTITIES)
     assert ("proved to be above" in ran.stdout) == is_planar
     assert (imported != "[]") == is_planar

@@ -87,7 +87,7 @@ def test_claims_are_printed_with_their_verdicts_and_counted():
     measured  share: 0.50 [0.40, 0.60]
               (< 0.45: rarer)
     open      about 400 tosses would
-              tell, not 100
+              decide it (there were 100)
 
 ? cannot be tested: the coin is thin
     open      its thickness
