@@ -3,6 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
+TESTED := $(VENV)/.ready-test
 SCENARIOS := table fig24a
 # What the site computes, made again where the code has changed.
 MADE := out/docs
@@ -16,35 +17,47 @@ unexport PYTHONDONTWRITEBYTECODE
 # What does not wait for each other is made side by side; a make within a make is told so.
 MAKEFLAGS += $(if $(filter 0,$(MAKELEVEL)),--jobs=2)
 
-# A step that says nothing itself: what it does, and every ten seconds that its shell still runs.
-told = echo "$(1)"; \
-  while sleep 10 >/dev/null 2>&1 && kill -0 $$$$; do s=$$(($$s + 10)); echo "$(1): $$s s"; done & \
-  trap "kill $$!" EXIT; $(2)
+# A step whose own words are shown only where it fails: one line with its time.
+STEP := .ci/step
+APT := $(STEP) "apt: installing what is missing" sh -c 'apt-get update && apt-get install -y --no-install-recommends "$$@"' apt
+PIP := $(BIN)/python -m pip install --quiet --no-compile --no-build-isolation
 
-.PHONY: report test check test-all bench docs examples pages screens paper results releasable release wheels lock lint sink emulated opengl chromium firefox engines clean
+.PHONY: report test slow check test-all installed bench docs examples pages screens paper results releasable release wheels lock lint sink emulated opengl chromium firefox engines clean
 
-# The first line it prints at its end leads to the lab.
 report: $(READY) opengl engines $(ENGINE)
 	@mkdir -p out
 	@$(BIN)/cointoss lab --out out/lab.html
 	@for name in $(SCENARIOS); do $(BIN)/cointoss compare $$name --out out/$$name || exit; done
+	@echo "Open out/lab.html, the lab, in a browser; the reports: $(SCENARIOS:%=out/%/report.html)"
+	@echo "Next: $(BIN)/cointoss toss table tosses a coin, and make test runs the tests."
 
 # A worker that crashes ends the run: with another in its place a run was seen never to end.
 PYTEST := $(BIN)/pytest -n 2 --dist loadfile --max-worker-restart 0
 
-test: $(READY) opengl chromium lint engines
+test: $(TESTED) opengl chromium engines
+	$(BIN)/ruff check --quiet .
+	$(BIN)/ruff format --quiet --check .
 	$(PYTEST)
 
+# The tests that take longer: their further cases, and larger ones.
+slow: $(VENV)/.ready-slow opengl chromium engines
+	$(PYTEST) -m slow
+
 # Lint, and the tests of the mechanics.
-check: $(READY) lint engines
+check: lint engines
 	$(PYTEST) tests/analytic tests/test_conformance*.py
 
-test-all: $(READY) opengl chromium lint engines
-	$(PYTEST) -m "slow or not slow"
+test-all: $(VENV)/.ready-slow opengl chromium lint engines
+	$(PYTEST) -m ""
+
+# Each way of README to install it, into an empty environment. WHOLE=1 builds the engines anew for each, and tries the
+# wheels in dist/ with each Python of this machine.
+installed: $(TESTED)
+	@WHOLE=$(WHOLE) .ci/installed $(BIN)/python
 
 # The tests there run the same tosses once; only here are they timed. KEEP=1 keeps the processor times of a commit
 # in docs/benchmarks.csv, of which `make pages` draws a picture.
-bench: $(READY) $(if $(KEEP),,$(ENGINE) chromium)
+bench: $(VENV)/.ready-slow $(if $(KEEP),,$(ENGINE) chromium)
 	$(BIN)/pytest tests/benchmarks $(if $(KEEP),$(KEPT),tests/site/test_speed.py) \
 	  --benchmark-enable --benchmark-columns=min,median,rounds
 KEPT := -p tests.benchmarks.keeping --benchmark-timer=time.process_time --benchmark-json=/dev/null
@@ -52,14 +65,14 @@ KEPT := -p tests.benchmarks.keeping --benchmark-timer=time.process_time --benchm
 # The pages of docs/ as a site; its links, its pages in the browser and the examples of the pages are tested.
 docs: $(VENV)/.ready-docs chromium firefox engines $(MADE)/pages/explorer.html
 	rm -rf out/site
-	@$(call told,making the site of docs/,$(BIN)/sphinx-build -q -W --keep-going -d $(MADE)/doctrees docs out/site)
+	@$(STEP) "making the site of docs/" $(BIN)/sphinx-build -q -W --keep-going -d $(MADE)/doctrees docs out/site
 	$(BIN)/pytest tests/site
 	@$(MAKE) --no-print-directory examples
 	@echo "The site, made and tested: out/site/index.html"
 
 # The commands and the Python of the pages, each page in an empty folder. PAGES=docs/TUTORIAL.md runs one page.
-examples: $(READY) opengl engines $(ENGINE)
-	@$(call told,running the examples of the pages,PYTHONPATH=. $(BIN)/python docs/extensions/examples.py $(PAGES))
+examples: $(TESTED) opengl engines $(ENGINE)
+	@PYTHONPATH=. $(BIN)/python docs/extensions/examples.py $(PAGES)
 
 # What docs/ has that is made of other files there: nothing is computed.
 pages: $(VENV)/.ready-docs
@@ -92,27 +105,27 @@ release: releasable
 	$(MAKE) paper
 	$(MAKE) wheels
 	COINTOSS_WHEEL=$$(ls dist/*-$$($(BIN)/python -c 'from cointoss.models.kernel.build.wheel import *; print(PLATFORMS[SYSTEM])').whl) \
-	  $(BIN)/pytest tests/test_wheel.py -m "slow or not slow"
+	  $(BIN)/pytest tests/test_wheel.py -m ""
+	$(MAKE) installed WHOLE=1
 	$(MAKE) releasable
 	git tag --annotate v$(VERSION) --message "cointoss $(VERSION)"
 	@echo "v$(VERSION) is tagged; now: git push origin v$(VERSION), upload dist/ to the index, archive it"
 
 # The archive of the sources, and a wheel for each system with the engines' libraries for it: out of one module of code.
 SYSTEMS := linux-x86_64 linux-aarch64 darwin-arm64 win32-amd64
-wheels: $(READY) $(ENGINE)
+WHEEL := $(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation --wheel-dir dist
+wheels: $(VENV)/.ready-slow $(ENGINE)
 	rm -rf dist out/engines
 	mkdir -p out/engines
 	@for module in models analytic coin_mj; do \
-	  ($(call told,building the libraries of $$module,$(BIN)/python -m cointoss.models.kernel.build \
+	  $(STEP) "building the libraries of $$module" $(BIN)/python -m cointoss.models.kernel.build \
 	  cointoss.$$module.entries --out out/engines --carried $(SYSTEMS:%=--system %) \
-	  $$([ $$module = analytic ] && echo --system cuda))) || exit; done
+	  $$([ $$module = analytic ] && echo --system cuda) || exit; done
 	cp $(ENGINE) out/engines
 	$(BIN)/python -m hatchling build -t sdist -d dist
 	@for system in $(SYSTEMS); do export COINTOSS_SYSTEM=$$system COINTOSS_ENGINES=$(CURDIR)/out/engines; \
-	  ($(call told,pip: making the wheel for $$system,$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation \
-	  --wheel-dir dist dist/cointoss_dynamics-*.tar.gz)) || exit; done
-	@$(call told,pip: making the wheel of the studies,$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation \
-	  --wheel-dir dist ./reproduction)
+	  $(STEP) "pip: making the wheel for $$system" $(WHEEL) dist/cointoss_dynamics-*.tar.gz || exit; done
+	@$(STEP) "pip: making the wheel of the studies" $(WHEEL) ./reproduction
 
 # All that docs/ holds of results, computed anew in several hours, and the pages of them. A claim that comes out
 # otherwise than known is printed, and is no reason to stop.
@@ -121,7 +134,7 @@ results: $(VENV)/.ready-docs opengl engines
 	$(BIN)/python docs/extensions/written.py
 
 # The exact versions installed here, with which the numbers of the pages can be made again.
-lock: $(VENV)/.ready-docs
+lock: $(VENV)/.ready-docs $(VENV)/.ready-lint
 	$(BIN)/python -m pip freeze --exclude-editable > constraints.txt
 
 $(MADE)/pages/explorer.html: $(READY) $(CODE) $(ENGINE) docs/conf.py $(wildcard docs/extensions/*.py) | engines
@@ -135,7 +148,7 @@ $(MADE)/pages/explorer.html: $(READY) $(CODE) $(ENGINE) docs/conf.py $(wildcard 
 
 # The same tosses by the libraries for arm64 and Windows, in emulators: Debian's packages qemu-user with
 # libc6-arm64-cross, and wine.
-emulated: $(READY)
+emulated: $(TESTED)
 	$(BIN)/python -m tests.helpers.emulated
 
 # Is built where the file is not of its sources, once the other engines are.
@@ -143,34 +156,40 @@ $(ENGINE): FORCE | $(READY) engines
 	@$(BIN)/python -m cointoss.compare.web.wasm.build $@
 FORCE:
 
-lint: $(READY)
-	$(BIN)/ruff check .
-	$(BIN)/ruff format --check .
-	@$(call told,pyright: checking types,$(BIN)/pyright --pythonpath $(BIN)/python)
+lint: $(VENV)/.ready-lint
+	$(BIN)/ruff check --quiet .
+	$(BIN)/ruff format --quiet --check .
+	@$(STEP) "pyright: checking types" $(BIN)/pyright --pythonpath $(BIN)/python
 	PYTHONPATH=. $(BIN)/lint-imports
 	$(BIN)/python -m tests.helpers.ceilings
 
 # A ceiling sinks to the statements that its folder has.
-sink: $(READY)
+sink: $(TESTED)
 	$(BIN)/python -m tests.helpers.ceilings --sink
 
-$(READY): pyproject.toml reproduction/pyproject.toml
-	$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 11) and 'cointoss needs Python >= 3.11')"
-	@$(call told,making $(VENV),$(PYTHON) -m venv $(VENV))
-	@$(call told,pip: updating itself,$(BIN)/python -m pip install --quiet "pip>=25.1")
-	@$(call told,pip: installing cointoss and what it needs,$(BIN)/python -m pip install --quiet --editable . --editable reproduction --group dev)
-	touch $@
+$(READY): pyproject.toml
+	@$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 11) and 'cointoss needs Python >= 3.11')"
+	@$(STEP) "making $(VENV)" $(PYTHON) -m venv $(VENV)
+	@$(STEP) "pip: updating itself" $(BIN)/python -m pip install --quiet --no-compile "pip>=25.1"
+	@$(STEP) "pip: installing what builds cointoss" $(PIP) --group build
+	@$(STEP) "pip: installing cointoss and what it needs" $(PIP) --editable .
+	@touch $@
 
-$(VENV)/.ready-docs: $(READY)
-	@$(call told,pip: installing what makes the site,$(BIN)/python -m pip install --quiet --group docs)
-	touch $@
+# What pyproject.toml lists as groups, each where it is needed. The studies are installed with the tests, which are theirs
+# too; types are checked of all that the tests import.
+$(TESTED): $(READY) reproduction/pyproject.toml
+$(VENV)/.ready-slow $(VENV)/.ready-docs: $(TESTED)
+$(VENV)/.ready-lint: $(VENV)/.ready-slow
+$(VENV)/.ready-test $(VENV)/.ready-slow $(VENV)/.ready-lint $(VENV)/.ready-docs: $(VENV)/.ready-%:
+	@$(STEP) "pip: installing what make $* needs" $(PIP) --group $* $(if $(filter test,$*),--editable reproduction)
+	@touch $@
 
 # MuJoCo draws without a screen through EGL. Debian's packages are installed where that is allowed; elsewhere
 # `cointoss` says which to install, and the report comes without its video.
 opengl:
 	@if [ "$$(uname)" = Linux ] && ! PATH=$$PATH:/sbin:/usr/sbin ldconfig -p 2>/dev/null | grep -q 'libEGL\.so' \
 	  && [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
-	  apt-get update -q && apt-get install -y -q --no-install-recommends libegl1 libgl1-mesa-dri libopengl0 \
+	  $(APT) libegl1 libgl1-mesa-dri libopengl0 \
 	  || echo "The OpenGL libraries could not be installed; the report will have no video." >&2; \
 	fi
 
@@ -178,7 +197,7 @@ opengl:
 chromium: | opengl
 	@if [ "$$(uname)" = Linux ] && ! command -v chromium >/dev/null \
 	  && [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
-	  apt-get update -q && apt-get install -y -q --no-install-recommends chromium \
+	  $(APT) chromium \
 	  || echo "Chromium could not be installed; the tests of the explorer's page will fail." >&2; \
 	fi
 
@@ -186,7 +205,7 @@ chromium: | opengl
 firefox: | chromium
 	@if [ "$$(uname)" = Linux ] && ! command -v firefox-esr >/dev/null && ! command -v firefox >/dev/null \
 	  && [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
-	  apt-get update -q && apt-get install -y -q --no-install-recommends firefox-esr \
+	  $(APT) firefox-esr \
 	  || echo "Firefox could not be installed; its test of the site will fail." >&2; \
 	fi
 
