@@ -17,7 +17,17 @@ import cointoss as package
 from cointoss.compare.cli import main
 from cointoss.models.reading import parse
 from tests.helpers.command_line import cointoss
-from tests.helpers.pages import DOCS, PAGES, TOP, blocks, commands, is_synopsis, not_answered, shown_below
+from tests.helpers.pages import (
+    DOCS,
+    PAGES,
+    TOP,
+    blocks,
+    commands,
+    is_synopsis,
+    not_answered,
+    not_printed,
+    shown_below,
+)
 
 sys.path.append(str(DOCS / "extensions"))
 counting = import_module("words")
@@ -89,6 +99,7 @@ def test_the_code_of_a_page_runs_from_top_to_bottom(page, tmp_path, monkeypatch)
             with redirect_stdout(StringIO()) as told:
                 exec(compile(block.text, page.name, "exec"), names)
             printed = told.getvalue()
+            assert not_printed(block.text, printed) == [], printed
         if block.language == "text":
             assert printed.rstrip() == block.text, f"printed:\n{printed}"
         if "[coin]" in block.text and "[release]" in block.text and block.language in ("", "toml"):

@@ -12,6 +12,8 @@ PLACEHOLDER = re.compile(r"\[|\.\.\.|\b(?![HT]+\b)[A-Z]{2,}\b(?![-.\w]*[a-z])")
 """What a line of a synopsis has and a command that can be run has not."""
 NAMED = re.compile(r"\A# ([\w-]+\.\w+)(?::|$)", re.MULTILINE)
 """The first line of a block that names its file."""
+ANSWERED = re.compile(r"^ *print\(.*\)  # (.*)$", re.MULTILINE)
+"""A line of Python that prints, with its answer in the comment."""
 SAVED = re.compile(r"\b[Ss]ave\b[^.:]*\bas `([\w-]+\.\w+)`[^`]*\Z")
 """The end of a paragraph that names the file of the block below."""
 
@@ -85,6 +87,12 @@ def not_answered(block: str, command: str, stdout: str) -> list[str]:
     answer = [_words(line) for line in stdout.splitlines()]
     shown = shown_below(block, command)
     return [line for line in shown if not any(_is_same(_words(line), given) for given in answer)]
+
+
+def not_printed(code: str, stdout: str) -> list[str]:
+    """Return the comments behind a `print` in a block of Python that were not printed."""
+    printed = [_words(line) for line in stdout.splitlines()]
+    return [line for line in ANSWERED.findall(code) if _words(line) not in printed]
 
 
 def _words(line: str) -> list[str]:
