@@ -4,9 +4,10 @@ import math
 
 from cointoss.models.body import Body, is_ideal
 from cointoss.models.geometry import lower_rim, tilt_sine_of
+from cointoss.models.inertia import largest_across
 from cointoss.models.kernel.circle import on_circle
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import Matrix, Vector, apply, dot
+from cointoss.models.kernel.vectors import Vector, apply, dot
 from cointoss.models.state import State
 
 # Sines and cosines of the tilts at which the energy needed is computed, from just off a face to upright.
@@ -150,7 +151,7 @@ def _general_barrier(body: Body, up: Vector, w: Vector) -> float:
     today = min(tilt_sine_of(up), 1.0)
     upper = -lower_rim(up[2])
     c_across = math.hypot(body.center[0], body.center[1])
-    highest, J_across = 0.0, _largest_across(J)
+    highest, J_across = 0.0, largest_across(J)
     for i in range(len(_SINES)):
         sine, cosine = _SINES[i], _COSINES[i]
         if sine < today:
@@ -168,10 +169,3 @@ def _general_bound(body: Body, up: Vector, w: Vector) -> float:
     """Bound `_general_barrier` from above without trying tilts [J]."""
     L_z = dot(up, apply(body.inertia, w))
     return BEYOND_ROUNDING * (barrier(body, up[2]) + L_z * L_z / (2 * body.inertia_smallest))
-
-
-@compiled
-def _largest_across(J: Matrix) -> float:
-    """Return the largest moment of inertia about an axis in the coin's plane."""
-    mean, half = (J[0][0] + J[1][1]) / 2, (J[0][0] - J[1][1]) / 2
-    return mean + math.hypot(half, J[0][1])

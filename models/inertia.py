@@ -56,6 +56,13 @@ def inertia_about_mass_center(J_B: Matrix, mass: float, center: Vector) -> Matri
 
 
 @compiled
+def largest_across(J: Matrix) -> float:
+    """Return the largest moment of inertia about an axis in the coin's plane [kg m²]."""
+    mean, half = (J[0][0] + J[1][1]) / 2, (J[0][0] - J[1][1]) / 2
+    return mean + math.hypot(half, J[0][1])
+
+
+@compiled
 def inverse(J: Matrix) -> Matrix:
     """Return the inverse of a positive definite matrix, by Gaussian elimination, which needs no pivots there.
 

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from math import pi
 from types import MappingProxyType
 
+from cointoss.models.inertia import inertia_about_mass_center, largest_across
 from cointoss.models.parts import Coin, EndingCriteria, Release
 
 LEAST_GRAVITY = 1.5
@@ -18,6 +19,8 @@ LARGE = 0.1
 """A radius, thickness or mass below it is not questioned [m, kg]."""
 HIGHEST = 100.0
 """A release or a catch above it is questioned [m]."""
+_ROUNDED = 1 + 1e-9
+"""A moment at its bound, a ring's, may exceed it by rounding."""
 _MASS, _RADIUS, _THICKNESS = "coin.mass", "coin.radius", "coin.thickness"
 NONE: Mapping[str, float] = MappingProxyType({})
 _HEIGHTS = ("release.position.z", "ending.caught", "hand.height")
@@ -56,6 +59,8 @@ def unlikely_units(
         for name in _HEIGHTS
         if numbers.get(name, 0.0) > HIGHEST
     }
+    if coin.inertia is not None and (larger := _larger_than_a_body_has(coin)):
+        found["coin.inertia"] = larger
     if min(numbers[_MASS], numbers[_RADIUS]) <= 0:
         return found
     (density, unit), (low, high) = _density(numbers), _usual(numbers)
@@ -74,6 +79,23 @@ def unlikely_units(
                 for name, (si, other) in asked.items()
             }
     return found
+
+
+def _larger_than_a_body_has(coin: Coin) -> str | None:
+    """Return a line about a moment of inertia larger than with all mass at the coin's edge, or None."""
+    J = inertia_about_mass_center(coin.moments, -coin.mass, coin.center_of_mass)  # about B
+    square = coin.radius * coin.radius
+    most = {
+        "a diameter": (largest_across(J), coin.mass * (square + coin.thickness * coin.thickness / 4)),
+        "the axis": (J[2][2], coin.mass * square),
+    }
+    for axis, (moment, bound) in most.items():
+        if moment > bound * _ROUNDED:
+            return (
+                f"coin.inertia: its moment about {axis} of the cylinder is {moment:.3g} kg m², "
+                f"and no body of this mass in it has more than {bound:.3g}: is it g cm²? write it in kg m²"
+            )
+    return None
 
 
 def _quoted(number: float, unit: str) -> str:

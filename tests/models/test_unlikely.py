@@ -2,7 +2,7 @@
 
 import pytest
 
-from cointoss import Scenario, load, parse
+from cointoss import Coin, Scenario, load, parse
 from cointoss.models.errors import ScenarioError
 from cointoss.models.sources import scenario_text
 from cointoss.models.unlikely import UnitWarning, unlikely_units
@@ -44,6 +44,27 @@ def questioned(case, **other):
 )
 def test_lengths_in_mm_and_a_mass_in_g_are_questioned_where_no_coin_is_so_light_or_heavy(numbers, fields):
     assert questioned(TABLE, **numbers) == fields
+
+
+@pytest.mark.parametrize(
+    ("moments", "center", "is_questioned"),
+    [
+        # At most m (r² + h²/4) about a diameter and m r² about the axis: all mass at the rims.
+        ((1.0, 1.0, 2e-5), (0.0, 0.0, 0.0), "diameter"),
+        ((1.01 * 1.0077e-5, 1.01 * 1.0077e-5, 1e-8), (0.0, 0.0, 0.0), "diameter"),
+        ((0.99 * 1.0077e-5, 0.99 * 1.0077e-5, 1e-8), (0.0, 0.0, 0.0), ""),
+        ((5e-6, 6e-6, 1.01 * 1.0017e-5), (0.0, 0.0, 0.0), "axis"),
+        ((5e-6, 6e-6, 0.99 * 1.0017e-5), (0.0, 0.0, 0.0), ""),
+        # About the centre of mass 9 mm beside the middle m (9 mm)² is gone.
+        ((5e-6, 6e-6, 0.99 * 1.0017e-5), (0.009, 0.0, 0.0), "axis"),
+    ],
+)
+def test_an_inertia_is_questioned_that_no_body_in_the_cylinder_has(moments, center, is_questioned):
+    inertia = [[moment * (i == j) for j in range(3)] for i, moment in enumerate(moments)]
+    coin = Coin(mass=0.01, radius=0.03165, thickness=0.0049, center_of_mass=center, inertia=inertia)
+    doubted = unlikely_units(9.81, coin, TABLE.release, TABLE.ending)
+    assert ("coin.inertia" in doubted) == bool(is_questioned)
+    assert is_questioned in doubted.get("coin.inertia", "")
 
 
 def test_a_radius_in_cm_is_asked_for_in_cm():
