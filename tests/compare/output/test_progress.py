@@ -56,14 +56,45 @@ def test_a_log_names_a_stage_after_five_seconds_and_then_every_ten():
     assert desk.wait(2) == "cointoss: drawing the film: 1 s\n"
 
 
-def test_a_log_says_how_many_there_are_and_when_it_ends():
+@pytest.mark.parametrize(
+    ("counts", "happens"),
+    [
+        (
+            {"total": 90_000, "done": 10_000},
+            [
+                (6, "cointoss: map.zarr: 10,000 of 90,000 tosses\n", 20_000),
+                (4, "", 30_000),
+                (7, "cointoss: map.zarr: 30,000 of 90,000 tosses, about 66 s left\n", 30_000),
+            ],
+        ),
+        (
+            {"total": 38_400},
+            [
+                (3, "", 1_920),  # what takes long at first, such as loading, is in its time
+                (3, "cointoss: map.zarr: 1,920 of 38,400 tosses\n", 3_840),
+                (11, "3,840 of 38,400 tosses, about 4 min left\n", 3_840),
+            ],
+        ),
+        (
+            {"total": 3140},
+            [
+                (6, "0 of 3,140 tosses\n", 1),
+                (1, "", 100),
+                (49, "100 of 3,140 tosses\n", 100),
+                (11, "100 of 3,140 tosses, about 28 min left\n", 100),
+            ],
+        ),
+    ],
+    ids=["at the next line", "after a twentieth and a second report", "of long work after a minute"],
+)
+def test_a_log_says_how_many_there_are_and_when_it_ends(counts, happens):
     desk = Desk(rewrites=False)
-    tossing = desk.begin("map.zarr", "tosses", total=90_000, done=10_000)
-    assert desk.wait(6) == "cointoss: map.zarr: 10,000 of 90,000 tosses\n"
-    tossing.progress(20_000, 90_000)
-    desk.wait(4)
-    tossing.progress(30_000, 90_000)
-    assert desk.wait(7) == "cointoss: map.zarr: 30,000 of 90,000 tosses, about 66 s left\n"
+    tossing = desk.begin("map.zarr", "tosses", **counts)
+    for seconds, said, done in happens:
+        told = desk.wait(seconds)
+        assert told.endswith(said) if said else told == ""
+        assert ("left" in told) == ("left" in said)
+        tossing.progress(done, counts["total"])
 
 
 def test_parts_of_several_workers_that_come_together_tell_no_time_left():
@@ -77,26 +108,6 @@ def test_parts_of_several_workers_that_come_together_tell_no_time_left():
     desk.now = 200.0
     tossing.progress(16, 80)
     assert tossing.seconds_left == pytest.approx(64 * 100 / 15, rel=1e-3)
-
-
-def test_time_left_is_told_after_a_twentieth_and_a_second_report():
-    desk = Desk(rewrites=False)
-    tossing = desk.begin("map.zarr", "tosses", total=38_400)
-    desk.wait(3)
-    tossing.progress(1_920, 38_400)  # what takes long at first, such as loading, is in its time
-    assert desk.wait(3) == "cointoss: map.zarr: 1,920 of 38,400 tosses\n"
-    tossing.progress(3_840, 38_400)
-    assert desk.wait(11).endswith("3,840 of 38,400 tosses, about 4 min left\n")
-
-
-def test_time_left_of_long_work_is_told_after_a_minute():
-    desk = Desk(rewrites=False)
-    drawing = desk.begin("drawing the film", "frames", total=3140)
-    desk.wait(6)
-    drawing.progress(1, 3140)
-    drawing.progress(100, 3140)
-    assert "left" not in desk.wait(50)
-    assert desk.wait(11).endswith("100 of 3,140 frames, about 28 min left\n")
 
 
 def test_a_stage_within_another_is_named_as_soon_as_it_takes_long():
