@@ -14,6 +14,7 @@ from cointoss.models.ending import REST_WAIT
 from cointoss.models.reading import load
 from cointoss.models.records import Ending, Outcome
 from tests.helpers.draws import AIR, ZLOTY, draw_coin, draw_release, scenario
+from tests.helpers.states import last_state
 
 g, r, h, mu = 9.81, 1.25e-2, 2e-3, 0.05
 COIN = {"mass": 5e-3, "radius": r, "thickness": h}
@@ -28,11 +29,6 @@ def on_rough_floor(release, until, **floor):
 
 def lying(until="3 s", **release):
     return on_rough_floor({"position": [0, 0, h / 2], **release}, until)
-
-
-def last_state(toss):
-    end = toss.sample(toss.path_end)
-    return end.position[0], end.velocity[0], end.angular_velocity[0]
 
 
 def time_of_rest(toss):

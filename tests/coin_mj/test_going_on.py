@@ -10,6 +10,7 @@ from cointoss.models.ending import REST_WAIT
 from cointoss.models.reading import load
 from cointoss.models.records import Ending, Outcome
 from tests.helpers.draws import scenario
+from tests.helpers.states import last_state
 
 g, r, h, mu = 9.81, 1.25e-2, 2e-3, 0.05
 COIN = {"mass": 5e-3, "radius": r, "thickness": h}
@@ -18,11 +19,6 @@ COIN = {"mass": 5e-3, "radius": r, "thickness": h}
 def tossed(release, until):
     floor = {"contact": "coulomb", "friction": mu, "restitution": 0.5}
     return coin_mj.toss(scenario(coin=COIN, floor=floor, release=release, ending={"until": until}))
-
-
-def last_state(toss):
-    end = toss.sample(toss.path_end)
-    return end.position[0], end.velocity[0], end.angular_velocity[0]
 
 
 def test_a_coin_that_lies_slides_as_a_point_on_the_floor():
@@ -45,6 +41,7 @@ def test_a_coin_on_its_edge_with_backspin_stops_where_friction_has_taken_both():
     assert np.abs(velocity).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_a_coin_at_rest_ends_its_path():
     toss = coin_mj.toss(load("table").replace("ending.until", "rest"))
     assert toss.end_time < toss.path_end < toss.end_time + REST_WAIT
@@ -73,6 +70,7 @@ def test_a_caught_coin_stays_in_the_hand():
     assert np.ptp(states.position, axis=0).max() < 1e-15
 
 
+@pytest.mark.slow
 def test_a_toss_and_its_path_up_to_the_end_stay_the_same_to_the_bit():
     for name in ("fig24a", "fig2", "contact_smooth", "table"):
         case = load(name)

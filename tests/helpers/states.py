@@ -5,7 +5,7 @@ import numpy as np
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import Body
 from cointoss.models.geometry import gap
-from cointoss.models.records import Array, Impacts, States
+from cointoss.models.records import Array, Impacts, States, Toss
 from cointoss.models.scenario import Scenario
 
 
@@ -20,3 +20,9 @@ def energies(case: Scenario, states: States) -> Array:
     v, w = states.velocity, states.angular_velocity
     turning = np.einsum("ni,ij,nj->n", w, np.array(case.body.inertia), w) / 2
     return turning + case.coin.mass * ((v**2).sum(1) / 2 + case.gravity * states.position[:, 2])
+
+
+def last_state(toss: Toss) -> tuple[Array, Array, Array]:
+    """Return position, velocity and angular velocity at the end of a toss's path, (3,) each."""
+    end = toss.sample(toss.path_end)
+    return end.position[0], end.velocity[0], end.angular_velocity[0]

@@ -12,13 +12,6 @@ from tests.helpers.command_line import cointoss as command
 from tests.helpers.command_line import refused
 
 
-@pytest.fixture
-def built(monkeypatch):
-    """A package that carries some engine."""
-    monkeypatch.setattr(carried, "engine_bytes", lambda: bytes(500_000))
-
-
-@pytest.mark.usefixtures("built")
 def test_the_page_is_one_small_file_that_loads_nothing(tmp_path):
     target = tmp_path / "lab.html"
     answered = command("lab", "table", "--out", target)
@@ -33,7 +26,6 @@ def test_the_page_is_one_small_file_that_loads_nothing(tmp_path):
     assert held["outcomes"]["1"]["label"] == "heads"
 
 
-@pytest.mark.usefixtures("built")
 @pytest.mark.parametrize("found", [True, False])
 def test_without_a_target_the_page_is_opened(monkeypatch, tmp_path, found):
     opened = []

@@ -10,7 +10,6 @@ import pytest
 import cointoss
 from cointoss.analytic.entries import toss_each
 from cointoss.compare.lab import served
-from cointoss.compare.web.wasm import carried
 from cointoss.models.answers import ANSWER
 from cointoss.models.batch import rows_of
 from cointoss.models.devices import Device
@@ -23,12 +22,6 @@ from tests.helpers.explored import asked, got, serving
 
 CASE = cointoss.load("fig24a").replace("ending.max_impacts", 4)
 SPIN, RESTITUTION = "release.angular_velocity.eta", "floor.restitution"
-
-
-@pytest.fixture(autouse=True)
-def _built(monkeypatch):
-    """Let the package carry some engine."""
-    monkeypatch.setattr(carried, "engine_bytes", lambda: bytes(500_000))
 
 
 @pytest.fixture(name="server")

@@ -8,15 +8,9 @@ import pytest
 from cointoss.models.kernel import cuda
 from cointoss.models.kernel.cuda import CardError, GraphicsCard
 from tests.helpers.driver import Driver, Result
-from tests.helpers.queues import queue_of
 from tests.helpers.small import entries
 
 SPACE = 1 << 14
-
-
-@pytest.fixture(scope="module")
-def queue(tmp_path_factory):
-    return queue_of(entries.__name__, tmp_path_factory.mktemp("queue"))
 
 
 @pytest.fixture
@@ -41,6 +35,7 @@ def worked(card, queue, spaces):
     return answers, wanted
 
 
+@pytest.mark.slow
 def test_answers_are_those_of_the_entry_whatever_is_on_the_card_at_a_time(made, queue, monkeypatch):
     card, driver = made()
     answers, wanted = worked(card, queue, np.arange(700) % 5)

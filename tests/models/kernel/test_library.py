@@ -48,6 +48,7 @@ def engine(monkeypatch, cached):
     return entries.engine
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("engine")
 def test_an_entry_takes_and_returns_values_of_every_kind():
     rows = np.ones((2, 3))
@@ -128,6 +129,7 @@ def test_a_library_that_is_stale_damaged_or_anothers_is_not_loaded_but_built_aga
     assert asked == [(MODULE, cached[0].parent, SYSTEM)]
 
 
+@pytest.mark.slow
 def test_a_library_that_is_damaged_is_built_again_as_it_was(cached):
     whole = cached[1].read_bytes()
     HARMS["cut"](*cached)
@@ -149,6 +151,7 @@ def test_a_wheel_carries_a_library_for_its_system(cached, monkeypatch, tmp_path)
         library_file(MODULE)
 
 
+@pytest.mark.slow
 def test_processes_that_start_at_once_build_it_once(tmp_path):
     program = f"from {MODULE} import turned; import numpy as np; print(turned(np.ones(1))[0][0])"
     environment = {**HERE, "COINTOSS_CACHE": str(tmp_path)}

@@ -3,13 +3,8 @@
 import numpy as np
 import pytest
 
-from tests.helpers.queues import queue_of, work
+from tests.helpers.queues import work
 from tests.helpers.small import entries
-
-
-@pytest.fixture(scope="module")
-def queue(tmp_path_factory):
-    return queue_of(entries.__name__, tmp_path_factory.mktemp("queue"))
 
 
 def given(columns):
@@ -28,6 +23,7 @@ def wanted(rows):
     return answers
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("threads", [1, 3])
 def test_each_row_is_worked_on_once_and_as_by_itself(queue, threads):
     rows, answers = rows_of(np.arange(2000) % 7), np.empty((2000, 2))
