@@ -20,8 +20,7 @@ LAWS = {Engine.ANALYTIC: [*ContactLaw], Engine.MUJOCO: [ContactLaw.SMOOTH, Conta
 AIRS = ({}, AIR, {}, AIR, {**AIR, "exponent": 0.5})
 
 
-@pytest.mark.parametrize("count", [42, pytest.param(1000, marks=pytest.mark.slow)])
-def test_rows_that_differ_in_everything_are_tossed_as_each_alone(engine, count):
+def assert_tossed_as_alone(engine, count):
     """Coins, floors, airs of all kinds, releases and endings, each after others, and some coins twice."""
     rng, cases = np.random.default_rng(12), []
     for number in range(count):
@@ -44,6 +43,16 @@ def test_rows_that_differ_in_everything_are_tossed_as_each_alone(engine, count):
     assert len({*answers.outcome}) > 2
 
 
+def test_rows_that_differ_in_everything_are_tossed_as_each_alone(engine):
+    assert_tossed_as_alone(engine, 14 if engine == Engine.ANALYTIC else 8)
+
+
+@pytest.mark.long
+def test_a_thousand_rows_that_differ_in_everything_are_tossed_as_each_alone(engine):
+    assert_tossed_as_alone(engine, 1000)
+
+
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize(
     ("exponent", "n", "longest"),
     # Several tiles; air with b > 0 costs a quadrature for each force.

@@ -74,7 +74,8 @@ def status_of(tree: Path, tests: Iterable[str], *, compiled: bool) -> tuple[int,
     """Run tests in a copy of the checkout until one fails; return pytest's status and its lines."""
     # No bytecode of a damaged module may outlive it.
     environment = {**os.environ, "COINTOSS_CACHE": str(tree.parent / "code"), "PYTHONDONTWRITEBYTECODE": "1"}
-    command = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *dict.fromkeys(tests)]
+    command = [sys.executable, "-m", "pytest", "-q", "-x", "-m", "", "-p", "no:cacheprovider"]
+    command += dict.fromkeys(tests)
     if not compiled:
         # numpy's numbers warn of what compiled code computes in silence.
         command += ["-p", "tests.helpers.plainly", "-W", "ignore::RuntimeWarning"]
