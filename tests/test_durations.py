@@ -1,0 +1,50 @@
+"""Functions that take long are named; far too long ones fail the run where the machine is idle."""
+
+from tests.helpers.command_line import python
+from tests.helpers.durations import is_busy
+
+PATCHED = """
+import os
+from tests.helpers import durations
+
+durations.REPORTED, durations.REFUSED = 0.1, 0.3
+os.getloadavg = lambda: (0.0, 0.0, 0.0)
+"""
+TESTS = """
+import subprocess, sys, time
+import pytest
+
+BUSY = "import time\\nwhile time.process_time() < 0.4: pass"
+
+def busy(seconds):
+    end = time.process_time() + seconds
+    while time.process_time() < end:
+        pass
+
+@pytest.mark.parametrize("case", "ab")
+def test_both_cases(case):
+    busy(0.08)
+
+@pytest.mark.slow
+def test_marked():
+    busy(0.35)
+
+def test_child():
+    subprocess.run([sys.executable, "-c", BUSY])
+"""
+
+
+def test_what_takes_long_is_named_and_fails_an_idle_machines_run(tmp_path):
+    (tmp_path / "conftest.py").write_text(PATCHED)
+    (tmp_path / "test_long.py").write_text(TESTS)
+    run = python("-m", "pytest", "-p", "tests.helpers.durations", "-p", "no:cacheprovider", folder=tmp_path)
+    assert [line.split()[-1] for line in run.stdout.splitlines() if " s test_long.py" in line] == [
+        "test_long.py::test_child", "test_long.py::test_both_cases"
+    ]  # fmt: skip
+    assert "4 passed" in run.stdout
+    assert run.returncode == 1
+
+
+def test_a_machine_is_busy_where_more_runs_than_it_has_cores_and_the_run_has_workers():
+    assert [is_busy(load, 4, 2) for load in (2.0, 3.9, 4.0)] == [False, False, True]
+    assert [is_busy(load, 2, 2) for load in (2.5, 3.0)] == [False, True]
