@@ -3,6 +3,7 @@
 import gc
 import signal
 from importlib import import_module
+from itertools import pairwise
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -28,6 +29,14 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("cointoss")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Mark the cases of each test that is `slow_after_first`, but its first, before any is left out."""
+    for before, item in pairwise(items):
+        if item.get_closest_marker("slow_after_first") and before.function is item.function:
+            item.add_marker("slow")
 
 
 def pytest_collection_finish():

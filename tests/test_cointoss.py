@@ -91,6 +91,7 @@ PRINTED = {
 }
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize(("script", "printed"), PRINTED.values(), ids=PRINTED)
 def test_a_process_that_imports_prints(script, printed):
     done = python("-c", script, MPLBACKEND="agg")

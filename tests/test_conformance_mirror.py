@@ -42,7 +42,7 @@ def parts_of(coin, floor, air):
 
 @pytest.mark.parametrize("mirror", list(Mirror))
 @pytest.mark.parametrize("floor", FLOORS)
-@pytest.mark.parametrize("count", [2, pytest.param(100, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [2, pytest.param(100, marks=pytest.mark.long)])
 def test_a_mirrored_toss_is_the_same_to_the_bit_and_no_pair_is_certain_of_one_face(count, floor, mirror):
     rng = np.random.default_rng([51, sorted(FLOORS).index(floor)])
     ended = set()
@@ -88,6 +88,7 @@ def test_the_impacts_of_a_mirrored_toss_are_mirrored_to_the_bit(law, mirror):
     assert np.array_equal(there.contacts, here.contacts)
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("mirror", list(Mirror))
 @pytest.mark.parametrize("exponent", [0.4, 1.0])
 def test_in_air_with_b_above_0_a_mirrored_toss_is_mirrored_to_the_error_of_a_step(exponent, mirror):
@@ -162,7 +163,7 @@ def upright(rng, coin):
 
 
 @pytest.mark.parametrize("coin", ["thin", "thick", "stout"])
-@pytest.mark.parametrize("count", [15, pytest.param(500, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [15, pytest.param(500, marks=pytest.mark.long)])
 def test_a_coin_that_is_its_own_mirror_image_is_never_certain_of_a_face(count, coin):
     """Nor are two that lean to either side certain of the same one, however little they lean."""
     rng, opposite = np.random.default_rng([7, list(COINS).index(coin)]), 0

@@ -175,6 +175,7 @@ def test_a_coin_that_still_rolls_upright_when_a_budget_ends_is_named_so(engine, 
     assert toss(engine, set_down(THICK, 0.6)).ending == Ending.STANDING
 
 
+@pytest.mark.slow
 def test_nickels_tossed_by_hand_come_to_rest_alike_on_both_engines():
     """Within four standard deviations of what 100 tosses leave, and none rolls or stands for ever."""
     n = 100

@@ -118,6 +118,7 @@ def test_at_the_end_of_a_contact_the_floor_holds_the_coin_still(engine):
     assert at_end == pytest.approx(before, abs=1e-2 * M * G)
 
 
+@pytest.mark.slow_after_first
 def test_a_coin_that_has_come_to_lie_flat_has_a_force_that_is_a_number(engine):
     """The analytic engine lays it flat in a contact that takes no time, where no rim point is lowest."""
     resistance = {"rolling_friction": 5e-4, "pivoting_friction": 1e-4}

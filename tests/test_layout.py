@@ -111,6 +111,7 @@ RULES = {
 }
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("rule", RULES.values(), ids=RULES)
 def test_a_rule_is_kept_and_what_breaks_it_is_seen(rule):
     assert len(rule.held) > 50

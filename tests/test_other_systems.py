@@ -54,6 +54,7 @@ def test_what_only_unix_has_is_missing_there(elsewhere):
     assert elsewhere("-c", script) == "None False False cp1252\n"
 
 
+@pytest.mark.slow
 def test_every_module_is_imported(elsewhere):
     script = (
         "import importlib, pkgutil\n"
@@ -66,6 +67,7 @@ def test_every_module_is_imported(elsewhere):
     assert int(elsewhere("-c", script)) > 300
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("engine", ["analytic", "mujoco"])
 def test_both_engines_toss(elsewhere, engine):
     tossed = json.loads(elsewhere("-m", "cointoss", "toss", "fig24a", "--engine", engine, "--json"))
@@ -75,6 +77,7 @@ def test_both_engines_toss(elsewhere, engine):
     assert "sequence" in elsewhere("-m", "cointoss", "toss", "fig24a", "--engine", engine)
 
 
+@pytest.mark.slow
 def test_a_map_is_made_locked_and_resumed(elsewhere, tmp_path):
     out = tmp_path / "map.zarr"
     made = elsewhere("-m", "cointoss", *MAP, "--out", out)
@@ -93,6 +96,7 @@ def test_a_map_is_made_locked_and_resumed(elsewhere, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["map.zarr"]
 
 
+@pytest.mark.slow
 def test_a_report_is_made_and_says_why_it_has_no_video(elsewhere, tmp_path):
     script = "from cointoss.compare.film.back_end import drawing_problem; print(drawing_problem())"
     problem = elsewhere("-c", script)

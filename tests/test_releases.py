@@ -158,6 +158,7 @@ def test_what_was_seen_is_read_as_it_was(release, table):
     assert unlike(read(release / "made" / f"{table}.json"), now) == []
 
 
+@pytest.mark.slow
 def test_a_fit_is_told_as_it_was(release):
     then, given = read(release / "made" / "fit.json"), release / "given"
     vary = ("floor.restitution=0.4:0.95", "release.position.z=0.1:0.6", "clock=0:1.2")

@@ -74,6 +74,7 @@ def run(installed, folder, *words, **environment):
     return python("-P", *words, folder=folder, PYTHONPATH=paths, **environment)
 
 
+@pytest.mark.slow
 def test_a_wheel_has_every_file_under_one_name_and_no_other(wheel):
     folders = [TOP / "cointoss", *(TOP / "cointoss" / folder for folder in FOLDERS)]
     expected = {
@@ -91,6 +92,7 @@ def test_a_wheel_has_every_file_under_one_name_and_no_other(wheel):
     assert {f"cointoss/{name}" for name in ("models/coin.xml", "compare/report/report.html.j2")} <= files
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("engine", ["analytic", "mujoco"])
 def test_the_installed_command_tosses_a_coin_beside_foreign_packages(installed, foreign, engine):
     command = str(installed / "bin" / "cointoss")

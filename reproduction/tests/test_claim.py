@@ -161,10 +161,11 @@ def seconds(name: str) -> float:
     return found.quick_seconds or found.seconds
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize(
     "name",
     [
-        pytest.param(name, marks=pytest.mark.slow if seconds(name) >= 10 else ())
+        pytest.param(name, marks=pytest.mark.long if seconds(name) >= 10 else ())
         for name in gallery.of_paper()
     ],
 )

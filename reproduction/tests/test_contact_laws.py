@@ -75,6 +75,7 @@ def test_the_thin_ideal_coin_gains_energy_from_a_third_of_root_five_on(law):
     assert onset == pytest.approx(5**0.5 / 3, abs=1e-10)
 
 
+@pytest.mark.slow
 def test_sliding_friction_loses_its_solution_at_half_of_root_five():
     onset = onset_without_solution(body_of("thin ideal"), rules_of(SLIDING), 1)
     assert onset == pytest.approx(5**0.5 / 2, abs=1e-10)

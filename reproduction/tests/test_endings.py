@@ -50,6 +50,7 @@ def test_mujoco_tosses_on_the_floors_that_it_realises():
     assert {*table["floor"]} == {*FLOORS} - {ENERGETIC}
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize(
     ("kind", "numbers", "seen"),

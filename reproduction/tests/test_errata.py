@@ -153,6 +153,7 @@ def growth_of_spin(case, change, duration):
     return np.linalg.norm(changes[0, 10:]) / np.linalg.norm(change)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("duration", [0.3, 0.6])
 def test_about_its_middle_axis_the_imperfect_coin_has_a_lyapunov_exponent_above_zero(duration):
     coin, spin = IMPERFECT, 40.0

@@ -77,6 +77,7 @@ def result(progress, holds):
     return Result(claims=(kept, claim), data={"one": np.ones(1)})
 
 
+@pytest.mark.slow
 def test_all_makes_a_table_of_verdicts_and_a_gallery(made):
     page = (made / "REPRODUCTION.md").read_text(encoding="utf-8")
     rows = [

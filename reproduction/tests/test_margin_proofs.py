@@ -15,6 +15,7 @@ def proves_any(scenario):
     return any(PROOFS.proved_change(scenario, quantity, 1e-9) for quantity in QUANTITIES)
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("law", ["smooth", "perfectly_rough"])
 def test_the_margin_of_a_planar_coin_in_vacuum_is_proved_from_below(law):
     vacuum = load("fig29").replace("air.normal", 0.0, "air.tangential", 0.0, "floor.restitution", 0.3)

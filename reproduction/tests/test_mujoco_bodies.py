@@ -30,6 +30,7 @@ def test_a_ball_at_rest_sinks_by_the_same_depth_whatever_its_mass():
     assert depths == pytest.approx([0.1 * 9.81 / 1e4] * 2, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_fewer_touches_bear_out_the_claims_and_a_restitution_that_depends_on_the_mass_is_seen(monkeypatch):
     monkeypatch.setattr(bodies, "PHASES", 3)
     cells = REPRODUCTION.make(unseen).data

@@ -91,6 +91,7 @@ def test_one_step_with_the_native_cone_is_moreaus_law():
     assert (gained / energy).max() < 1e-5
 
 
+@pytest.mark.slow
 def test_a_small_study_of_laws_bears_out_its_claims_and_sees_a_law_that_is_missed():
     cells = REPRODUCTION.make(unseen, count=10, seed=5).data
     assert missed("mujoco-laws", cells) == ()

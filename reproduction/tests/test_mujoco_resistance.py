@@ -1,9 +1,12 @@
 """The study of MuJoCo's torsional and rolling friction: its closed forms, and its check."""
 
+import pytest
+
 from cointoss_reproduction.studies.mujoco_resistance.study import REPRODUCTION
 from saved import missed, unseen
 
 
+@pytest.mark.slow
 def test_friction_stops_bodies_as_is_claimed_and_one_that_stops_both_motions_at_once_is_seen():
     cells = REPRODUCTION.make(unseen).data
     by_moments = cells[cells["by"] == "explicit moments"]

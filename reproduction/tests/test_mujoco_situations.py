@@ -120,6 +120,7 @@ def test_claims_see_what_differs(row, changed, claim):
     assert wrong.startswith(claim)
 
 
+@pytest.mark.slow
 def test_claims_hold_of_what_was_found_and_of_what_is_measured():
     assert missed("mujoco-situations", table(FOUND)) == ()
     assert lain(CONTACT, 0.0)["over"] == pytest.approx(1, abs=2e-3)

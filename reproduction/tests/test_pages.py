@@ -33,6 +33,7 @@ def test_the_verdicts_of_a_kept_study_are_the_known_ones_and_a_page_leads_to_the
     assert all(picture.stat().st_size < 150_000 for picture in drawn)
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("name", KEPT)
 def test_docs_shows_what_was_kept(name, tmp_path):
     """`make pages` writes it."""

@@ -294,6 +294,7 @@ def test_a_quantity_of_a_release_varies_alone():
     )
 
 
+@pytest.mark.slow
 def test_the_side_on_which_a_flat_coin_lands_first_may_decide_its_face():
     found = standing_coins.flat_landings(60)
     assert len(found) == 60

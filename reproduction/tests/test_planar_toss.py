@@ -66,6 +66,7 @@ def long_arithmetic():
         yield
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize(("chi", "air", "law"), COINS)
 def test_outcomes_are_the_engines(chi, air, law):
     """Its own horizon ends some tosses before they are decided: of those that bounce little, none."""
@@ -137,6 +138,7 @@ def test_both_sides_of_a_boundary_are_proved_at_1e_27_m():
         assert toss_one(coin, own, height).energy == pytest.approx(float(toss.energy), rel=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("chi", "law"), [(0.0, "smooth"), (0.3, "smooth"), (0.6, "smooth"), (0.3, "perfectly_rough")]
 )
@@ -354,7 +356,8 @@ def test_releases_are_spread_in_exact_steps():
     assert {one.height for one in found} == {Fraction(1, 3)}
 
 
-@pytest.mark.parametrize(("air", "points"), [(False, 50), (True, 12)])
+@pytest.mark.slow
+@pytest.mark.parametrize(("air", "points"), [(False, 40), (True, 12)])
 def test_a_boundary_is_magnified_until_it_is_alone_and_its_coin_stands(air, points):
     coin, own = coin_of(0.3, air)
     start = PlanarRelease(Fraction(0.2), Fraction(41))

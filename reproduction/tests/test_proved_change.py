@@ -112,6 +112,7 @@ def test_every_field_of_a_scenario_is_decided():
     assert {field for field, _ in (*HONOURED, *WITHOUT_USE, *REFUSED)} == declared
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize(("field", "value"), HONOURED)
 def test_what_is_honoured_has_its_own_proof(field, value):
     case = changed(field, value)
@@ -119,6 +120,7 @@ def test_what_is_honoured_has_its_own_proof(field, value):
     assert assert_proofs_hold(case) > 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("field", "value"), WITHOUT_USE)
 def test_what_is_without_use_changes_no_proof(field, value):
     known = proofs(BASE)
@@ -175,6 +177,7 @@ def drawn(rng, **fields):
     return case.replace(*[one for pair in fields.items() for one in (pair[0].replace("__", "."), pair[1])])
 
 
+@pytest.mark.slow
 def test_a_catch_after_bounces_is_proved_of_the_face_in_the_hand():
     rng, proved, bounced = np.random.default_rng(3), 0, 0
     for _ in range(20):
@@ -197,6 +200,7 @@ def test_of_a_coin_that_never_comes_down_to_the_hand_nothing_is_proved():
     assert not any(proofs(case).values())
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize(("chi", "law"), [(0.3, "smooth"), (0.5, "smooth"), (0.3, "perfectly_rough")])
 def test_impacts_and_time_up_to_which_a_toss_is_followed_are_those_of_the_proof(chi, law):
     rng, compared = np.random.default_rng(8), 0
@@ -219,6 +223,7 @@ def test_impacts_and_time_up_to_which_a_toss_is_followed_are_those_of_the_proof(
     assert compared > 3
 
 
+@pytest.mark.slow
 def test_a_toss_whose_contact_lasts_is_proved_within_its_time_and_not_within_a_number_of_impacts():
     rng, compared = np.random.default_rng(6), 0
     for _ in range(12):

@@ -34,6 +34,7 @@ COINS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["map", "loss"])
 def test_a_touch_of_a_slowly_hopping_rotor_in_symbols(name):
     """Newton's impact at the angle ν - s from upright, where the end falls at W s, to leading order."""
@@ -122,6 +123,7 @@ def test_the_gap_is_open_before_the_touch_and_closed_there():
                 assert gap < 1e-9 or time < touch
 
 
+@pytest.mark.slow
 def test_splitting_finds_the_shares_of_tosses_that_are_not_split():
     scenario, levels = case(air=False), np.log(0.0125) + np.log(10) * np.arange(3, 9)
     split = np.array([shares_beyond(scenario, levels, np.random.default_rng(run), 2000) for run in range(10)])
@@ -173,6 +175,7 @@ def test_the_moment_grows_with_energy_as_each_touch_asks(beta, chi, energy_):
     assert by_touch == pytest.approx(1, rel=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("chi", [0.3, 0.6])
 def test_the_exponent_is_where_the_moment_grows_as_fast_as_asked(chi):
     energy_, stretch = 48.0, 120.0
@@ -181,6 +184,7 @@ def test_the_exponent_is_where_the_moment_grows_as_fast_as_asked(chi):
     assert slope == pytest.approx(stretch, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_the_exponent_grows_as_the_logarithm_of_a_logarithm():
     at = [exponent(0.6, 48.0, 10.0**power) for power in (20, 30)]
     assert (at[1] - at[0]) / (10 * log(10)) == pytest.approx(1 / (2 * logarithm(0.6, 48.0)), rel=0.05)

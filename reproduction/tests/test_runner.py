@@ -72,6 +72,7 @@ main(["reproduce"])
     assert done.stdout.splitlines()[-1] == "set()"
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("fakes")
 def test_files_are_written_and_the_results_printed(tmp_path):
     old = tmp_path / "out" / "reproduction" / "fake-good"
@@ -196,6 +197,7 @@ def outcomes():
 """
 
 
+@pytest.mark.slow
 def test_a_study_is_tossed_on_the_device_that_is_asked_for(tmp_path, monkeypatch):
     """By a stand-in for a card, which hands a third of the tosses over to the CPU."""
     card, code = with_card(monkeypatch), (TOSSED + CODE).format(sum="int(outcomes().sum())")

@@ -73,6 +73,7 @@ def log_integral(family, parameters, same, count):
     return top + np.log(total)
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize(
     ("family", "parameters"),
     [
@@ -96,6 +97,7 @@ def test_the_likelihood_of_each_person_is_its_integral(family, parameters):
         assert found[person] == pytest.approx(expected, abs=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("family", "truth", "others"),
     [

@@ -24,9 +24,8 @@ from tests.helpers.many import assert_same_toss, draw_states
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
-OFF_CENTER = np.array(PAPER_OFFSET)
 
-
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("air", [{}, AIR])
 @pytest.mark.parametrize("contact", ["smooth", "coulomb"])
 def test_many_tosses_tell_how_far_each_can_be_trusted(air, contact):
@@ -66,6 +65,7 @@ def test_where_trust_is_asked_for_no_more_impacts_are_accepted_than_are_kept():
     assert analytic.toss_rows(rows).impacts[0] == 5
 
 
+@pytest.mark.slow
 def test_the_endings_of_toss_are_all_met():
     met = set()
     for law, chi, friction, ending in [
@@ -86,6 +86,7 @@ def test_the_endings_of_toss_are_all_met():
     assert met >= {Ending.SETTLED, Ending.MAX_IMPACTS, Ending.MAX_TIME, Ending.NO_SOLUTION, Ending.CHATTER}
 
 
+@pytest.mark.slow
 def test_a_touch_without_solution_is_no_impact_and_shows_no_face():
     floor = {"restitution": 0.8, "contact": "sliding_friction", "friction": 1.5}
     case = scenario(floor=floor, ending={"max_impacts": 40}, air=AIR)

@@ -37,25 +37,29 @@ class OnProcessor:
         work(self.queue, numbers, rows, answers, space=self.space or space)
 
 
+class ByLibrary:
+    """A card that has the engine's library toss, and leaves each third row."""
+
+    def work(self, _file, _numbers, rows, answers, _space):
+        toss_apart(rows, answers, contact_limits(MANY), NO_TRUST)
+        answers[::3] = np.nan
+
+
 @pytest.fixture
-def tossed(queue, monkeypatch):
-    """Tosses rows so, and as ever."""
+def tossed(monkeypatch):
+    """Tosses rows on a card, sees that they are as by the processor, and returns which the card left."""
     monkeypatch.setattr(on_device, "library_file", lambda *_: None)
 
-    def both(rows, wanted=NO_TRUST, space=None):
-        found = unanswered(len(rows), None)
-        card: Any = OnProcessor(queue, space)
+    def both(card: Any, rows, wanted=NO_TRUST):
+        found, due = unanswered(len(rows), None), unanswered(len(rows), None)
         on_device.toss_on_device(card, rows, contact_limits(MANY), wanted, found)
-        by_processor = unanswered(len(rows), None)
-        trust = None if wanted == NO_TRUST else "certain"
-        analytic.toss_rows(rows, trust=trust, answers=by_processor)
-        return found, by_processor
+        analytic.toss_rows(rows, trust=None if wanted == NO_TRUST else "certain", answers=due)
+        is_left = found[:, 0] == NOT_TOSSED
+        assert np.array_equal(found[~is_left].view(np.int64), due[~is_left].view(np.int64))
+        assert (found[~is_left, 5:] >= 0).all() == (wanted != NO_TRUST)
+        return is_left
 
     return both
-
-
-def same_bits(some, others):
-    return np.array_equal(some.view(np.int64), others.view(np.int64))
 
 
 def thrown(name, n, **changed):
@@ -68,30 +72,29 @@ def thrown(name, n, **changed):
     return rows_of(load(name), n, varied | {field.replace("__", "."): to for field, to in changed.items()})
 
 
-def test_tosses_of_every_kind_are_the_same_to_the_bit(tossed):
+def test_what_a_card_leaves_is_handed_over(tossed):
+    assert np.flatnonzero(tossed(ByLibrary(), thrown("fig24a", 7))).tolist() == [0, 3, 6]
+
+
+@pytest.mark.long
+def test_tosses_of_every_kind_are_the_same_to_the_bit(queue, tossed):
     rows = np.concatenate([rows_of(case, 1) for case in cases().values()])
     rows = np.concatenate([rows[list(map(has_linear_air, rows))], thrown("fig24a", 20), thrown("zloty", 5)])
-    found, wanted = tossed(rows)
-    is_left = found[:, 0] == NOT_TOSSED
-    assert is_left.mean() < 0.1
-    assert same_bits(found[~is_left], wanted[~is_left])
+    assert tossed(OnProcessor(queue), rows).mean() < 0.1
 
 
-def test_impacts_that_can_be_trusted_and_certainty_are_the_same(tossed):
-    found, wanted = tossed(np.concatenate([thrown("fig24a", 20), thrown("zloty", 6)]), CERTAIN)
-    is_left = found[:, 0] == NOT_TOSSED
+@pytest.mark.long
+def test_impacts_that_can_be_trusted_and_certainty_are_the_same(queue, tossed):
+    rows = np.concatenate([thrown("fig24a", 20), thrown("zloty", 6)])
+    is_left = tossed(OnProcessor(queue), rows, CERTAIN)
     assert not is_left[:20].any()
     assert not is_left[20:].all()
-    assert (found[~is_left, 5:] >= 0).all()
-    assert same_bits(found[~is_left], wanted[~is_left])
 
 
-def test_what_needs_more_than_the_work_space_is_handed_over(tossed):
+@pytest.mark.long
+def test_what_needs_more_than_the_work_space_is_handed_over(queue, tossed):
     rows = np.concatenate([thrown("fig24a", 20, ending__max_impacts=1), thrown("zloty", 20)])
-    found, wanted = tossed(rows, space=8192)
-    is_left = found[:, 0] == NOT_TOSSED
-    assert 0 < is_left.sum() < 40
-    assert same_bits(found[~is_left], wanted[~is_left])
+    assert 0 < tossed(OnProcessor(queue, 8192), rows).sum() < 40
 
 
 def test_without_code_for_cards_the_card_can_not_be_used(monkeypatch):
@@ -105,6 +108,7 @@ def test_without_code_for_cards_the_card_can_not_be_used(monkeypatch):
         on_device.toss_on_device(card, rows, contact_limits(MANY), NO_TRUST, unanswered(1))
 
 
+@pytest.mark.long
 def test_a_card_has_the_engine_without_a_fused_product_and_on_a_stack_of_known_size(queue):
     assert "fma.rn.f64" not in queue.ptx
     frames = [int(size) for size in re.findall(r"(\d+) bytes stack frame", queue.said)]

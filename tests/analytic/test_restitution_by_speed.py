@@ -15,7 +15,6 @@ from cointoss.analytic.impact.own_law import contact_in, rules_by
 from cointoss.analytic.numerics.tolerances import CHATTERING
 from cointoss.models.certificate import law_residuals
 from cointoss.models.geometry import evaluate_gap
-from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.reading import load
 from cointoss.models.records import IMPACT_ROW, Ending, UnsupportedError
 from cointoss.models.restitution import elastic_restitution, elastic_speed, restitution_at_speed
@@ -24,9 +23,6 @@ from tests.helpers.contacts import touching
 from tests.helpers.draws import PAPER_OFFSET, THIN, ZLOTY, on_floor, scenario
 from tests.helpers.impacts import struck
 from tests.helpers.own_laws import smooth
-
-fly = by_numba(fly)
-hit = by_numba(hit)
 
 G = 9.81
 POWER = {"restitution": 0.5, "restitution_exponent": 0.25}

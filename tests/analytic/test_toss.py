@@ -11,6 +11,7 @@ from tests.helpers.referee import Referee
 from tests.helpers.states import gaps
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("b", [0.5, 1.0])
 @pytest.mark.parametrize("thickness", [0.0, 2e-3])
 def test_impacts_in_air_of_any_exponent_are_those_of_an_independent_integration(b, thickness):
@@ -52,6 +53,7 @@ def test_a_ball_like_drop_rebounds_as_newton_says():
     assert tossed.sequence == "H" * n
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("chi", [0.0, 0.01, 0.3, 0.8])
 @pytest.mark.usefixtures("without_horizon")
 def test_no_recorded_or_sampled_state_is_below_the_floor(chi):

@@ -64,6 +64,7 @@ def bouncing(kind: CoinClass, number: int) -> tuple[Scenario, Array]:
     return scenario, np.array(starts[:number])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("batch", [False, True], ids=["one by one", "batch mode"])
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
 def test_first_impacts_by_heyoka(benchmark, capsys, kind, batch):

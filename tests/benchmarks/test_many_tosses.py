@@ -72,6 +72,7 @@ def by_scipy() -> list[tuple[list[float], list[int]]]:
     return [scipy_toss.toss(case, coin()) for case in IN_AIR]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("toss", [by_heyoka, by_scipy])
 def test_other_integrators_make_the_same_tosses(benchmark, capsys, toss: Callable[[], list[Any]]):
     for (times, faces), case in zip(toss(), IN_AIR, strict=True):

@@ -37,6 +37,7 @@ def processor_time(words, environment):
     return after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("name", COMMANDS)
 def test_a_process_starts(name, environment, benchmark, capsys):
     def start():

@@ -96,7 +96,7 @@ def test_a_few_extreme_tosses_answer_and_gain_no_energy(seed):
     check(extreme(seed).replace("air.exponent", 0.0, "ending.max_impacts", 60))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(200))
 def test_extreme_tosses_answer_and_gain_no_energy(seed):
     check(extreme(seed))

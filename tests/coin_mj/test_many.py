@@ -15,6 +15,7 @@ from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 from tests.helpers.many import assert_same_toss, draw_states
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("law", ["smooth", "coulomb", "perfectly_rough"])
 @pytest.mark.parametrize("realisation", list(Realisation))
 @pytest.mark.parametrize("friction", list(Friction))

@@ -78,6 +78,7 @@ def tossed_beside(beside, tosses=5):
     return found
 
 
+@pytest.mark.slow
 def test_a_model_that_another_thread_steps_meanwhile_is_left_alone():
     held = tuple(pointer.value for pointer in HELD)
     beside, alone = Foreign(), Foreign()
@@ -91,6 +92,7 @@ def test_a_model_that_another_thread_steps_meanwhile_is_left_alone():
     assert beside.data.timer[mujoco.mjtTimer.mjTIMER_STEP].duration > 0
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("restored")
 def test_a_callback_of_the_users_acts_on_their_model_and_not_on_the_coin():
     expected = impacts_of(in_air(), settings=MANY)

@@ -122,6 +122,7 @@ def draw_landing(rng):
     )
 
 
+@pytest.mark.slow
 def test_every_trusted_impulse_is_that_of_the_law():
     """Where two points land nearly at once the law is Newton's, for one point after the other."""
     rng = np.random.default_rng(48)

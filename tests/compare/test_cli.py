@@ -101,6 +101,7 @@ def test_a_closed_pipe_ends_quietly_with_exit_status_1(tmp_path):
     assert (done.returncode, done.stderr) == (1, b"")
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize(
     "command",
     [
@@ -132,6 +133,7 @@ HEAVY = {
 }
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize(
     ("words", "needed"),
     [
@@ -161,6 +163,7 @@ def test_a_command_imports_no_more_than_it_needs(words, needed, tmp_path):
     assert not {"scipy.integrate", "scipy.optimize", "scipy.special", "scipy.stats"} & imported
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize(
     ("line", "needed"),
     [

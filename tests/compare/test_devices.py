@@ -22,6 +22,7 @@ def coin(tmp_path):
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("device", ["cuda", "auto"])
 def test_shares_on_a_card_are_those_of_the_cpu(monkeypatch, device):
     card, asked = with_card(monkeypatch), {"vary": {"restitution": "0.2:0.8:4"}, "tosses": 1100}

@@ -49,6 +49,7 @@ def classified(case, tilt, v=(0.0, 0.0, 0.0), w=(0.0, 0.0, 0.0)):
     return final_face(body, case.rules, touching), energy(body, z, v, w), barrier(body, up[2])
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize(("tilt", "face"), [(0.3, Outcome.HEADS), (np.pi - 0.3, Outcome.TAILS)])
 def test_a_slow_coin_is_settled_and_a_fast_one_is_not(tilt, face):
     case = scenario(air=AIR)
@@ -74,6 +75,7 @@ def test_the_papers_tests_compare_with_m_g_r():
     assert classified(smooth, 0.01, w=(0.0, 0.0, 300.0))[0] == (Outcome.HEADS, Ending.PAPER_SMOOTH)
 
 
+@pytest.mark.slow
 def test_what_a_smooth_floor_conserves_settles_a_fast_spinning_coin():
     """In vacuum neither sliding nor spin about the normal can turn the ideal coin over."""
     fast = {"v": (2.0, 0.0, 0.0), "w": (0.0, 0.0, 300.0)}

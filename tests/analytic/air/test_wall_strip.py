@@ -43,6 +43,7 @@ def by_quadrature(b, B, C, D):
     )
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("b", [1e-3, 0.5, 1 - 1e-6, 1.0])
 @pytest.mark.parametrize(
     ("middle", "along"),

@@ -13,14 +13,9 @@ from cointoss.analytic.flight.state_vector import state_of
 from cointoss.analytic.flight.touch_search import gap_acceleration
 from cointoss.analytic.numerics.tolerances import CHATTERING, CONTACT_STEP_ERROR
 from cointoss.models.geometry import evaluate_gap
-from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.records import IMPACT_ROW
 from tests.helpers.contacts import end_mode, held, touching
 from tests.helpers.draws import IMPERFECT, THIN, scenario
-
-fly = by_numba(fly)
-hit = by_numba(hit)
-sample_contact = by_numba(sample_contact)
 
 
 def at_the_end(case, speed, duration, *, bouncing):

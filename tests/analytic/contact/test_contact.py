@@ -107,6 +107,7 @@ def test_a_smooth_floor_is_one_whose_friction_is_0(seed):
     assert stopped == pytest.approx(y, rel=1e-12, abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(8))
 def test_a_coin_on_a_smooth_floor_keeps_energy_and_momentum_and_does_not_leave_it(seed):
     rng = np.random.default_rng([seed, 1])
@@ -211,6 +212,7 @@ def test_a_coin_that_rolls_keeps_its_energy(seed):
     assert energy_of(body, y) == pytest.approx(energy_of(body, start), rel=1e-11)
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("seed", range(4))
 def test_a_coin_that_slides_loses_what_friction_takes(seed):
     """dE/dt = -μ N |v_A| and m dv/dt = -μ N s, with N from the height of C: not from the Delassus matrix."""

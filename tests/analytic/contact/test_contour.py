@@ -156,6 +156,7 @@ FALLS = {
 """The losses, the first tilt, and k and p of the closed form α^p = k (t_f - t)."""
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("mode", [Mode.STICKING, Mode.SLIDING])
 @pytest.mark.parametrize("name", FALLS)
 def test_eulers_disk_stops_as_its_closed_form_says(name, mode):

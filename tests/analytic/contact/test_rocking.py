@@ -39,7 +39,7 @@ def rocking(rng, body, rules):
     return held(body, friction, mode, y), y
 
 
-@pytest.mark.parametrize("count", [16, pytest.param(400, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [16, pytest.param(400, marks=pytest.mark.long)])
 @pytest.mark.parametrize(
     "floor",
     [

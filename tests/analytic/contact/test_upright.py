@@ -208,6 +208,7 @@ def test_a_coin_that_slides_upright_ends_rolling_at_two_thirds_of_its_speed():
     assert stands(held(body, FloorFriction(mu), Mode.STICKING, states[-1]), states[-1])
 
 
+@pytest.mark.slow
 def test_an_unbalanced_coin_that_rolls_upright_keeps_its_energy_but_for_a_creep():
     """The friction that it needs, f of μ N, makes it slip at f/(μ N) 1e-3 √(g r): so much power is lost."""
     body, mu = scenario(coin=IMPERFECT).body, 0.5

@@ -68,6 +68,7 @@ def test_planar_spin_decays_exponentially_in_air():
     assert np.all(w[:, [0, 2]] == 0)
 
 
+@pytest.mark.slow
 def test_energy_and_angular_momentum_are_kept_in_vacuum():
     rng = np.random.default_rng(3)
     for _ in range(1000):
@@ -89,6 +90,7 @@ def test_air_never_adds_energy(b, tosses):
         assert np.all(np.diff(energies(case, states)) < 0)
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("seed", range(4))
 def test_flight_in_air_is_that_of_the_papers_integrals(seed):
     case = in_flight(np.random.default_rng(100 + seed), in_air=True)

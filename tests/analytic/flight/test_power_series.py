@@ -86,6 +86,7 @@ def test_the_order_of_the_series_follows_the_length_of_the_step():
     assert orders[-1] == ORDER
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("thickness", [0.0, 2e-3])
 def test_what_is_surely_clear_is_clear_and_a_touch_is_not(thickness):
     """Over times before the first touch, up to it, and over times beyond it."""
@@ -130,6 +131,7 @@ def test_a_coin_that_hardly_leaves_the_floor_is_searched_in_a_few_steps():
     assert min(evaluate_gap(body, state_of(state)).gap for state in states) > 0
 
 
+@pytest.mark.slow
 def test_minima_near_the_floor_are_seen_on_the_way_and_change_nothing():
     """Of coins that have just left the floor too, whose first minimum lies in a time that is proved clear."""
     rng, least = np.random.default_rng(3), []

@@ -9,13 +9,9 @@ from cointoss.analytic.flight.state_vector import state_of
 from cointoss.analytic.flight.touch_search import is_chattering
 from cointoss.analytic.numerics.tolerances import CHATTERING
 from cointoss.models.geometry import evaluate_gap
-from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.records import IMPACT_ROW
 from tests.helpers.contacts import touching
 from tests.helpers.draws import THIN, scenario
-
-fly = by_numba(fly)
-hit = by_numba(hit)
 
 
 @pytest.mark.parametrize("chi", [0.5, 0.9])

@@ -19,7 +19,7 @@ ROUNDING, MOVED = 2e-15, 6
 """The size of changes to a release, relative, and how many of them are tried."""
 
 
-@pytest.mark.parametrize("count", [60, pytest.param(2000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [60, pytest.param(2000, marks=pytest.mark.long)])
 def test_no_certain_outcome_changes_and_most_that_do_not_are_called_certain(count):
     """Tosses of all coins, floors and airs; in truth an outcome is certain that no moved release changes."""
     rng, called, in_truth = np.random.default_rng(12), 0, 0
@@ -68,6 +68,7 @@ def test_a_coin_that_lands_between_two_outcomes_is_not_certain(tie):
     assert tossed.outcome_told == f"{tossed.outcome} or {other.outcome}: {other.told}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [1e-9, 1e-6])
 def test_of_random_tosses_another_outcome_is_found_in_no_time(tolerance):
     """Where rounding alone decides, the toss made again from its last trusted impact ends otherwise."""

@@ -72,6 +72,7 @@ def test_a_planar_smooth_impact_has_the_derivatives_of_its_closed_form(tilt):
     assert touch.after[10] @ turn == pytest.approx(spin_by_angle, abs=1e-6 * size / J * body.radius)
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("floor", LAWS)
 @pytest.mark.parametrize("offset", [[0.0, 0.0, 0.0], PAPER_OFFSET])
 def test_every_law_scales_with_the_velocities_and_turns_with_the_coin(floor, offset):

@@ -98,6 +98,7 @@ def test_an_ideal_coin_without_spin_about_its_axis_gets_none_by_a_law_that_spare
     assert not any(spins)
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("law", list(ContactLaw))
 @pytest.mark.parametrize("axis", [0, 1])
 def test_nor_does_one_that_moves_in_a_plane_by_any_law(law, axis):
@@ -114,6 +115,7 @@ def test_nor_does_one_that_moves_in_a_plane_by_any_law(law, axis):
     assert not any(spins)
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("law", list(ContactLaw))
 @pytest.mark.parametrize("spin", [0.0, 1e-15, -30.0])
 def test_the_spin_of_an_ideal_coin_changes_by_the_moment_of_the_impulse(law, spin):

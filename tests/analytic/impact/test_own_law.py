@@ -43,6 +43,7 @@ def same(request):
     return OwnLaw(request.param, **NAMED[request.param])
 
 
+@pytest.mark.slow_after_first
 def test_a_named_law_written_again_gives_the_same_tosses_to_the_bit(same):
     rng = np.random.default_rng(42)
     for number in range(12):
@@ -166,6 +167,7 @@ def test_a_superball_without_angular_momentum_about_its_spot_hops_to_and_fro():
     assert np.diff(x) == pytest.approx(-np.sign(x[0]) * hop * np.tile([1, -1], 6)[:11], abs=1e-12)
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize(("along", "up"), [(0.76, 0.9), (0.0, 0.9), (-1.0, 0.8), (1.0, 0.5)])
 def test_what_each_bounce_leaves_of_the_slip_and_of_the_height_is_a_power(along, up):
     """v_At' = -along v_At, v_Az' = -up v_Az; without slip, along = -1, nothing is changed of it."""
@@ -268,6 +270,7 @@ def not_decorated(chi):
 NO_LAWS = tomllib.loads(Path(__file__).with_name("refused_laws.toml").read_text(encoding="utf-8"))
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("law", NO_LAWS)
 def test_what_breaks_a_condition_or_is_no_law_is_refused_in_one_line_when_it_is_made(law):
     found = {"math": math, "np": np, "calls": [0.0], "not_decorated": not_decorated, "solve": solve}
@@ -334,6 +337,7 @@ def test_beside_a_jump_of_a_law_nothing_is_trusted(slip, is_smooth):
         assert touch.impulse == pytest.approx(named.impulse, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_the_engine_as_it_is_written_gives_the_same_bits():
     case = cointoss.load("fig24a")
     state = np.array(

@@ -33,7 +33,7 @@ def test_of_two_direct_forms_the_smaller_numbers_hold():
     assert np.fromstring(hard.solimp, sep=" ")[:2] == pytest.approx([0.94995, 0.97495])
 
 
-@pytest.mark.parametrize("zeta", [0.37, *(pytest.param(z, marks=pytest.mark.slow) for z in (0.1, 1.0))])
+@pytest.mark.parametrize("zeta", [0.37, *(pytest.param(z, marks=pytest.mark.long) for z in (0.1, 1.0))])
 def test_a_resolved_spring_does_what_the_formula_says(zeta):
     found = solref_of((0.02, zeta), 2e-4, integrator="RK4", solimp=HARDEST)
     theory = found.formula
@@ -95,7 +95,7 @@ def test_no_formula_is_claimed_for_one_step_of_another_integrator():
     assert one.rest == math.inf
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_every_integrator_is_measured(integrator):
     found = solref_of((0.02, 0.3), 1e-3, integrator=integrator)

@@ -40,7 +40,7 @@ QUICK = ("a ball on a ball", "a ball far off", "a ball on a rod that is hinged",
 
 
 @pytest.mark.parametrize(
-    "name", [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in PAIRS]
+    "name", [name if name in QUICK else pytest.param(name, marks=pytest.mark.long) for name in PAIRS]
 )
 def test_geoms_rebound_with_the_restitution_that_is_set(name):
     found = bounce(model(PAIRS[name]), "a", "b")
@@ -67,7 +67,7 @@ FIXED = {
 }
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("steps", [None, 40])
 @pytest.mark.parametrize("below", FIXED)
 @pytest.mark.parametrize("above", MOVING)
@@ -82,14 +82,14 @@ def test_every_kind_of_geom_rebounds_from_every_other_as_the_page_says(above, be
     assert found == pytest.approx(0.8, abs=promised)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_without_weight_it_does_not_depend_on_the_speed():
     e = bounce(model(FLOOR + ball("")), "a", "b").restitutions
     assert e.mean(axis=1) == pytest.approx(e.mean(), abs=3e-3)
     assert e.max() - e.min() > 0.01
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_it_is_that_of_the_ball_with_the_same_settings():
     found = bounce(model(FLOOR + ball('solref="0.01 0.37"'), "Euler"), "b", "a")
     same = solref_of((0.01, 0.37), DT, other=(0.02, 1))
@@ -120,7 +120,7 @@ def test_other_geoms_are_kept_out_of_it():
     assert bounce(model(text), "b", "a").restitutions == pytest.approx(0.8, abs=6e-4)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_thin_body_that_goes_through_is_no_number():
     soft = 'condim="1" priority="1" solref="-1542 -5.84" solimp="0.9 0.9 0.001 0.5 2"'
     text = (
@@ -238,6 +238,7 @@ def test_a_ball_that_sticks_in_a_height_field_is_no_number(monkeypatch):
         bounce(mujoco.MjModel.from_xml_string(FIELD.format(3)), "b", "a")
 
 
+@pytest.mark.slow
 def test_a_contact_that_outlasts_the_measurement_is_no_rebound(monkeypatch):
     monkeypatch.setattr(pair, "LONGEST", 300)
     soft = ball('solref="-10 -0.5" priority="1" condim="1"')

@@ -170,19 +170,19 @@ def test_a_while_at_rest_of_what_is_printed(name):
     check_rest(printed(name), 20.0)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", [*PRINTED, *COMMANDS])
 def test_a_thousand_bounces_of_what_is_printed(name):
     check_bounces(printed(name), 1000)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", [*PRINTED, *COMMANDS])
 def test_an_hour_at_rest_of_what_is_printed(name):
     check_rest(printed(name), 3600.0)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_what_the_command_names_as_exact_sinks_as_fast_as_it_says():
     told = cointoss("solref", "--restitution", 0.8, "--dt", 0.002).stdout
     settings, speed = re.findall(r'(solref="0 \S+") would be exact, and sink (\S+) um/s', told)[0]

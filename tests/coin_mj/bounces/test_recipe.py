@@ -48,6 +48,7 @@ def rebound(model, lowest, *, weight=True, speed=0.0):
     return 0.0
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("restitution", [0.1, 0.8, 1.0])
 @pytest.mark.parametrize("spring", [False, True])
 def test_the_model_bounces_as_it_says(restitution, spring):

@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-import cointoss.analytic.air.force
+from cointoss.analytic.entries import force_and_moment
 from cointoss.coin_mj.entries import air_force, forward
 from cointoss.coin_mj.model.air import PowerLaw
 from cointoss.coin_mj.model.machine import machine_of
@@ -27,7 +27,7 @@ def by_both(b, h, v, w):
     body = scenario(coin={"thickness": h}, air={**AIR, "exponent": b}).body
     pairs = (
         air_force(R, h, PowerLaw(LN, LT, b), vector(v), vector(w)),
-        cointoss.analytic.air.force.force_and_moment(body, vector(v), vector(w)),
+        force_and_moment(body, vector(v), vector(w)),
     )
     speed = np.linalg.norm(v) + R * np.linalg.norm(w)
     size = (LN + LT) * speed ** (1 + b) * np.pi * R**2 * (1 + h / R)
@@ -56,6 +56,7 @@ def at_rest_somewhere(rng, h):
     return v, w
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("b", [1e-3, 0.1, 0.5, 0.9, 1.0])
 @pytest.mark.parametrize("h", [0.0, H, 0.6 * R, 4 * R])
 def test_two_quadratures_give_one_force(b, h):
@@ -129,6 +130,7 @@ def fly_a_step(machine):
     return np.concatenate([machine.data.qpos, machine.data.qvel])
 
 
+@pytest.mark.slow
 def test_interleaved_coins_each_feel_their_own_air():
     cases = [{"b": 0.5}, {"b": 1.0, "normal": 3.0}, {"b": 0.0}, {"b": 0.5, "normal": 0.0, "tangential": 0.0}]
     alone = [flown(coin_in_air(**case)) for case in cases]
@@ -140,6 +142,7 @@ def test_interleaved_coins_each_feel_their_own_air():
     assert all(np.abs(ends[i] - ends[j]).max() > 1e-3 for i in range(4) for j in range(i))
 
 
+@pytest.mark.slow
 def test_coins_on_several_threads_each_feel_their_own_air():
     exponents = [0.3, 0.5, 0.8, 1.0]
     alone = [flown(coin_in_air(b), 100) for b in exponents]

@@ -71,6 +71,7 @@ def gap_after(coin, start, duration):
     return evaluate_gap(coin).gap
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("coin", [BALANCED, IMPERFECT], ids=["balanced", "imperfect"])
 def test_free_steps_are_of_fifth_order(coin):
     case, machine = flying(coin, height=5.0)
@@ -146,6 +147,7 @@ def test_a_nudge_is_a_short_step(coin):
         assert np.array(motion_of(machine.coin)) == pytest.approx(exact, rel=1e-12, abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("coin", [BALANCED, IMPERFECT], ids=["balanced", "imperfect"])
 def test_the_first_touch_in_a_step_is_that_of_bisection(coin):
     rng, touched = np.random.default_rng(2), 0
@@ -170,6 +172,7 @@ def test_the_first_touch_in_a_step_is_that_of_bisection(coin):
     assert 20 < touched < 55
 
 
+@pytest.mark.slow
 def test_no_touch_is_found_where_a_step_ends():
     """A coin of Fig. 24(a) that has just been released, and moves down again at the end of the step."""
     case = load("fig24a")
@@ -182,6 +185,7 @@ def test_no_touch_is_found_where_a_step_ends():
     assert evaluate_gap(machine.coin).speed < 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("coin", [BALANCED, IMPERFECT], ids=["balanced", "imperfect"])
 def test_a_flight_ends_where_the_coin_has_just_touched(coin):
     for seed in range(50):
@@ -195,6 +199,7 @@ def test_a_flight_ends_where_the_coin_has_just_touched(coin):
         assert time == pytest.approx(analytic.toss(case).impacts.time[0], abs=2e-6)
 
 
+@pytest.mark.slow
 def test_a_coin_that_rocks_below_the_floor_touches_as_its_other_rim_comes_down():
     case, machine = flying({**ZLOTY, "thickness": 8e-3})
     # Its mass centre is over the lower rim, which rises.

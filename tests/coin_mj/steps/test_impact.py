@@ -24,6 +24,7 @@ def first_impact(case, **settings):
     return impacts_of(case, settings=MujocoSettings(**settings))
 
 
+@pytest.mark.slow
 def test_first_impacts_meet_newtons_impulse():
     rng = np.random.default_rng(41)
     errors = []
@@ -56,6 +57,7 @@ def test_a_thin_coin_that_comes_slowly_and_spins_fast_meets_newtons_impulse():
     assert max(errors) < 1e-3
 
 
+@pytest.mark.slow
 def test_faces_within_both_engines_trust_agree():
     rng = np.random.default_rng(45)
     trusted = 0

@@ -81,6 +81,7 @@ def draw_contact(rng):
     return K, coefficients, point_motion(rng.normal(size=6))
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("seed", range(20))
 def test_no_moment_is_larger_than_the_floor_has_and_each_takes_energy(seed):
     """In a short step: against the motion where it goes on."""
@@ -200,6 +201,7 @@ def eulers_disk(viscosity=0.0, **floor):
     return np.array(rows).T
 
 
+@pytest.mark.slow
 def test_eulers_disk_falls_flat_as_the_square_of_the_time_left_under_resistance_to_rolling():
     """dα/dt = -(4/3) √(g/r) (δ/r) √α, so √α falls steadily: the disk lies after a finite time."""
     delta = 2e-4
@@ -212,6 +214,7 @@ def test_eulers_disk_falls_flat_as_the_square_of_the_time_left_under_resistance_
     assert np.max(energies - np.minimum.accumulate(energies)) < 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("losses", "power", "slope"),
     [
@@ -230,6 +233,7 @@ def test_eulers_disk_stops_as_its_closed_form_says(losses, power, slope):
     assert np.max(energies - np.minimum.accumulate(energies)) < 1e-6
 
 
+@pytest.mark.slow
 def test_eulers_disk_loses_its_pivoting_at_first_at_the_rate_of_the_closed_form():
     """DE/dt = -p m g |ω_z|."""
     p = 2e-4

@@ -127,6 +127,7 @@ def test_a_coin_that_rolls_without_slip_keeps_its_energy():
     assert np.ptp(energies) < 5e-3 * energies[0]
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("spin", [120, 132, 138])
 def test_a_thick_coin_that_settles_on_a_face_gains_no_energy(spin):
     """Friction tips it from rim to rim through flat: a long step may let the other rim sink."""
@@ -174,6 +175,7 @@ def test_a_coin_that_turns_upright_stands(rate):
     assert len(tossed.impacts) < 200
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("realisation", list(coin_mj.Realisation))
 @pytest.mark.parametrize("law", ["smooth", "coulomb"])
 @pytest.mark.parametrize("air", [{}, AIR])
@@ -195,7 +197,7 @@ def test_random_tosses_are_decided(realisation, law, air, thickness):
             assert Outcome.PERPETUAL not in outcomes.outcome
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("law", ["smooth", "coulomb"])
 def test_outcomes_are_as_frequent_as_those_of_the_other_engine(law):
     from cointoss import analytic

@@ -97,6 +97,7 @@ def upright(line):
     return np.tile(line[:256], (256, 1))
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("hurst", [0.5, 1.0])
 @pytest.mark.parametrize(
     ("laid", "at_least"),

@@ -68,6 +68,7 @@ def test_the_side_that_was_up_is_counted_whichever_it_was(coin):
     assert heads["low"] > 0.6
 
 
+@pytest.mark.slow
 def test_ctrl_c_prints_and_writes_what_is_counted(coin, tmp_path):
     script = """
 import time

@@ -32,6 +32,7 @@ def short(tmp_path):
     return source
 
 
+@pytest.mark.slow
 def test_where_a_film_is_interrupted_the_report_stands_without_it(tmp_path, short):
     # Frames that take their time, so that the film is met unfinished.
     script = (
@@ -88,6 +89,7 @@ def test_a_law_that_mujoco_lacks_is_filmed_by_the_analytic_engine(tmp_path):
     assert film.exists()
 
 
+@pytest.mark.slow
 def test_a_film_that_cannot_be_written_is_one_line(tmp_path, short):
     small = (
         "from cointoss.compare.film.encodings import ENCODINGS as e, Format; "

@@ -23,7 +23,7 @@ CASES = {case.name: case for case in cases()}
 SLOW = {("mujoco", "shares")}
 EACH = [
     pytest.param(
-        str(engine), name, marks=pytest.mark.slow if (engine, name) in SLOW else (), id=f"{engine}-{name}"
+        str(engine), name, marks=pytest.mark.long if (engine, name) in SLOW else (), id=f"{engine}-{name}"
     )
     for engine in Engine
     for name in CASES
@@ -44,6 +44,7 @@ def test_each_case_has_a_quantity_a_source_and_a_reason():
         assert all((case.source, case.reason, case.points_to))
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize(("engine", "name"), EACH)
 def test_the_engines_of_cointoss_meet_the_suite(engine, name):
     """The sequence of faces is that within the analytic engine's horizon."""
@@ -71,6 +72,7 @@ PLANTED = {
 }
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize(("engine", "name", "found", "words"), PLANTED.values(), ids=PLANTED)
 def test_a_card_names_a_planted_error(engine, name, found, words):
     case = CASES[name]
@@ -86,6 +88,7 @@ def test_a_card_names_a_planted_error(engine, name, found, words):
         assert part in told
 
 
+@pytest.mark.slow
 def test_a_card_has_errors_by_step_and_their_order():
     engine = simulator_of(Newton())
     chosen = [CASES[name] for name in ("parabola", "terminal_speed", "flat_50")]
@@ -221,6 +224,7 @@ def test_suite(cointoss_engine, cointoss_case):
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("options", "status", "words"),
     [
@@ -238,6 +242,7 @@ def test_pytest_takes_the_suite_by_a_plugin(tmp_path, options, status, words):
     assert words in answered.stdout
 
 
+@pytest.mark.slow
 def test_the_command_prints_a_card_and_ends_with_1_where_a_case_is_missed(tmp_path):
     page = tmp_path / "card.html"
     met = cointoss("conform", "analytic", "--case", "tilted", "--case", "faces", "--out", page)

@@ -274,6 +274,7 @@ def test_a_law_that_mujoco_lacks_is_told(page, tmp_path):
     assert set(sequences(page)) == {"analytic"}
 
 
+@pytest.mark.slow
 def test_the_static_page_works_from_a_file_with_the_network_off(page, map_path, tmp_path, monkeypatch):
     """Where the engine for a browser was not built; tests/site has the page with it."""
     monkeypatch.setattr(static, "engine_data", lambda *_: None)

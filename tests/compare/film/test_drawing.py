@@ -58,6 +58,7 @@ def test_the_face_that_is_up_shows_its_colour(thickness, quaternion, color):
     assert color(picture).sum() / disc == pytest.approx(0.76, abs=0.1)
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize(("camera", "steepest"), [(Camera.CLOSE_UP, 35.0), (Camera.OVERVIEW, 20.0)])
 @pytest.mark.parametrize(("up", "color", "other"), [(0.0, golden, blue), (180.0, blue, golden)])
 def test_the_face_that_is_seen_is_the_face_that_is_up(camera, steepest, up, color, other):

@@ -12,6 +12,7 @@ from tests.helpers.films import MadePath, Written, film_written, made, shown
 TINY = Format(64, 48, 4, longest=2.0)
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("suffix", ENCODINGS)
 def test_a_film_is_written_in_every_format(tmp_path, suffix):
     toss = made(MadePath(position=(0, 0, 0.1), velocity=(0, 0, 0.2)), impacts=[(0.1, 1e-3)], end=0.3)

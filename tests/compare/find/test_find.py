@@ -116,7 +116,7 @@ def test_an_outcome_is_found_and_all_fields_may_vary(outcome):
         none.to_toml()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_sequence_too_rare_for_the_window_is_found_in_ever_smaller_boxes():
     """Elastic, the coin goes on, and each face halves what agrees: 64 tosses show no ten, which are found."""
     word = "HTTHTHHTHT"

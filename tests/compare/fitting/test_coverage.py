@@ -1,7 +1,5 @@
 """Intervals of tumbling coins that were filmed and heard: all hold the truth, across jumps of the misfit."""
 
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -28,16 +26,6 @@ COIN = Scenario(
 LAWS = ("smooth", "smooth", "perfectly_rough")
 
 
-@dataclass(frozen=True)
-class Set:
-    """A coin that tumbles, what was seen of it, and the fields that are free with their spans."""
-
-    scenario: Scenario
-    observed: Observed
-    truth: dict[str, float]
-    spans: dict[str, tuple[float, float]]
-
-
 def tossed(rng: np.random.Generator, law: str) -> tuple[Scenario, Toss, dict[str, float]]:
     """Return a coin that tumbles and makes four touches, 5 ms apart at least, with some of its fields."""
     while True:
@@ -59,8 +47,11 @@ def tossed(rng: np.random.Generator, law: str) -> tuple[Scenario, Toss, dict[str
             return coin, toss, drawn
 
 
-def data_set(seed: int) -> Set:
-    """Return a set: of even seeds the film ends with the first touch, of others with the third."""
+def held(seed: int) -> NDArray[np.bool_]:
+    """Return which of a set's true values are in their intervals, (k,).
+
+    The film of even seeds ends with the first touch, that of others with the third.
+    """
     rng = np.random.default_rng([11, seed])
     coin, toss, fields = tossed(rng, LAWS[seed % 3])
     times = toss.impacts.time[:TOUCHES]
@@ -84,23 +75,18 @@ def data_set(seed: int) -> Set:
         half = WIDTHS.get(field, SPIN_WIDTH)
         middle = value + half * rng.uniform(-0.8, 0.8)
         spans[field] = (max(middle - half, 0.0) if field == TILT else middle - half, middle + half)
-    return Set(coin, observed, truth, {**spans, "floor.restitution": (0.3, 1.0)})
+    found = fit(observed, coin, {**spans, "floor.restitution": (0.3, 1.0)})
+    ends = [found[field].interval or (np.nan, np.nan) for field in truth]
+    return np.array([low <= true <= high for (low, high), true in zip(ends, truth.values(), strict=True)])
 
 
-def held(seed: int) -> NDArray[np.bool_]:
-    """Return which of the true values are in their intervals, (k,)."""
-    one = data_set(seed)
-    found = fit(one.observed, one.scenario, one.spans)
-    ends = [found[field].interval or (np.nan, np.nan) for field in one.truth]
-    return np.array([low <= true <= high for (low, high), true in zip(ends, one.truth.values(), strict=True)])
-
-
+@pytest.mark.slow
 def test_intervals_reach_across_jumps_of_the_misfit():
     """Of set 52 most of what explains it is lost where all three touches are fitted at once."""
     assert np.all(held(52))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("first", range(0, 100, 5))
 def test_intervals_of_100_tumbling_coins_with_five_free_fields_hold_the_truth(first):
     """All five hold it in 95 of 100 sets by the level of each: in fewer than 3 of 5 in one case of 800."""

@@ -156,36 +156,38 @@ def assert_covers(misses: np.ndarray, rejected: int) -> None:
     assert rejected <= 0.01 * n + 3.3 * np.sqrt(0.0099 * n)
 
 
-def test_intervals_of_a_few_coins_cover_the_truth():
-    assert_covers(*flat_misses(3, seed=1))
+@pytest.mark.parametrize(
+    ("count", "seed"),
+    [
+        pytest.param(3, 1, marks=pytest.mark.slow),
+        *(pytest.param(50, seed, marks=pytest.mark.long) for seed in (2, 3, 4, 5)),
+    ],
+)
+def test_intervals_of_flat_coins_cover_the_truth(count, seed):
+    assert_covers(*flat_misses(count, seed))
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [2, 3, 4, 5])
-def test_intervals_of_50_flat_coins_cover_the_truth(seed):
-    assert_covers(*flat_misses(50, seed=seed))
-
-
 def test_intervals_of_filmed_tumbling_coins_cover_the_truth_across_minima():
     """Of coin 10 a search that drops minima early finds no explanation; of 67 the truth is at another one."""
-    assert np.all(tumbling_coverage(range(10, 11)))
-    assert np.all(tumbling_coverage(range(67, 68)))
+    assert np.all(tumbling_coverage([10, 67]))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("first", range(0, 100, 25))
 def test_intervals_of_100_filmed_tumbling_coins_cover_the_truth(first):
     """Of 25 intervals of 99 % more than one misses the truth in fewer than three cases of a hundred."""
     assert np.all(tumbling_coverage(range(first, first + 25)).sum(axis=0) >= 24)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_intervals_follow_narrow_valleys_of_five_values():
     """Each of these coins had one that ended within a deviation, where the others did not follow along."""
     also = {"release.angular_velocity.eta": (-10.0, 10.0), "release.angles.theta": (0.0, 1.5)}
     assert np.all(tumbling_coverage([206, 211, 213], also))
 
 
+@pytest.mark.slow
 def test_a_coin_of_another_law_is_rejected():
     rng, rough = np.random.default_rng(4), TUMBLING.replace("floor.contact", "perfectly_rough")
     shown = filmed(rough, rng)
@@ -208,6 +210,7 @@ def test_touches_of_mujocos_coin_are_explained_by_the_analytic_engine():
     assert any(abs(each.value - 0.8) < 3 * each.sd + 1e-4 for each in values)
 
 
+@pytest.mark.slow
 def test_touches_beyond_the_horizon_test_nothing():
     toss = analytic.toss(TUMBLING.replace("ending.test", "lying"))
     trusted = toss.trusted_impacts
@@ -258,6 +261,7 @@ def test_an_attitude_fixes_the_side_and_the_spin_about_the_normal():
     assert spin.sd == pytest.approx(0.01 / np.sqrt(np.sum(at**2)), rel=1e-3)
 
 
+@pytest.mark.slow
 def test_the_same_seed_finds_the_same_on_any_number_of_cores(monkeypatch):
     shown, found = seen(FLAT, 5, np.random.default_rng(8)), []
     for cores in "13":
@@ -266,6 +270,7 @@ def test_the_same_seed_finds_the_same_on_any_number_of_cores(monkeypatch):
     assert found[0] == found[1]
 
 
+@pytest.mark.slow
 def test_an_interval_ends_with_its_span_and_says_so():
     """The clock of the fall is 1 s; its span ends a third of a deviation later, and half of one before."""
     shown = seen(FLAT, 5, np.random.default_rng(9))
@@ -285,6 +290,7 @@ def test_an_interval_ends_with_its_span_and_says_so():
     assert beyond.interval is None, "30 deviations away the model is refused"
 
 
+@pytest.mark.slow
 def test_a_span_may_run_downwards():
     shown = seen(FLAT, 5, np.random.default_rng(8))
     up = fit(shown, FLAT, ANY, starts=64)

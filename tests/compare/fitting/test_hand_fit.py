@@ -88,6 +88,7 @@ def test_people_without_wobble_have_none():
     assert degrees(found.scatter)[2] < 12
 
 
+@pytest.mark.slow
 def test_intervals_hold_the_truth_as_often_as_they_say():
     """Of 30 such tables more than 2 miss with a chance of 3e-3, of 100 people more than 4 with 3e-3."""
     truth, missed = math.radians(12), 0

@@ -27,6 +27,7 @@ def touches(chi: float, p: float, count: int) -> np.ndarray:
     return fastest / G + 2 / G * np.concatenate([[0], np.cumsum(speeds[1:])])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, 2])
 def test_the_intervals_hold_both_restitution_and_exponent(seed):
     errors = np.random.default_rng(seed).normal(0, HALF_MS, 7)

@@ -39,6 +39,7 @@ def test_an_impact_that_the_law_knows_nothing_of_is_wrong_beyond_measure():
     assert errors_of_impacts(replace(toss, scenario=case, impacts=impacts)).tolist() == [np.inf]
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("thickness", [0.0, 2e-3])
 @pytest.mark.parametrize("spin", [25.0, 31.0, 40.15])
 def test_engines_agree_within_the_horizon(thickness, spin):

@@ -156,6 +156,7 @@ def test_a_replaced_file_keeps_its_mode_and_a_link_its_place(tmp_path):
     assert (tmp_path / "path.csv").stat().st_mode & 0o777 == 0o640
 
 
+@pytest.mark.slow
 def test_a_stream_is_written_to_directly(tmp_path):
     # By links, or a fault here would replace the system's own devices.
     toss = "cointoss toss fig24a --max-impacts 1 --trajectory"
@@ -169,6 +170,7 @@ def test_a_stream_is_written_to_directly(tmp_path):
     assert (tmp_path / "copy").read_text().startswith("t [s],x [m]")
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize(
     ("command", "status", "named"),
     [

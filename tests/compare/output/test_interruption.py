@@ -48,6 +48,7 @@ def ended(folder, number, script, *arguments):
         return process.returncode, said
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize(
     ("engine", "number"),
     [*((Engine.ANALYTIC, number) for number in STATUSES), (Engine.MUJOCO, signal.SIGINT)],
@@ -59,6 +60,7 @@ def test_a_toss_is_interrupted(tmp_path, engine, number):
     assert ended(tmp_path, number, script, *toss) == (STATUSES[number], said)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["compare fig24a --out new/report", "video fig24a --out film.mp4"])
 def test_the_toss_of_a_report_or_a_film_is_interrupted(tmp_path, command):
     script = of_toss("cointoss.analytic", "cointoss.coin_mj") + "main()"
@@ -67,6 +69,7 @@ def test_the_toss_of_a_report_or_a_film_is_interrupted(tmp_path, command):
     assert [path.name for path in tmp_path.iterdir()] == ["begun"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("engine", Engine)
 def test_a_map_is_interrupted_in_a_tile_and_resumed_to_the_same_pixels(tmp_path, monkeypatch, engine):
     monkeypatch.setitem(grid.TILE_TOSSES, engine, SMALL)
@@ -174,6 +177,7 @@ def test_nothing_keeps_the_process_and_what_was_printed_before_is_there(tmp_path
     assert process.returncode == 130
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("name", ["my_cointoss", "cointoss", "cointoss.exe", "cointoss/__main__.py"])
 def test_a_script_that_imports_the_package_keeps_its_ctrl_c(tmp_path, name):
     (tmp_path / name).parent.mkdir(exist_ok=True)

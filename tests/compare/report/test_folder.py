@@ -40,6 +40,7 @@ def folder(found, tmp_path_factory):
     return target
 
 
+@pytest.mark.slow
 def test_the_page_stands_alone_and_names_the_versions(folder):
     """What it says is in a transcript; see `tests.helpers.golden`."""
     text = (folder / "report.html").read_text(encoding="utf-8")

@@ -236,6 +236,7 @@ def test_the_coins_go_on_until_they_lie_and_their_proof_is_marked(page, tmp_path
         assert len(each["times"]) == len(toss.impacts)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("width", [1280, 420])
 def test_the_page_of_three_engines_tells_them_apart(page, tmp_path, width):
     found = compared(parse(TEXT, "made"), TEXT, "made", ["mujoco", Off("Off 2.0, as documented")])

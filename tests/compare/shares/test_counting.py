@@ -27,6 +27,8 @@ DISC = scenario(
     floor={"contact": "coulomb", "friction": 0.3, "rolling_friction": 1e-4, "pivoting_friction": 1e-4},
     ending={"max_time": 60.0},
 )
+SMOOTH = scenario(coin={"thickness": 5e-3}, air=AIR)
+"""It comes to its end the soonest."""
 
 
 def last(plan, tosser=toss_here):
@@ -56,7 +58,7 @@ def tossed_otherwise(case, rng, count):
     return analytic.toss_rows(rows_of(case, count, dict(zip(STATE, columns, strict=True)))).outcome
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_twenty_settings_agree_with_a_count_of_other_draws():
     vary = {"floor.restitution": "0.1:0.7:4", "coin.thickness": "2 mm:14 mm:5"}
     # Flat, as the others; by default a hand is that of people, whose coins wobble.
@@ -77,7 +79,7 @@ def test_twenty_settings_agree_with_a_count_of_other_draws():
 
 def plan(**others):
     given = {"name": "", "hand": Hand(), "tosses": 3 * BLOCK[Engine.ANALYTIC] + 10, "seed": 4, "to": None}
-    return plan_of({"floor.restitution": "0.3:0.7:3"}, DISC, **(given | others))
+    return plan_of({"floor.restitution": "0.3:0.7:3"}, SMOOTH, **(given | others))
 
 
 def test_the_counts_depend_on_no_order_and_on_no_size_of_parts(monkeypatch):
@@ -104,7 +106,7 @@ def test_settings_blocks_and_engines_have_draws_of_their_own():
 
 def test_counting_stops_at_the_first_block_that_makes_the_interval_narrow_enough():
     for to in (0.06, 0.04):
-        found = shares(DISC, {"floor.restitution": (0.3, 0.7, 2)}, to=to, seed=1)
+        found = shares(SMOOTH, {"floor.restitution": (0.3, 0.7, 2)}, to=to, seed=1)
         widest = ((found.high - found.low) / 2).max("outcome")
         assert ((0.6 * to < widest) & (widest <= to)).all()
         assert (found["count"].sum("outcome") % BLOCK[Engine.ANALYTIC] == 0).all()

@@ -45,6 +45,7 @@ def test_no_share_is_of_coins_that_are_not_caught():
     assert show.as_json(found)["settings"][0]["not_caught"] == int(found.not_caught) > 400
 
 
+@pytest.mark.slow
 def test_a_picture_has_a_panel_for_each_value_of_the_second_field():
     axes = Figure().subplots()
     assert plot_shares(made(ONE), axes) is axes

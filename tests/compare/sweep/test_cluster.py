@@ -47,7 +47,7 @@ def _started(part, *arguments):
     return started("-m", f"distributed.cli.dask_{part}", *arguments, **quiet)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_worker_lost_on_the_way_changes_no_pixel(cluster, coin, tmp_path):
     (address, workers, _), out = cluster, tmp_path / "map.zarr"
     with begun(coin, out, "--scheduler", address) as process:
@@ -111,7 +111,7 @@ def test_a_connection_that_is_lost_is_named_with_the_way_on(lost):
     )
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_scheduler_lost_on_the_way_is_one_line_and_the_map_is_gone_on_with(cluster, coin, tmp_path):
     (address, _, scheduler), out = cluster, tmp_path / "map.zarr"
     with begun(coin, out, "--scheduler", address) as process:

@@ -54,6 +54,7 @@ def shown_of(section, folder):
     return " ".join(unescape(re.sub(r"<[^>]+>", " ", html)).split())
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("contact", ["spring", "one_step"])
 def test_the_report_has_the_numbers_of_both_maps_and_the_command(coin, tmp_path, contact):
     out, report, png = tmp_path / "map.zarr", tmp_path / "new" / "report", tmp_path / "map.png"
@@ -84,6 +85,7 @@ def test_the_report_has_the_numbers_of_both_maps_and_the_command(coin, tmp_path,
     assert found["tosses"][1]["impacts"][1]["impulse"] == mujoco.impacts.impulse[1].tolist()
 
 
+@pytest.mark.slow
 def test_the_report_hatches_what_the_analytic_engine_cannot_be_trusted_with(coin, tmp_path):
     out, report = tmp_path / "map.zarr", tmp_path / "report"
     asked = ("--x", X, "--y", Y, "--trust", "--compare", "--out", out, "--report", report)

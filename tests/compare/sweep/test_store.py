@@ -166,6 +166,7 @@ def test_a_disk_that_is_full_at_the_start_leaves_nothing(coin, tmp_path, monkeyp
     assert [path.name for path in tmp_path.iterdir()] == ["coin.toml"]
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("damage", ["empty", "cut", "flipped", "lost"])
 @pytest.mark.parametrize("name", ["outcome", "impacts"])
 def test_a_damaged_tile_is_tossed_again(undisturbed, in_tiles, coin, tmp_path, monkeypatch, name, damage):

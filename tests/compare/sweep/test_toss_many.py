@@ -40,6 +40,7 @@ def test_each_toss_is_that_of_toss(engine):
         assert here.last_face == face
 
 
+@pytest.mark.slow
 def test_rows_may_differ_in_everything():
     vary = {
         "coin.mass": [2e-3, 5e-3, 7e-3, 2e-3],

@@ -162,6 +162,7 @@ def test_touches_are_heard_once_a_button_is_pressed(page, played):
     assert page.value("tones.length") == len(loud)
 
 
+@pytest.mark.slow
 def test_the_rows_of_faces_wrap_with_the_bar_on_the_screen(page, played):
     played(width=420)
     box = "document.getElementById('sequences')"

@@ -111,6 +111,7 @@ def test_friction_stays_in_its_cone_and_the_floor_never_pulls(kind):
             assert after(K, v, S)[2] == pytest.approx(-chi * v[2], abs=1e-12 * float(np.linalg.norm(v)))
 
 
+@pytest.mark.slow
 def test_energetic_restitution_never_adds_energy_and_kinematic_may():
     rng = np.random.default_rng(4)
     gained = {kind: [] for kind in RestitutionKind}
