@@ -181,5 +181,5 @@ def _of_size(data: dict[str, Any], size: Any) -> list[float]:
         rate = in_si(size, "rad/s") if isinstance(size, str) else float(size)
     except (TypeError, ValueError) as error:
         raise ScenarioError(f"release.spin = {shown(size)}: accepted: {error}") from None
-    whole = math.hypot(*own)
+    whole = math.sqrt(np.square(own).sum())
     return [w / whole * rate for w in own]

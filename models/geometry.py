@@ -1,5 +1,6 @@
 """Where a coin is above the floor: its tilt, its gap, its lower rim and its lowest point."""
 
+import math
 from typing import NamedTuple
 
 from cointoss.models.body import Body
@@ -29,7 +30,7 @@ def tilt_sine_of(up: Vector) -> float:
     Args:
         up: the upward unit vector in the body frame, Rᵀ z, (3,).
     """
-    return (up[0] * up[0] + up[1] * up[1]) ** 0.5
+    return math.sqrt(up[0] * up[0] + up[1] * up[1])
 
 
 @compiled

@@ -3,6 +3,8 @@
 A vector is (x, y, z); a matrix is a tuple of three rows.
 """
 
+import math
+
 from cointoss.models.kernel.compiled import compiled
 
 Vector = tuple[float, float, float]
@@ -42,7 +44,7 @@ def cross(a: Vector, b: Vector) -> Vector:
 @compiled
 def norm(a: Vector) -> float:
     """Return the length |a|."""
-    return (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) ** 0.5
+    return math.sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
 
 
 @compiled

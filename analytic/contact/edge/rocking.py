@@ -19,7 +19,7 @@ from cointoss.models.records import Array
 # While the accelerations a₋ and a₊ that restore either rim change slowly, the action of rocking,
 # J ~ E^(3/2) (1/a₋ + 1/a₊), is an adiabatic invariant: its energy E grows by less than this factor until it
 # meets the weaker rim.
-_GROWTH = 2 ** (2 / 3)
+_GROWTH = 1.5874010519681994  # 2^(2/3)
 
 
 @compiled
