@@ -2,6 +2,7 @@
 
 import math
 import re
+from decimal import Decimal
 from functools import cache
 from typing import TYPE_CHECKING
 
@@ -26,7 +27,7 @@ COMMON = {
     "s": {"s": 1.0, "ms": 0.001},
     "m/s": {"m/s": 1.0, "cm/s": 0.01, "mm/s": 0.001},
     "rad": {"rad": 1.0, "deg": 0.017453292519943295},
-    "rad/s": {"rad/s": 1.0, "deg/s": 0.017453292519943295, "rpm": 0.10471975511965977},
+    "rad/s": {"rad/s": 1.0, "deg/s": 0.017453292519943295, "rpm": 0.10471975511965978},
 }
 """Pint's factors of the units that are written often: reading them takes no half a second to import pint."""
 
@@ -53,7 +54,8 @@ def in_si(text: str, unit: str) -> float:
         # Pint counts radians as numbers: it would take 40 Hz for 40 rad/s, and 7 % for an angle.
         if registry.get_root_units(given)[1] != registry.get_root_units(registry.parse_units(unit))[1]:
             raise ValueError
-        return float(registry.Quantity(float(parts[1]), given).to(unit or "dimensionless").magnitude)
+        factor = registry.Quantity(Decimal(1), given).to(unit or "dimensionless").magnitude
+        return float(parts[1]) * float(factor)
     except Exception as error:  # pint lets the errors of its tokenizer and of its arithmetic through
         raise ValueError(_accepted(unit)) from error
 
@@ -68,10 +70,10 @@ def _accepted(unit: str) -> str:
 
 @cache
 def pint_registry() -> "UnitRegistry":
-    """Return pint's units, which take long to import."""
+    """Return pint's units, which take long to import; powers of decimals need no C library."""
     import pint
 
-    return pint.UnitRegistry()
+    return pint.UnitRegistry(non_int_type=Decimal)  # pyright: ignore[reportArgumentType]
 
 
 def lambda_unit(exponent: float) -> str:
