@@ -51,7 +51,8 @@ def _line(detail: ErrorDetails, model: type[BaseModel]) -> str:
         case "extra_forbidden", _:
             return f"{field} = {value}: unknown key; {_known(detail, model)}"
         case _, FieldError() as cause:
-            return f"{field} = {shown(cause.value)}: accepted: {cause.accepted}"
+            given = detail["input"] if isinstance(detail["input"], dict) else {}
+            return f"{field} = {shown(given.get(cause.field, cause.value))}: accepted: {cause.accepted}"
         case _:
             return f"{field} = {value}: accepted: {_accepted(detail, model)}"
 

@@ -1,11 +1,15 @@
 """What Python calls of the description's compiled code; annotations say which rows of numbers are passed."""
 
-from cointoss.models import free_joint, rows
+from cointoss.models import attitude, free_joint, rows
 from cointoss.models import lowest_points as lowest
 from cointoss.models.kernel.library import Library
 
 engine = Library(__name__)
 
+quaternion_from_angles = engine.entry(attitude.quaternion_from_angles)
+body_in_any_air = engine.entry(rows.body_in_any_air)
+rules_of = engine.entry(rows.rules_of)
+examine = engine.entry(rows.examine)
 examine_each = engine.entry(rows.examine_each)
 states_of_joint = engine.entry(free_joint.states_of_joint)
 joint_of_states = engine.entry(free_joint.joint_of_states)

@@ -166,6 +166,13 @@ def fault_of_inertia(cylinder: Cylinder, J: Matrix, is_given: bool) -> FoundFaul
 
 
 @compiled
+def fault_of_coin(cylinder: Cylinder, center: Vector, J: Matrix, is_given: bool) -> FoundFault:
+    """Return what is wrong with a coin, whose inertia the scenario may have given; see the two above."""
+    found = fault_of_center(cylinder, center)
+    return fault_of_inertia(cylinder, J, is_given) if found.fault == Fault.NONE else found
+
+
+@compiled
 def fault_of_floor(
     law: ContactLaw, kind: RestitutionKind, rolling: float, pivoting: float, contour: float, viscous: float
 ) -> FoundFault:

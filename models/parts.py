@@ -1,6 +1,7 @@
 """The parts of a scenario: coin, air, floor, release and ending; frozen, and validated when made."""
 
 from collections.abc import Mapping
+from functools import cached_property
 from typing import Annotated, Any, ClassVar, Self
 
 import numpy as np
@@ -17,19 +18,18 @@ from pydantic import (
     model_validator,
 )
 
-from cointoss.models.attitude import Quaternion, normalized, quaternion_from_angles
+from cointoss.models.attitude import Quaternion, normalized
 from cointoss.models.describing import accepted, describe
 from cointoss.models.errors import FieldError, ScenarioError
 from cointoss.models.faults import (
     ACCEPTED,
     Fault,
     FoundFault,
-    fault_of_center,
+    fault_of_coin,
     fault_of_floor,
-    fault_of_inertia,
     fault_of_quaternion,
 )
-from cointoss.models.kernel.vectors import Matrix, Vector
+from cointoss.models.kernel.vectors import Matrix
 from cointoss.models.laws import ContactLaw, EndingTest, RestitutionKind
 from cointoss.models.making import AT_REST, MOST_IMPACTS, Cylinder, moved_inertia
 from cointoss.models.quantities import (
@@ -51,7 +51,6 @@ from cointoss.models.quantities import (
     quantity,
     time_or_rest,
 )
-from cointoss.models.state import State, state
 from cointoss.models.units import in_si, lambda_unit
 from cointoss.models.words import Word
 
@@ -94,12 +93,6 @@ class Part(BaseModel):
                 "model_copy: accepted: no update; Scenario.replace changes fields and checks them"
             )
         return super().model_copy(deep=deep)
-
-
-def _require_none(found: FoundFault) -> None:
-    """Refuse a value, with the problem that was found."""
-    if found.fault != Fault.NONE:
-        raise ValueError(ACCEPTED[found.fault][1].format(limit=found.limit))
 
 
 def refuse(found: FoundFault, part: Part, **words: str) -> None:
@@ -151,24 +144,11 @@ class Coin(Part):
     """J_C about C, body frame, products of inertia with their minus sign [kg m²]; by default the uniform
     cylinder's about B, moved to C."""
 
-    @field_validator("center_of_mass")
-    @classmethod
-    def _inside_the_coin(cls, c: Vector, info: ValidationInfo) -> Vector:
-        if cylinder := _cylinder(info.data):
-            _require_none(fault_of_center(cylinder, c))
-        return c
-
-    @field_validator("inertia")
-    @classmethod
-    def _inertia_of_a_body(cls, inertia: Matrix | None, info: ValidationInfo) -> Matrix | None:
-        if inertia is not None and (cylinder := _cylinder(info.data)):
-            _require_none(fault_of_inertia(cylinder, inertia, True))
-        return inertia
-
     @model_validator(mode="after")
-    def _positive_inertia(self) -> Self:
-        if self.inertia is None:
-            refuse(fault_of_inertia(self.cylinder, self.moments, False), self)
+    def _of_a_body(self) -> Self:
+        refuse(
+            fault_of_coin(self.cylinder, self.center_of_mass, self.moments, self.inertia is not None), self
+        )
         return self
 
     @property
@@ -187,12 +167,6 @@ class Coin(Part):
         J = np.array(self.moments)
         J.setflags(write=False)
         return J
-
-
-def _cylinder(fields: Mapping[str, Any]) -> Cylinder | None:
-    """Return the mass and the size of a coin that is being checked, None where one of them is wrong."""
-    are_there = all(name in fields for name in Cylinder._fields)
-    return Cylinder(*(fields[name] for name in Cylinder._fields)) if are_there else None
 
 
 class _QuadraticDrag(Part):
@@ -322,10 +296,9 @@ class Release(Part):
     @field_validator("quaternion")
     @classmethod
     def _unit_norm(cls, e: Quaternion | None) -> Quaternion | None:
-        if e is None:
-            return None
-        _require_none(fault_of_quaternion(e))
-        return normalized(e)
+        if e is not None and (found := fault_of_quaternion(e)).fault != Fault.NONE:
+            raise ValueError(ACCEPTED[found.fault][1].format(limit=found.limit))
+        return e and normalized(e)
 
     @model_validator(mode="after")
     def _one_attitude(self) -> Self:
@@ -333,15 +306,12 @@ class Release(Part):
             raise FieldError("quaternion", self.quaternion, "either angles or quaternion, not both")
         return self
 
-    @property
+    @cached_property
     def attitude(self) -> Quaternion:
         """Euler parameters e0, e1, e2, e3, body to space, of norm 1."""
-        return self.quaternion or quaternion_from_angles(self.angles or _ZERO)
+        from cointoss.models.entries import quaternion_from_angles
 
-    @property
-    def state(self) -> State:
-        """The state of the coin."""
-        return state(self.position, self.velocity, self.attitude, self.angular_velocity)
+        return self.quaternion or quaternion_from_angles(self.angles or _ZERO)
 
 
 class EndingCriteria(Part):

@@ -14,14 +14,13 @@ from cointoss.models.barriers import barrier
 from cointoss.models.body import NO_CODE, AirLaw, Body, Rules, with_budgets
 from cointoss.models.faults import (
     Fault,
-    fault_of_center,
+    fault_of_coin,
     fault_of_floor,
-    fault_of_inertia,
     fault_of_quaternion,
     fault_of_toss,
 )
 from cointoss.models.fields import FIELDS, PLACES, TABLES, WORDED, Place
-from cointoss.models.kernel.arrays import Array, Codes, Row, Table
+from cointoss.models.kernel.arrays import Array, Codes, Row, Table, copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector
 from cointoss.models.making import MOST_LOSSLESS, Cylinder, make_body, most_impacts, moved_inertia
@@ -44,8 +43,8 @@ def fields_of(scenario: Scenario) -> dict[str, float | str]:
 def row_of(scenario: Scenario) -> Array:
     """Return a scenario as a row of numbers, (n,), in the order of `FIELDS`."""
     given = fields_of(scenario)
-    words = {name: kind(given[name]).value for name, kind in WORDED.items()}
-    return np.array([(given | words).get(name, math.nan) for name in FIELDS], dtype=float)
+    given |= {name: kind(given[name]).value for name, kind in WORDED.items()}
+    return np.array([given.get(name, math.nan) for name in FIELDS], dtype=float)
 
 
 def _value(tables: Any, place: Place) -> float | str | None:
@@ -160,7 +159,13 @@ def has_linear_air(row: Array) -> bool:
 
 
 @compiled
-def rules_of(row):
+def body_in_any_air(row: Row) -> Body:
+    """Return the coin of a row, with 0 for the exponent of linear air."""
+    return body_of(row, 0.0 if has_linear_air(row) else row[AT.air_exponent])
+
+
+@compiled
+def rules_of(row: Row) -> Rules:
     """Return the `Rules` of a row; words are integers there."""
     caught = math.inf if math.isnan(row[AT.ending_caught]) else row[AT.ending_caught]
     rules = Rules(
@@ -211,19 +216,14 @@ def release_of(row: Array) -> State:
 def write_release(row: Array, y: Array) -> None:
     """Write the state at the release of a row as a state vector, (13,)."""
     release = release_of(row)
-    for i in range(3):
-        y[i], y[3 + i], y[10 + i] = release.position[i], release.velocity[i], release.spin[i]
-    for i in range(4):
-        y[6 + i] = release.attitude[i]
+    copy_into(y, release.position + release.velocity + release.attitude + release.spin)
 
 
 @compiled
 def fault_of_parts(row):
     """Return what is wrong with the coin, the floor or the attitude of a row, each for itself."""
-    cylinder = cylinder_of(row)
-    found = fault_of_center(cylinder, three(row, AT.coin_center_of_mass_xi))
-    if found.fault == Fault.NONE:
-        found = fault_of_inertia(cylinder, inertia_of(row), has_inertia(row))
+    center = three(row, AT.coin_center_of_mass_xi)
+    found = fault_of_coin(cylinder_of(row), center, inertia_of(row), has_inertia(row))
     if found.fault == Fault.NONE:
         found = fault_of_floor(
             int(row[AT.floor_contact]),
@@ -271,12 +271,8 @@ def examine_each(rows: Table, faults: Codes) -> None:
         if foreign_number(rows[first]) >= 0:
             for i in range(first, end):
                 faults[i] = Fault.ROW.value
-        elif has_linear_air(rows[first]):
-            _examine_run(body_of(rows[first], None), rows[first:end], faults[first:end])
         else:
-            _examine_run(
-                body_of(rows[first], rows[first, AT.air_exponent]), rows[first:end], faults[first:end]
-            )
+            _examine_run(body_in_any_air(rows[first]), rows[first:end], faults[first:end])
         first = end
 
 
@@ -299,14 +295,8 @@ def examine(row: Row, answer: Row) -> None:
     place = foreign_number(row)
     if place >= 0:
         answer[0], answer[1], answer[2] = Fault.ROW.value, place, math.nan
-    elif has_linear_air(row):
-        _examine(body_of(row, None), row, answer)
     else:
-        _examine(body_of(row, row[AT.air_exponent]), row, answer)
-
-
-@compiled
-def _examine(body, row, answer):
-    found = fault_of(body, row)
-    answer[0], answer[1] = found.fault.value, found.limit
-    answer[2] = min(barrier(body, 1.0), barrier(body, -1.0))
+        body = body_in_any_air(row)
+        found = fault_of(body, row)
+        answer[0], answer[1] = found.fault.value, found.limit
+        answer[2] = min(barrier(body, 1.0), barrier(body, -1.0))

@@ -1,6 +1,5 @@
 """A scenario: a coin, its air, floor, release and ending; frozen, and validated when made."""
 
-import math
 from functools import cached_property
 from typing import Any, Self
 
@@ -12,13 +11,13 @@ from pydantic import (
 )
 
 from cointoss.models.attitude import Quaternion
-from cointoss.models.body import NO_CODE, AirLaw, Body, Rules
+from cointoss.models.body import Body, Rules
 from cointoss.models.describing import describe
 from cointoss.models.errors import FieldError, ScenarioError, require_type
-from cointoss.models.faults import fault_of_toss
+from cointoss.models.faults import Fault, FoundFault
 from cointoss.models.fields import put
 from cointoss.models.kernel.vectors import Vector
-from cointoss.models.making import MOST_LOSSLESS, make_body, most_impacts
+from cointoss.models.making import MOST_LOSSLESS
 from cointoss.models.parts import (
     Air,
     Coin,
@@ -67,8 +66,12 @@ class Scenario(Part):
 
     @model_validator(mode="after")
     def _together(self) -> Self:
+        from cointoss.models.entries import examine
+
+        found = np.empty(3)
         try:
-            refuse(fault_of_toss(self.body, self.rules, self.release.state), self)
+            examine(self._row, found)
+            refuse(FoundFault(Fault(int(found[0])), float(found[1])), self)
         except FieldError as error:  # a coin of 12 m is in the floor
             doubted = unlikely_units(self.gravity, self.coin, self.release, self.ending).values()
             raise FieldError(error.field, error.value, "; ".join([error.accepted, *doubted])) from None
@@ -121,31 +124,28 @@ class Scenario(Part):
         """Return the text of a scenario file, defaults included, that `parse` reads as the same scenario."""
         return toml(self.as_tables())
 
+    @property
+    def _row(self) -> NDArray[np.float64]:
+        """The scenario as compiled code reads it, by the rows' own module, which needs this one."""
+        from cointoss.models.rows import row_of
+
+        return row_of(self)  # pyright: ignore[reportArgumentType]
+
     @cached_property
     def body(self) -> Body:
         """The coin in its air and gravity, for compiled code."""
-        coin, air = self.coin, self.air
-        is_linear = air.exponent == 0 or air.normal == air.tangential == 0
-        law = AirLaw(None if is_linear else air.exponent, normal=air.normal, tangential=air.tangential)
-        return make_body(
-            coin.cylinder, coin.center_of_mass, coin.moments, law, self.gravity, self.floor.slope
-        )
+        from cointoss.models.entries import body_in_any_air
 
-    @property
+        body = body_in_any_air(self._row)
+        return body if body.air.exponent else body._replace(air=body.air._replace(exponent=None))
+
+    @cached_property
     def rules(self) -> Rules:
         """The floor and the ending, for compiled code."""
-        floor, ending = self.floor, self.ending
-        declared = {
-            **vars(floor),
-            **vars(ending),
-            "law": floor.contact,
-            "own": NO_CODE,
-            "viscosity": self.air.viscosity,
-            "max_impacts": ending.max_impacts or MOST_LOSSLESS,
-            "caught": math.inf if ending.caught is None else ending.caught,
-        }
-        rules = Rules(**{name: declared[name] for name in Rules._fields})
-        return rules if ending.max_impacts else rules._replace(max_impacts=most_impacts(rules))
+        from cointoss.models.entries import rules_of
+
+        words = {"law": self.floor.contact, "test": self.ending.test}
+        return rules_of(self._row)._replace(**words, restitution_kind=self.floor.restitution_kind)
 
 
 def keeping_all(rules: Rules, scenario: Scenario) -> Rules:

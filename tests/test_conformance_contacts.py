@@ -7,6 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from cointoss.compare.engines import Engine
+from cointoss.models.attitude import rotation_matrix
 from cointoss.models.laws import ContactLaw
 from cointoss.models.records import Ending, Outcome
 from tests.helpers import engines
@@ -213,7 +214,7 @@ def test_one_of_many_tosses_is_that_of_toss_to_the_bit(engine, name):
 @pytest.mark.parametrize("restitution", [0.0, 0.8])
 def test_a_release_in_contact_begins_in_contact(engine, law, friction, restitution):
     """On its rim, at rest, the coin tips at once: nothing bounces, and the floor holds it from the start."""
-    up = scenario(release={"angles": [0, 0.3, 0]}).release.state.R[2]
+    up = rotation_matrix(scenario(release={"angles": [0, 0.3, 0]}).release.attitude)[2]
     height = H / 2 * up[2] + R * np.hypot(up[0], up[1])
     case = scenario(
         coin=BALANCED,

@@ -24,7 +24,9 @@ from cointoss.coin_mj.model.settings import (
 from cointoss.coin_mj.model.state import of_release
 from cointoss.models.body import Body, is_ideal, resists
 from cointoss.models.contour import Contour
+from cointoss.models.entries import body_in_any_air
 from cointoss.models.restitution import largest_restitution
+from cointoss.models.rows import row_of
 from cointoss.models.scenario import Scenario
 
 _Disable = mujoco.mjtDisableBit
@@ -84,7 +86,7 @@ def machine_of(
     scenario = scenario if unit == 1 else _in_mass_unit(scenario, unit)
     rebound, body, mu = (
         rebound_of(floor.restitution, settings),
-        _with_air_of_any_kind(scenario.body),
+        body_in_any_air(row_of(scenario)),
         friction_of(floor),
     )
     native = mu if settings.friction == Friction.NATIVE else 0.0
@@ -145,11 +147,6 @@ def _in_mass_unit(scenario: Scenario, unit: float) -> Scenario:
         *("air.normal", air.normal / unit, "air.tangential", air.tangential / unit),
         *("air.viscosity", air.viscosity / unit),
     )
-
-
-def _with_air_of_any_kind(body: Body) -> Body:
-    """Return the body with 0 for an exponent that is None, so that code is compiled once for all air."""
-    return body._replace(air=body.air._replace(exponent=body.air.exponent or 0.0))
 
 
 def _addresses(model: mujoco.MjModel, data: mujoco.MjData, *, has_pair: bool) -> Addresses:
