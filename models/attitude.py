@@ -6,14 +6,15 @@ pairs, so that the mirror image of a motion is rounded as the motion is.
 
 import math
 
-from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.arrays import Array, Table, copy_into
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import Matrix, Vector
+from cointoss.models.kernel.vectors import Matrix, Vector, norm, scale
 
 Quaternion = tuple[float, float, float, float]
 # Euler parameters whose norm is 1 within rounding stay as they are: made from angles, or brought to norm 1
 # before, they would change in their last digit.
 _NORM_ROUNDING = 1e-15
+_NO_TURN = 1e-300  # divides a sine of 0
 
 
 @compiled
@@ -63,6 +64,27 @@ def quaternion_product(a: Quaternion, b: Quaternion) -> Quaternion:
         (a[0] * b[2] - a[1] * b[3]) + (a[2] * b[0] + a[3] * b[1]),
         (a[0] * b[3] + a[1] * b[2]) - (a[2] * b[1] - a[3] * b[0]),
     )
+
+
+@compiled
+def turn_by(vector: Vector) -> Quaternion:
+    """Return the Euler parameters of the turn about a vector by its length [rad]."""
+    angle = norm(vector)
+    return (math.cos(angle / 2), *scale(math.sin(angle / 2) / max(angle, _NO_TURN), vector))
+
+
+@compiled
+def turn_each(attitudes: Table, turns: Table) -> None:
+    """Turn bodies.
+
+    Args:
+        attitudes: their Euler parameters, body to space, (n, 4); written to.
+        turns: about which vector, body frame, and by its length, (n, 3) [rad].
+    """
+    for i in range(len(attitudes)):
+        e, turn = attitudes[i], turns[i]
+        turned = quaternion_product((e[0], e[1], e[2], e[3]), turn_by((turn[0], turn[1], turn[2])))
+        copy_into(attitudes[i], turned)
 
 
 @compiled

@@ -7,6 +7,8 @@ from cointoss.models.kernel.library import Library
 engine = Library(__name__)
 
 quaternion_from_angles = engine.entry(attitude.quaternion_from_angles)
+turn_each = engine.entry(attitude.turn_each)
+write_attitudes = engine.entry(rows.write_attitudes)
 body_in_any_air = engine.entry(rows.body_in_any_air)
 rules_of = engine.entry(rows.rules_of)
 examine = engine.entry(rows.examine)

@@ -220,6 +220,13 @@ def write_release(row: Array, y: Array) -> None:
 
 
 @compiled
+def write_attitudes(rows: Table, attitudes: Table) -> None:
+    """Write the Euler parameters at the release of each row, (n, 4)."""
+    for i in range(len(rows)):
+        copy_into(attitudes[i], release_of(rows[i]).attitude)
+
+
+@compiled
 def fault_of_parts(row):
     """Return what is wrong with the coin, the floor or the attitude of a row, each for itself."""
     center = three(row, AT.coin_center_of_mass_xi)

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from decimal import ROUND_DOWN, ROUND_UP, Context
+from decimal import ROUND_DOWN, ROUND_UP, Context, Decimal
 from typing import Protocol
 
 import numpy as np
@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from cointoss import analytic
 from cointoss.models.batch import PLACE, refused, rows_of
+from cointoss.models.entries import turn_each, write_attitudes
 from cointoss.models.records import Array
-from cointoss.models.rows import release_of
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import counted
 
@@ -38,7 +38,8 @@ class SearchResolution:
     @property
     def ladder(self) -> Array:
         """The changes that are tried, in SI units."""
-        return FINEST * 10 ** (np.arange(DECADES * self.per_decade + 1) / self.per_decade)
+        steps = range(DECADES * self.per_decade + 1)
+        return FINEST * np.array([float(10 ** (Decimal(i) / self.per_decade)) for i in steps])
 
 
 FINE = SearchResolution(per_decade=4, bisections=8)
@@ -141,12 +142,9 @@ def _moved(name: str, unit: str, factor: float, field: str) -> ReleaseQuantity:
 
 def _turned(name: str, axis: int) -> ReleaseQuantity:
     def change(rows: Array, by: Array) -> Array:
-        e0, e = rows[:, _Q[0]], rows[:, _Q[1:]]
-        cosine, sine = np.cos(by / 2), np.sin(by / 2)
-        u = np.eye(3)[axis]
-        changed = rows.copy()
-        changed[:, _Q[0]] = cosine * e0 - sine * (e @ u)
-        changed[:, _Q[1:]] = cosine[:, None] * e + sine[:, None] * (e0[:, None] * u + np.cross(e, u))
+        changed, attitudes = rows.copy(), np.ascontiguousarray(rows[:, _Q])
+        turn_each(attitudes, by[:, None] * np.eye(3)[axis])
+        changed[:, _Q] = attitudes
         return changed
 
     return ReleaseQuantity(name, "rad", 1.0, change, _QUATERNION)
@@ -154,11 +152,9 @@ def _turned(name: str, axis: int) -> ReleaseQuantity:
 
 def with_quaternions(rows: Array) -> Array:
     """Return rows whose attitude is a quaternion of norm 1, (n, 54)."""
-    # NaN, which stands for what is left out, equals itself here.
-    given = np.nan_to_num(rows[:, [*_A, *_Q]], nan=np.inf)
-    _, first, which = np.unique(given, axis=0, return_index=True, return_inverse=True)
-    found = rows.copy()
-    found[:, _A], found[:, _Q] = math.nan, np.array([release_of(rows[i]).attitude for i in first])[which]
+    found, attitudes = rows.copy(), np.empty((len(rows), 4))
+    write_attitudes(found, attitudes)
+    found[:, _A], found[:, _Q] = math.nan, attitudes
     return found
 
 

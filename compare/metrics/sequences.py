@@ -1,11 +1,8 @@
 """How far two heads-and-tails sequences agree, and how far they must."""
 
-import math
-
-import numpy as np
-
 from cointoss import analytic
-from cointoss.models.attitude import quaternion_product, rotation_matrix
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.entries import turn_each
 from cointoss.models.geometry import gap
 from cointoss.models.records import Array, Toss
 from cointoss.models.scenario import Scenario, euler_parameters
@@ -66,9 +63,9 @@ def _touching_at(toss: Toss, i: int, late: float) -> Scenario:
     """Return a scenario that begins at an impact of a toss, in the attitude so much later [s]."""
     impacts, body = toss.impacts, toss.scenario.body
     w = impacts.angular_velocity_before[i]
-    half = np.linalg.norm(w) * late / 2
-    turn = (math.cos(half), *(math.sin(half) * w / (np.linalg.norm(w) or 1.0)).tolist())
-    attitude = quaternion_product(euler_parameters(impacts.quaternion[i]), turn)
+    attitudes = impacts.quaternion[i : i + 1].copy()
+    turn_each(attitudes, late * w[None, :])
+    attitude = euler_parameters(attitudes[0])
     x, y, z = impacts.position[i].tolist()
     release = {
         "position": (x, y, z - gap(body, z, rotation_matrix(attitude)[2]) + TOUCHING * body.radius),

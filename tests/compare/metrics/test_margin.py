@@ -37,21 +37,19 @@ def test_every_quantity_has_a_margin_and_what_changes_nothing_has_none():
     assert 0 < abs(found["spin about ξ"].change) < 20
 
 
-@pytest.mark.parametrize("name", ["height", "spin about ξ", "attitude about ξ"])
-def test_a_change_of_the_margin_changes_the_outcome_and_half_of_it_does_not(name):
+@pytest.mark.parametrize(
+    ("name", "field", "start"),
+    [
+        ("height", "release.position.z", 0.4),
+        ("spin about ξ", "release.angular_velocity.xi", 40.0),
+        ("attitude about ξ", "release.angles.theta", 0.0),
+    ],
+)
+def test_a_change_of_the_margin_changes_the_outcome_and_half_of_it_does_not(name, field, start):
     scenario = load("fig29").replace("floor.restitution", 0.3)
     margin = by_name(scenario)[name]
-    change = margin.change / margin.quantity.factor
-    faces = []
-    for part in (0.0, 0.5, 0.999, 1.001):
-        release = {
-            "height": ("release.position.z", 0.4),
-            "spin about ξ": ("release.angular_velocity.xi", 40.0),
-            "attitude about ξ": ("release.angles", None),
-        }[name]
-        value = [0.0, part * change, 0.0] if release[1] is None else release[1] + part * change
-        changed = scenario.replace(release[0], value)
-        faces.append(analytic.toss(changed).outcome)
+    values = start + np.array([0.0, 0.5, 0.999, 1.001]) * margin.change / margin.quantity.factor
+    faces = [analytic.toss(scenario.replace(field, value)).outcome for value in values]
     assert faces[0] == faces[1] == faces[2] != faces[3]
 
 
