@@ -24,8 +24,7 @@ from cointoss.coin_mj.model.settings import (
 from cointoss.coin_mj.model.state import of_release
 from cointoss.models.body import Body, is_ideal, resists
 from cointoss.models.contour import Contour
-from cointoss.models.entries import body_in_any_air
-from cointoss.models.restitution import largest_restitution
+from cointoss.models.entries import body_in_any_air, largest_restitution
 from cointoss.models.rows import row_of
 from cointoss.models.scenario import Scenario
 
@@ -135,7 +134,7 @@ def shape_of(body: Body, thickness: float) -> Body:
 def _mass_unit(body: Body) -> float:
     """Return a power of 2 in which no moment of inertia is too small for MuJoCo; 1 where none is [kg]."""
     smallest = body.inertia_smallest
-    return 1.0 if smallest > SMALLEST_INERTIA else 2.0 ** math.floor(math.log2(smallest / SMALLEST_INERTIA))
+    return 1.0 if smallest > SMALLEST_INERTIA else math.ldexp(0.5, math.frexp(smallest / SMALLEST_INERTIA)[1])
 
 
 def _in_mass_unit(scenario: Scenario, unit: float) -> Scenario:

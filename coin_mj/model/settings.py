@@ -1,16 +1,16 @@
 """A floor as contact settings of MuJoCo: its restitution as a solref, and the source of its friction."""
 
+import itertools
 import math
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from numbers import Integral
-from typing import NamedTuple, cast
-
-from scipy.optimize import brentq
+from typing import NamedTuple
 
 from cointoss.models.contact_laws.table import is_rough, uses_friction
-from cointoss.models.kernel.compiled import compiled
+from cointoss.models.entries import damping_ratio_of
 from cointoss.models.parts import Floor
+from cointoss.models.spring import restitution_of
 
 ROUGH = 100.0
 """Coefficient of friction that stands for a perfectly rough floor."""
@@ -156,12 +156,12 @@ def resolved(settings: MujocoSettings, restitution: float, rate: float) -> Mujoc
     if settings.contact == Realisation.ONE_STEP:
         return settings
     part = min(max(1 - restitution * restitution, LEAST_LOSS) / LOSS, 1.0)
-    asked = settings.stiffness
-    stiffness = max(asked, min(asked / part**2, HARDEST)) * max(rate / LARGE, 1.0) ** 2
+    asked, larger = settings.stiffness, max(rate / LARGE, 1.0)
+    stiffness = max(asked, min(asked / (part * part), HARDEST)) * (larger * larger)
     if restitution < LEAST_SPRING:
         step = math.pi / math.sqrt(stiffness) / settings.steps
         return replace(settings, contact=Realisation.ONE_STEP, step=step)
-    steps = max(settings.steps, math.ceil(STEPS_OF_LOSS * part ** (-2 / 5)))
+    steps = next(n for n in itertools.count(settings.steps) if n**5 * (part * part) >= STEPS_OF_LOSS**5)
     return replace(settings, stiffness=stiffness, steps=steps)
 
 
@@ -189,6 +189,8 @@ def rebound_of(restitution: float, settings: MujocoSettings) -> Rebound:
     if settings.contact == Realisation.ONE_STEP:
         stiffness, damping = 0.0, (1 + restitution) / settings.step
         step, duration = settings.step, settings.step
+    elif not 0 < restitution <= 1:
+        raise ValueError(f"restitution = {restitution}: accepted: 0 < restitution <= 1")
     else:
         root = math.sqrt(settings.stiffness)
         stiffness, damping = settings.stiffness, 2 * damping_ratio_of(restitution) * root
@@ -209,44 +211,6 @@ def friction_of(floor: Floor) -> float:
     return floor.friction if uses_friction(floor.contact) else 0.0
 
 
-@compiled
-def restitution_of(zeta: float) -> float:
-    """Return the restitution of a damped spring that lets go when its force reaches zero.
-
-    The force k x + d ẋ vanishes before the spring is back at its length. With ζ = d/(2 √k):
-    χ = exp(-(2 ζ/s) atan2(s, ζ)), s = √(1 - ζ²), for ζ < 1; exp(-2) for ζ = 1; and
-    exp(-(2 ζ/q) artanh(q/ζ)), q = √(ζ² - 1), for ζ > 1.
-
-    Args:
-        zeta: damping ratio ζ >= 0.
-    """
-    if zeta < 1:
-        s = math.sqrt(1 - zeta * zeta)
-        return math.exp(-2 * zeta / s * math.atan2(s, zeta))
-    if zeta == 1:
-        return math.exp(-2)
-    q = math.sqrt(zeta * zeta - 1)
-    return math.exp(-2 * zeta / q * math.atanh(q / zeta))
-
-
 def contact_duration(zeta: float) -> float:
     """Return how long that contact lasts, in units of 1/√k: χ = exp(-ζ √k t)."""
     return -math.log(restitution_of(zeta)) / zeta if zeta else math.pi
-
-
-def damping_ratio_of(restitution: float) -> float:
-    """Return the damping ratio ζ of a contact that rebounds with `restitution`.
-
-    Args:
-        restitution: χ, 0 < χ <= 1.
-
-    Raises:
-        ValueError: for χ = 0, out of reach of any damped spring.
-    """
-    if not 0 < restitution <= 1:
-        raise ValueError(f"restitution = {restitution}: accepted: 0 < restitution <= 1")
-    if restitution == 1:
-        return 0.0
-    # χ falls like 1/(4 ζ²) for large ζ, so the root lies below 1/√χ.
-    widest = 1 + 1 / math.sqrt(restitution)
-    return cast("float", brentq(lambda zeta: restitution_of(zeta) - restitution, 0.0, widest, xtol=1e-15))

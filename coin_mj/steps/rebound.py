@@ -1,12 +1,14 @@
 """The rebound of a touch whose restitution depends on its speed of approach."""
 
+import math
+
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
-from cointoss.coin_mj.model.settings import LEAST_SPRING, Rebound, restitution_of
+from cointoss.coin_mj.model.settings import LEAST_SPRING, Rebound
 from cointoss.models.body import Rules
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.restitution import elastic_restitution, varies
+from cointoss.models.spring import damping_ratio_of
 
-_BISECTIONS = 55
 _PLACE = MujocoCoin._fields.index("rebound")
 _AFTER = _PLACE + 1
 
@@ -29,19 +31,6 @@ def rebound_with(rebound: Rebound, has_one_step: bool, chi: float) -> Rebound:
     """Return a rebound of the same length with another restitution χ > 0: only its damping changes."""
     damping = (1 + chi) / rebound.step
     if not has_one_step:
-        damping = 2 * damping_ratio_at(chi) * rebound.stiffness**0.5
+        damping = 2 * damping_ratio_of(chi) * math.sqrt(rebound.stiffness)
     slip_damping = damping if rebound.slip_damping == rebound.damping else rebound.slip_damping
     return Rebound(rebound.stiffness, damping, slip_damping, rebound.step, rebound.duration)
-
-
-@compiled
-def damping_ratio_at(chi: float) -> float:
-    """Return the ratio of `damping_ratio_of` for 0 < χ <= 1, by bisection, which compiled code can do."""
-    low, high = 0.0, 1 + 1 / chi**0.5
-    for _ in range(_BISECTIONS):
-        middle = (low + high) / 2
-        if restitution_of(middle) > chi:
-            low = middle
-        else:
-            high = middle
-    return (low + high) / 2

@@ -15,12 +15,11 @@ from cointoss.coin_mj.model.settings import (
     MANY,
     MujocoSettings,
     Realisation,
-    damping_ratio_of,
     rebound_of,
     resolved,
-    restitution_of,
 )
 from cointoss.coin_mj.steps.impact import time_to_release
+from cointoss.models.spring import damping_ratio_of, restitution_of
 
 
 @pytest.mark.parametrize("zeta", [0.0, 0.05, 0.3, 0.99, 1.0, 1.01, 2.0, 5.0])
@@ -63,7 +62,7 @@ def test_damping_ratio_inverts_the_restitution(restitution):
 @pytest.mark.parametrize("restitution", [0.0, -0.1, 1.1, float("nan")])
 def test_a_restitution_out_of_reach_is_refused(restitution):
     with pytest.raises(ValueError, match="accepted: 0 < restitution <= 1"):
-        damping_ratio_of(restitution)
+        rebound_of(restitution, MANY)
 
 
 def test_the_spring_has_the_stiffness_asked_for():

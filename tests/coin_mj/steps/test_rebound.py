@@ -6,14 +6,9 @@ import pytest
 
 from cointoss.coin_mj import FINE, Realisation
 from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.settings import damping_ratio_of, rebound_of
-from cointoss.coin_mj.steps.rebound import coin_touching, damping_ratio_at, rebound_with
+from cointoss.coin_mj.model.settings import rebound_of
+from cointoss.coin_mj.steps.rebound import coin_touching, rebound_with
 from tests.helpers.draws import scenario
-
-
-@pytest.mark.parametrize("chi", [1e-3, 0.1, 0.1353352832366127, 0.5, 0.9, 0.999, 1.0])
-def test_the_damping_ratio_of_compiled_code_is_that_of_the_settings(chi):
-    assert damping_ratio_at(chi) == pytest.approx(damping_ratio_of(chi), rel=1e-9, abs=1e-14)
 
 
 @pytest.mark.parametrize("contact", Realisation)
