@@ -10,9 +10,9 @@ from typing import Any, Literal
 
 import numpy as np
 
-from cointoss.models.attitude import quaternion_from_angles
 from cointoss.models.batch import STATE
 from cointoss.models.body import Body
+from cointoss.models.entries import spun_states, tossed_states
 from cointoss.models.errors import FieldError, ScenarioError
 from cointoss.models.reading import ScenarioSource, scenario_of, tables_of
 from cointoss.models.records import Array
@@ -39,6 +39,8 @@ PEOPLE = math.radians(10.0)
 
 From the counts of F. Bartoš et al., J. Am. Stat. Assoc. 120 (2025) 2118, by `cointoss reproduce same-side`.
 """
+_TAIL = 3.654
+"""Up to it NumPy draws a normal number by products alone."""
 OF_A_TOSS = ("height", "speed", "caught")
 """The fields that a coin spun on its edge does not use."""
 
@@ -162,51 +164,17 @@ class Hand:
             rng: draws them.
             count: how many.
         """
+        means = (self.spin,) if self.spun else (self.height, self.speed, self.spin)
+        scattered = [mean * np.maximum(1 + self.scatter * _normals(rng, count), 0) for mean in means]
+        psi, around = self.psi + self.psi_scatter * _normals(rng, count), rng.uniform(0, 2 * np.pi, count)
+        turned = 1.0 * (rng.random(count) < 1 / 2) if self.up == "either" else np.zeros(count)
+        draws = np.stack([*scattered, psi, around, turned], axis=1, dtype=float)
+        states = np.empty((count, len(STATE)))
         if self.spun:
-            return self._spun(body, rng, count)
-        height, speed, spin = (
-            self._scattered(mean, rng, count) for mean in (self.height, self.speed, self.spin)
-        )
-        psi, aside = rng.normal(self.psi, self.psi_scatter, count), rng.uniform(0, 2 * np.pi, count)
-        inertia = np.array(body.inertia)
-        direction = np.column_stack([np.sin(psi) * np.cos(aside), np.sin(psi) * np.sin(aside), np.cos(psi)])
-        momentum = (inertia[0, 0] * spin)[:, None] * direction
-        turned = self._turned(rng, count)
-        # The other side comes up by a half turn about ξ; the angular velocity in space stays.
-        return np.hstack(
-            [
-                _along_z(height),
-                _along_z(speed),
-                np.where(turned, (0.0, 1.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)),
-                np.where(turned, (1, -1, -1), 1) * np.linalg.solve(inertia, momentum.T).T,
-            ]
-        )
-
-    def _spun(self, body: Body, rng: np.random.Generator, count: int) -> Array:
-        """Draw states of a coin whose rim touches the floor, C at rest, turning about the vertical."""
-        spin = self._scattered(self.spin, rng, count)
-        psi, phi = rng.normal(self.psi, self.psi_scatter, count), rng.uniform(0, 2 * np.pi, count)
-        psi = np.where(self._turned(rng, count)[:, 0], np.pi - psi, psi)
-        # The vertical in the body's frame, for angles 0, ψ, φ.
-        vertical = np.column_stack([np.sin(psi) * np.sin(phi), np.sin(psi) * np.cos(phi), np.cos(psi)])
-        lowest = body.radius * np.hypot(vertical[:, 0], vertical[:, 1])
-        lowest += body.thickness / 2 * np.abs(vertical[:, 2])
-        quaternions = [quaternion_from_angles((0.0, *row)) for row in zip(psi, phi, strict=True)]
-        return np.hstack(
-            [
-                _along_z(lowest + vertical @ np.array(body.center)),
-                np.zeros((count, 3)),
-                np.array(quaternions).reshape(count, 4),
-                spin[:, None] * vertical,
-            ]
-        )
-
-    def _scattered(self, mean: float, rng: np.random.Generator, count: int) -> Array:
-        return mean * np.maximum(rng.normal(1.0, self.scatter, count), 0.0)
-
-    def _turned(self, rng: np.random.Generator, count: int) -> Any:
-        """Draw which coins are released with the other side up, (count, 1)."""
-        return (rng.random(count) < 1 / 2 if self.up == "either" else np.zeros(count, dtype=bool))[:, None]
+            spun_states(body.center, body.radius, body.thickness, draws, states)
+        else:
+            tossed_states(body.inertia, body.inertia_inverse, draws, states)
+        return states
 
     def scenario(self, described: Scenario) -> Scenario:
         """Return the scenario with this hand's catch, if the hand catches coins.
@@ -276,5 +244,13 @@ def same_side_probability(psi: Array | float) -> Array:
     return 0.5 + np.arcsin(np.minimum(off, 1.0) ** 2) / np.pi
 
 
-def _along_z(values: Array) -> Array:
-    return values[:, None] * np.array([0.0, 0.0, 1.0])
+def _normals(rng: np.random.Generator, count: int) -> Array:
+    """Draw from the standard normal distribution, alike with every C library.
+
+    NumPy takes a logarithm of the C library for the numbers beyond `_TAIL`, one in 3900. These are rounded to
+    single precision, to which C libraries agree.
+    """
+    drawn = rng.standard_normal(count)
+    far = np.abs(drawn) > _TAIL
+    drawn[far] = drawn[far].astype(np.float32)
+    return drawn
