@@ -25,10 +25,3 @@ def test_force_and_moment_are_the_papers_integrals(thickness, seed):
     integrated = air_on_cylinder(r, thickness, ln, lt, v, w)
     # One-sided pressure puts a kink into the integrand: the rectangle rule with 4096 points errs by ~1e-7.
     assert np.abs(closed - integrated).max() < 1e-6 * np.abs(closed).max()
-
-
-def test_pressure_alone_on_a_disc_is_that_of_one_whole_disc():
-    drag = linear_drag(2.0, 0.0, 3.0, 0.0)
-    assert drag.force_normal == pytest.approx(np.pi * 4 * 3, rel=1e-15)
-    assert drag.moment_tangential == pytest.approx(np.pi / 4 * 16 * 3, rel=1e-15)
-    assert drag.force_tangential == drag.moment_normal == 0

@@ -41,15 +41,12 @@ def test_the_inverse_is_one_and_of_a_diagonal_matrix_its_reciprocals():
 
 
 def test_cylinder_is_the_integral_of_its_mass():
+    """Means of x² and z² by Gauss's rule, which integrates these polynomials exactly."""
     mass, radius, thickness = 3.0, 0.7, 0.4
     nodes, weights = np.polynomial.legendre.leggauss(8)
-    angle = 2 * np.pi * np.arange(16) / 16
-    rho, theta, z = np.meshgrid(radius * (nodes + 1) / 2, angle, thickness * nodes / 2, indexing="ij")
-    part = (weights / 2)[:, None, None] * (weights / 2)[None, None, :] * rho / (radius / 2) / 16
-    x = np.stack([rho * np.cos(theta), rho * np.sin(theta), z], axis=-1)
-    assert part.sum() == pytest.approx(1, rel=1e-14)
-    square = np.einsum("...i,...i->...", x, x)
-    J = mass * (np.eye(3) * (square * part).sum() - np.einsum("abc,abci,abcj->ij", part, x, x))
+    rho, z = radius * (nodes + 1) / 2, thickness * nodes / 2
+    x_squared, z_squared = weights @ rho**3 / (weights @ rho) / 2, weights @ z**2 / weights.sum()
+    J = mass * np.diag([x_squared + z_squared, x_squared + z_squared, 2 * x_squared])
     assert np.allclose(cylinder_inertia(mass, radius, thickness), J, rtol=0, atol=1e-14)
 
 
@@ -58,12 +55,6 @@ def test_offset_obeys_the_parallel_axis_theorem():
     J_C = np.array(inertia_about_mass_center(J_B, mass, tuple(c)))
     skew = np.array([[0, -c[2], c[1]], [c[2], 0, -c[0]], [-c[1], c[0], 0]])
     assert np.allclose(J_C + mass * skew.T @ skew, J_B, rtol=0, atol=1e-15)
-
-
-def test_thin_coin_keeps_only_the_product_in_its_plane():
-    J_C = inertia_about_mass_center(cylinder_inertia(2.0, 1.0, 0.0), 2.0, (0.2, -0.1, 0.0))
-    assert J_C[0][1] == pytest.approx(2.0 * 0.2 * -0.1, rel=1e-15)
-    assert J_C[0][2] == J_C[1][2] == 0
 
 
 @pytest.mark.parametrize(("part", "positive"), [(0.499, True), (0.501, False)])

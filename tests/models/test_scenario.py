@@ -24,23 +24,19 @@ GOOD = Path(__file__).with_name("good.toml").read_text(encoding="utf-8")
 
 def test_numbers_are_si_and_strings_carry_units():
     read = parse(GOOD, "good.toml")
-    assert read.coin.mass == pytest.approx(2e-3, rel=1e-15)
-    assert read.coin.radius == pytest.approx(1.25e-2, rel=1e-15)
-    assert read.release.position == (0, 1e-3, 0.4)
-    assert read.release.angles == (0, pytest.approx(math.radians(7), rel=1e-15), 0)
-    assert read.release.angular_velocity == (1, 40.15, 0)
-    assert read.floor.contact is ContactLaw.SMOOTH
-    assert read.ending.test is EndingTest.RIGOROUS
+    numbers = [read.coin.mass, read.coin.radius, *read.release.position, *(read.release.angles or ())]
+    assert [*numbers, *read.release.angular_velocity] == pytest.approx(
+        [2e-3, 1.25e-2, 0, 1e-3, 0.4, 0, math.radians(7), 0, 1, 40.15, 0], rel=1e-15
+    )
+    assert (read.floor.contact, read.ending.test) == (ContactLaw.SMOOTH, EndingTest.RIGOROUS)
 
 
 def test_what_is_left_out_has_its_documented_default():
     read = parse(GOOD.replace("[air]\nnormal = 0.8", ""), "good.toml")
     assert (read.air.normal, read.air.tangential, read.air.exponent) == (0, 0, 0)
-    assert (read.floor.friction, read.floor.rolling_friction, read.floor.pivoting_friction) == (0, 0, 0)
-    assert read.floor.restitution_threshold == 0
-    assert read.release.velocity == (0, 0, 0)
-    assert read.coin.center_of_mass == (0, 0, 0)
-    assert read.ending.max_time == 1_000_000
+    assert (read.floor.friction, read.floor.rolling_friction, read.floor.restitution_threshold) == (0, 0, 0)
+    assert read.release.velocity == read.coin.center_of_mass == (0, 0, 0)
+    assert (read.floor.pivoting_friction, read.ending.max_time) == (0, 1_000_000)
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,6 @@ from cointoss.compare.sweep.batch import batch_of
 from cointoss.compare.sweep.grid import TILE_TOSSES
 from cointoss.models.records import UnsupportedError
 from cointoss.models.unused import UnusedFieldWarning
-from tests.helpers.draws import PAPER_OFFSET, ZLOTY, scenario
 from tests.helpers.own_laws import smooth
 
 CASE = load("fig24a").replace("ending.max_impacts", 8)
@@ -38,25 +37,6 @@ def test_each_toss_is_that_of_toss(engine):
         assert (here.impacts, here.end_time) == (len(toss.impacts), toss.end_time)
         face = {1: "heads", 2: "tails"}[toss.impacts.face[-1]] if len(toss.impacts) else "none"
         assert here.last_face == face
-
-
-@pytest.mark.slow
-def test_rows_may_differ_in_everything():
-    vary = {
-        "coin.mass": [2e-3, 5e-3, 7e-3, 2e-3],
-        "coin.radius": [0.0125, 0.01, 0.02, 0.0125],
-        "coin.thickness": [0.0, 1e-3, 2e-3, 3e-3],
-        "air.exponent": [0.0, 0.5, 0.0, 1.0],
-        "air.normal": [0.1, 0.1, 0.0, 0.2],
-        "floor.contact": ["smooth", "coulomb", "knurled", "perfectly_rough"],
-        "floor.friction": [0.0, 0.3, 0.0, 0.0],
-        "gravity": [9.0, 9.5, 10.0, 1.6],
-    }
-    ds = toss_many(CASE, {**vary, "max_impacts": 3}, errors="keep")
-    for here, toss in singles(ds.drop_vars([])):
-        assert (here.outcome, here.impacts, here.end_time) == (
-            str(toss.outcome), len(toss.impacts), toss.end_time,
-        )  # fmt: skip
 
 
 def test_a_dataset_can_be_written_by_xarray_itself(tmp_path):
@@ -175,14 +155,6 @@ def test_a_store_has_what_memory_has_and_goes_on(vary, tmp_path, monkeypatch):
         assert np.array_equal(words[name].values, whole[name].values), name
     assert made.cointoss.counts == whole.cointoss.counts
     assert toss_many(CASE, {"height": [0.2]}, out=path, overwrite=True).sizes == {"toss": 1}
-
-
-def test_mirrored_coins_end_alike():
-    """Turned about the vertical, a thick coin off its centre ends as before."""
-    case = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}, release={"angles": [0.0, 0.4, 0.2]})
-    ds = toss_many(case, {"release.angles.psi": [0.0, 1.0, 2.0], "max_impacts": 5})
-    assert len(set(ds.last_face.values.tolist())) == 1
-    assert np.ptp(ds.end_time.values) < 1e-9
 
 
 @pytest.mark.parametrize("trust", [None, "impacts", "certain"])
