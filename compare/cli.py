@@ -4,32 +4,39 @@ import difflib
 import os
 import sys
 from functools import cached_property
+from importlib import import_module
 from io import TextIOWrapper
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
-from cointoss.compare.commands.basin import basin
-from cointoss.compare.commands.bounce import bounce
 from cointoss.compare.commands.common import ARGUMENTS, refuse
-from cointoss.compare.commands.compare import compare
-from cointoss.compare.commands.conform import conform
-from cointoss.compare.commands.explore import explore
-from cointoss.compare.commands.find import find
-from cointoss.compare.commands.fit import fit
-from cointoss.compare.commands.hands import hands
-from cointoss.compare.commands.lab import lab
-from cointoss.compare.commands.scenarios import scenarios
-from cointoss.compare.commands.shares import shares
-from cointoss.compare.commands.solref import solref
-from cointoss.compare.commands.toss import toss
-from cointoss.compare.commands.video import video
 from cointoss.compare.output.interruption import run_to_exit
 from cointoss.models.distribution import DISTRIBUTION
 from cointoss.models.errors import meant
 
-# The commands' modules import little: `cointoss --help` answers at once, a command brings what it needs.
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
+COMMANDS = {
+    "basin": "Map the outcome over two fields of a scenario.",
+    "bounce": "Print how two geoms of your own MuJoCo model bounce off each other.",
+    "compare": "Toss one coin by several engines and write a report.",
+    "conform": "Test an engine on cases with known answers, and print a card of its errors.",
+    "explore": "Show a map in the browser: click a pixel, see both engines toss it.",
+    "find": "Find a toss that shows a sequence of faces, or ends on its edge.",
+    "fit": "Find the values of a scenario's fields that explain what was seen of a coin, or that none do.",
+    "hands": "Toss a scenario's coin many times as a hand does, and count how often its first side "
+    "is up again.",
+    "lab": "Toss coins in the browser: a map that follows sliders, and each of its tosses.",
+    "scenarios": "List the scenarios that come with the package, or print the file of one.",
+    "shares": "Count how often a coin tossed by hand shows heads, tails or its edge, along a field.",
+    "solref": "Print settings of MuJoCo or another simulator for a restitution, or the restitution "
+    "of given settings.",
+    "toss": "Toss one coin and print its impacts.",
+    "video": "Film one toss, drawn by MuJoCo, until the coin lies still.",
+}
+"""The commands, each in a module of its name, which is imported when it is called; and what each does."""
 NO_MEMORY = "out of memory, or of threads; accepted: more of them for this process, see ulimit -a"
 
 
@@ -56,7 +63,7 @@ class _Commands(click.Group):
             refuse(f"{error.format_message().rstrip('.')} (see {command} --help)")
         except click.Abort:  # KeyboardInterrupt
             refuse("interrupted", status=130)
-        except (ImportError, MemoryError, OSError, RuntimeError) as error:
+        except (ImportError, MemoryError, OSError, RuntimeError, SystemError) as error:
             if _lacks_memory(error):
                 refuse(NO_MEMORY, status=1)
             if isinstance(error, OSError) and error.errno is not None:
@@ -73,41 +80,33 @@ class _Commands(click.Group):
         sys.exit(status)
 
     @cached_property
-    def offered(self) -> dict[str, click.Command]:
-        """The commands of other packages, by the entry points that offer them."""
+    def offered(self) -> "dict[str, EntryPoint]":
+        """The entry points by which other packages offer commands."""
         from importlib.metadata import entry_points  # takes a tenth of a start
 
-        return {point.name: point.load() for point in entry_points(group="cointoss.commands")}
+        return {point.name: point for point in entry_points(group="cointoss.commands")}
 
-    def list_commands(self, ctx: click.Context) -> list[str]:
-        return sorted([*super().list_commands(ctx), *self.offered])
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002
+        return sorted({*COMMANDS, *self.offered})
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        known = super().get_command(ctx, cmd_name) or self.offered.get(cmd_name)
-        if known is None and not ctx.resilient_parsing:  # as where a shell completes
+        if cmd_name in COMMANDS:
+            return getattr(import_module(f"cointoss.compare.commands.{cmd_name}"), cmd_name)
+        if cmd_name in self.offered:
+            return self.offered[cmd_name].load()
+        if not ctx.resilient_parsing:  # as where a shell completes
             names = self.list_commands(ctx)
             ctx.fail(f"{cmd_name}: no such command; {meant(cmd_name, names)}accepted: {', '.join(names)}")
-        return known
+        return None
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        offered = {name: point.dist.metadata["Summary"] for name, point in self.offered.items() if point.dist}
+        listed = [click.Command(name, help=text) for name, text in (offered | COMMANDS).items()]
+        click.Group(commands=listed).format_commands(ctx, formatter)
 
 
 @click.group(
     cls=_Commands,
-    commands=[
-        basin,
-        bounce,
-        compare,
-        conform,
-        explore,
-        find,
-        fit,
-        hands,
-        lab,
-        scenarios,
-        shares,
-        solref,
-        toss,
-        video,
-    ],
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     invoke_without_command=True,
 )
@@ -135,7 +134,8 @@ def _no_such_option(error: click.NoSuchOption, group: click.Group) -> str:
     """Return which option a command does not have, and a near one of its own, or which commands have it."""
     asked, command = error.option_name, error.ctx.command if error.ctx else group
     near = difflib.get_close_matches(asked, _options(command), n=1, cutoff=0.75)
-    others = [f"cointoss {name}" for name, each in group.commands.items() if asked in _options(each)]
+    every = {name: group.get_command(click.Context(group), name) for name in COMMANDS}
+    others = [f"cointoss {name}" for name, each in every.items() if each and asked in _options(each)]
     hint = f"; did you mean {near[0]}?" if near else f"; {' and '.join(others)} take it" if others else ""
     return (
         f"No such option '{asked}'{hint} (see {error.ctx.command_path if error.ctx else 'cointoss'} --help)"
@@ -148,7 +148,13 @@ def _options(command: click.Command) -> list[str]:
 
 def _lacks_memory(error: BaseException) -> bool:
     """Return whether an error, or one that it arose from, is that the system refused memory or a thread."""
-    said = ("can't start new thread", "failed to map segment", "Cannot allocate memory")
+    said = (
+        "can't start new thread",
+        "failed to map segment",
+        "Cannot allocate memory",
+        "without exception set",  # Python had no memory for the exception
+        "without setting an exception",
+    )
     behind: BaseException | None = error
     while behind is not None:
         if isinstance(behind, MemoryError) or any(words in str(behind) for words in said):

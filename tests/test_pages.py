@@ -14,7 +14,7 @@ import click
 import pytest
 
 import cointoss as package
-from cointoss.compare.cli import main
+from cointoss.compare.cli import COMMANDS, main
 from cointoss.models.reading import parse
 from tests.helpers.command_line import cointoss
 from tests.helpers.pages import (
@@ -231,7 +231,7 @@ def test_an_answer_that_is_not_the_one_shown_is_seen():
         assert_shown(block.format(f"{line}T"), "cointoss toss fig24a --max-impacts 2", answered.stdout)
 
 
-@pytest.mark.parametrize("name", sorted(main.commands))
+@pytest.mark.parametrize("name", sorted(COMMANDS))
 def test_every_command_has_a_help_that_names_all_its_options(name):
     answered = cointoss(name, "--help")
     assert answered.exit_code == 0

@@ -5,10 +5,11 @@ import os
 import subprocess
 import sys
 
+import click
 import pytest
 from click.testing import CliRunner
 
-from cointoss.compare.cli import NO_MEMORY, main
+from cointoss.compare.cli import COMMANDS, NO_MEMORY, main
 from cointoss.models.sources import scenario_text
 from tests.helpers.command_line import HERE, cointoss, in_a_shell, python
 
@@ -57,6 +58,13 @@ def test_without_a_command_it_prints_its_help():
     bare, helped = cointoss(), cointoss("--help")
     assert (bare.exit_code, bare.stdout, bare.stderr) == (0, helped.stdout, "")
     assert "Commands:" in bare.stdout
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_the_list_of_commands_says_what_the_help_of_each_begins_with(name):
+    command = main.get_command(click.Context(main), name)
+    assert command is not None
+    assert (command.name, command.get_short_help_str(limit=1000)) == (name, COMMANDS[name])
 
 
 def completed(line, number):
@@ -163,6 +171,16 @@ def test_a_command_imports_no_more_than_it_needs(words, needed, tmp_path):
     assert not {"scipy.integrate", "scipy.optimize", "scipy.special", "scipy.stats"} & imported
 
 
+@pytest.mark.parametrize(("given", "used"), [({}, "1"), ({"OPENBLAS_NUM_THREADS": "3"}, "3")])
+def test_matrices_get_one_thread_unless_more_are_asked_for(given, used):
+    script = (
+        f"import os; os.environ.pop('OPENBLAS_NUM_THREADS', None); os.environ.update({given})\n"
+        "from cointoss.__main__ import main\n"
+        "try: main()\nfinally: print(os.environ['OPENBLAS_NUM_THREADS'])"
+    )
+    assert python("-c", script, "--version").stdout.splitlines()[1:] == [used]
+
+
 @pytest.mark.slow_after_first
 @pytest.mark.parametrize(
     ("line", "needed"),
@@ -208,6 +226,8 @@ def test_too_little_memory_is_one_line(tmp_path, kilobytes):
     [
         MemoryError(),
         RuntimeError("can't start new thread"),
+        SystemError("error return without exception set"),
+        SystemError("<function load> returned NULL without setting an exception"),
         OSError(errno.ENOMEM, os.strerror(errno.ENOMEM)),
         ImportError("a.so: failed to map segment from shared object", name="a"),
     ],
