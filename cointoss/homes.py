@@ -3,18 +3,11 @@
 import ast
 from importlib import import_module
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 
-class Home(NamedTuple):
-    """Where a name comes from."""
-
-    module: str
-    name: str
-
-
-def homes_of(file: str) -> dict[str, Home]:
-    """Return the home of each name that a module imports under `if TYPE_CHECKING`.
+def homes_of(file: str) -> dict[str, tuple[str, str]]:
+    """Return the home of each name that a module imports under `if TYPE_CHECKING`, and its name there.
 
     Args:
         file: the module's source.
@@ -23,13 +16,11 @@ def homes_of(file: str) -> dict[str, Home]:
     blocks = (node for node in tree.body if isinstance(node, ast.If))
     imports = (node for block in blocks for node in block.body if isinstance(node, ast.ImportFrom))
     return {
-        each.asname or each.name: Home(node.module or "", each.name)
-        for node in imports
-        for each in node.names
+        each.asname or each.name: (node.module or "", each.name) for node in imports for each in node.names
     }
 
 
-def brought(homes: dict[str, Home], name: str, module: str) -> Any:
+def brought(homes: dict[str, tuple[str, str]], name: str, module: str) -> Any:
     """Return what a name of a module stands for.
 
     Raises:
@@ -37,5 +28,5 @@ def brought(homes: dict[str, Home], name: str, module: str) -> Any:
     """
     if name not in homes:
         raise AttributeError(f"{module} has no {name}; accepted: {', '.join(sorted(homes))}")
-    home = homes[name]
-    return getattr(import_module(home.module), home.name)
+    home, name_there = homes[name]
+    return getattr(import_module(home), name_there)

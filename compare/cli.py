@@ -6,17 +6,14 @@ import sys
 from functools import cached_property
 from importlib import import_module
 from io import TextIOWrapper
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn
 
 import click
 
 from cointoss.compare.commands.common import ARGUMENTS, refuse
-from cointoss.compare.output.interruption import run_to_exit
+from cointoss.compare.output.interruption import arisen_from, run_to_exit
 from cointoss.models.distribution import DISTRIBUTION
 from cointoss.models.errors import meant
-
-if TYPE_CHECKING:
-    from importlib.metadata import EntryPoint
 
 COMMANDS = {
     "basin": "Map the outcome over two fields of a scenario.",
@@ -38,6 +35,15 @@ COMMANDS = {
 }
 """The commands, each in a module of its name, which is imported when it is called; and what each does."""
 NO_MEMORY = "out of memory, or of threads; accepted: more of them for this process, see ulimit -a"
+"""What is said where memory ends."""
+_LACKING = (
+    "can't start new thread",
+    "failed to map segment",
+    "Cannot allocate memory",
+    "without exception set",  # Python had no memory for the exception
+    "without setting an exception",
+)
+"""What the errors say of a system that refused memory or a thread, beside `MemoryError`."""
 
 
 class _Commands(click.Group):
@@ -80,7 +86,7 @@ class _Commands(click.Group):
         sys.exit(status)
 
     @cached_property
-    def offered(self) -> "dict[str, EntryPoint]":
+    def offered(self) -> dict[str, Any]:
         """The entry points by which other packages offer commands."""
         from importlib.metadata import entry_points  # takes a tenth of a start
 
@@ -92,16 +98,15 @@ class _Commands(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name in COMMANDS:
             return getattr(import_module(f"cointoss.compare.commands.{cmd_name}"), cmd_name)
-        if cmd_name in self.offered:
-            return self.offered[cmd_name].load()
-        if not ctx.resilient_parsing:  # as where a shell completes
+        is_offered = cmd_name in self.offered
+        if not is_offered and not ctx.resilient_parsing:  # as where a shell completes
             names = self.list_commands(ctx)
             ctx.fail(f"{cmd_name}: no such command; {meant(cmd_name, names)}accepted: {', '.join(names)}")
-        return None
+        return self.offered[cmd_name].load() if is_offered else None
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        offered = {name: point.dist.metadata["Summary"] for name, point in self.offered.items() if point.dist}
-        listed = [click.Command(name, help=text) for name, text in (offered | COMMANDS).items()]
+        offered = {name: point.dist.metadata["Summary"] for name, point in self.offered.items()}
+        listed = {name: click.Command(name, help=text) for name, text in (offered | COMMANDS).items()}
         click.Group(commands=listed).format_commands(ctx, formatter)
 
 
@@ -148,19 +153,10 @@ def _options(command: click.Command) -> list[str]:
 
 def _lacks_memory(error: BaseException) -> bool:
     """Return whether an error, or one that it arose from, is that the system refused memory or a thread."""
-    said = (
-        "can't start new thread",
-        "failed to map segment",
-        "Cannot allocate memory",
-        "without exception set",  # Python had no memory for the exception
-        "without setting an exception",
+    return any(
+        isinstance(each, MemoryError) or any(words in str(each) for words in _LACKING)
+        for each in arisen_from(error)
     )
-    behind: BaseException | None = error
-    while behind is not None:
-        if isinstance(behind, MemoryError) or any(words in str(behind) for words in said):
-            return True
-        behind = behind.__context__
-    return False
 
 
 if __name__ == "__main__":

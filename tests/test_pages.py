@@ -233,6 +233,7 @@ def test_an_answer_that_is_not_the_one_shown_is_seen():
 
 @pytest.mark.parametrize("name", sorted(COMMANDS))
 def test_every_command_has_a_help_that_names_all_its_options(name):
+    assert subcommand(name).get_short_help_str(limit=1000) == COMMANDS[name]
     answered = cointoss(name, "--help")
     assert answered.exit_code == 0
     assert len(options(subcommand(name))) > 1

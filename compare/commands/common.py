@@ -205,9 +205,7 @@ def print_json(found: Mapping[str, Any], *engines: str) -> None:
     """
     from cointoss.compare.engines import Engine
 
-    versions: dict[str, str] = {}
-    for engine in engines:
-        versions |= Engine(engine).versions
+    versions = {name: text for engine in engines for name, text in Engine(engine).versions.items()}
     click.echo(json_text({**found, "versions": versions}))
 
 

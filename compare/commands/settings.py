@@ -1,6 +1,7 @@
 """The option `--set`: other values of fields of the scenario."""
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import wraps
 from typing import TYPE_CHECKING, Any
 
@@ -114,12 +115,10 @@ def _value(text: str) -> Any:
     """Return what a scenario file's line would say; a text that is no value of TOML is a number or a word."""
     import tomllib
 
-    try:
+    with suppress(tomllib.TOMLDecodeError, RecursionError):
         found = tomllib.loads(f"value = {text}")
-    except (tomllib.TOMLDecodeError, RecursionError):
-        found = {}
-    if found.keys() == {"value"}:
-        return found["value"]
+        if found.keys() == {"value"}:
+            return found["value"]
     try:
         return float(text)  # such as .5
     except ValueError:

@@ -69,8 +69,11 @@ def toss(source: Source, asked: Answer) -> None:
     coin = source.scenario
     if asked.max_impacts is not None:
         coin = coin.replace("ending.max_impacts", asked.max_impacts)
-    given = {name: getattr(asked, name) for name in ("contact", "contact_steps", "flight_steps")}
-    chosen = {name: value for name, value in given.items() if value is not None}
+    chosen = {
+        name: value
+        for name in ("contact", "contact_steps", "flight_steps")
+        if (value := getattr(asked, name)) is not None
+    }
     fine = replace(package.FINE, **chosen)
     result = package.toss(coin, settings=fine)
     if asked.trajectory is not None:
@@ -93,12 +96,14 @@ def toss(source: Source, asked: Answer) -> None:
             item.quantity.name: {"change": item.finite, "proved": item.proved, "unit": item.quantity.unit}
             for item in extra
         }
-        made = {
-            "scenario": coin.as_tables(),
-            "settings": fine.as_dict(),
-        }
         print_json(
-            {**answer.as_json(result), **made, **({"margin": told} if asked.margin else {})}, asked.engine
+            {
+                **answer.as_json(result),
+                "scenario": coin.as_tables(),
+                "settings": fine.as_dict(),
+                **({"margin": told} if asked.margin else {}),
+            },
+            asked.engine,
         )
     else:
         why = [f"proved    none, for {unproved}"] if unproved else []

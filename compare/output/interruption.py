@@ -58,16 +58,22 @@ def saying(say: Callable[[str], str]) -> Iterator[None]:
         raise
 
 
+def arisen_from(error: BaseException) -> Iterator[BaseException]:
+    """Yield an error, and those from which it arose."""
+    behind: BaseException | None = error
+    while behind is not None:
+        yield behind
+        behind = behind.__context__
+
+
 def raise_interruption_behind(error: BaseException) -> None:
     """Raise the interruption that an error arose from; return where there is none.
 
     Ctrl-C ends a child process too, and its complaint may come before the signal is heeded here.
     """
-    behind: BaseException | None = error
-    while behind is not None:
+    for behind in arisen_from(error):
         if isinstance(behind, KeyboardInterrupt | SystemExit):
             raise behind from None
-        behind = behind.__context__
     try:
         time.sleep(SOON)
     except (KeyboardInterrupt, SystemExit) as interruption:
