@@ -18,6 +18,7 @@ COMMANDS = {
     "import numpy": ("-c", "import numpy"),
     "import numba": ("-c", "import numba"),
     "cointoss --version": ("-m", "cointoss", "--version"),
+    "cointoss --help": ("-m", "cointoss", "--help"),
     "cointoss toss fig24a, kept": ("-m", "cointoss", "toss", "fig24a"),
 }
 
