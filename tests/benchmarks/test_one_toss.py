@@ -56,7 +56,13 @@ def by_heyoka() -> Answer:
 
 
 @pytest.mark.parametrize(
-    ("toss", "alike"), [(by_the_engine, 8), (by_its_event_loop, 8), (by_scipy, 6), (by_heyoka, 8)]
+    ("toss", "alike"),
+    [
+        (by_the_engine, 8),
+        (by_its_event_loop, 8),
+        (by_scipy, 6),
+        pytest.param(by_heyoka, 8, marks=pytest.mark.slow),
+    ],
 )
 def test_fig24a(benchmark, toss: Callable[[], Answer], alike: int):
     """Past the horizon nothing need agree but that the toss ends.
