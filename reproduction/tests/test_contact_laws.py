@@ -1,5 +1,7 @@
 """The study of the contact laws: its impacts, its closed forms, and claims that can fail."""
 
+from functools import cache
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -30,9 +32,13 @@ from cointoss_reproduction.studies.contact_laws.thresholds import (
 )
 from saved import missed, unseen
 
-CELLS = table_of([Cells(impacts, {"law": tuple(LAWS)})], unseen, {"count": 2000, "seed": 5})
 GAINS_FROM = {SHARP: (5**0.5 / 3, 0.7458, 0.0, 0.0), ROUGH: (5**0.5 / 3, 0.7458, 0.6907, 0.6908)}
 """As the search finds them, for each of `COINS`."""
+
+
+@cache
+def cells():
+    return table_of([Cells(impacts, {"law": tuple(LAWS)})], unseen, {"count": 2000, "seed": 5})
 
 
 def searched(gains_from=GAINS_FROM, unsolved_from=5**0.5 / 2, off=0.0):
@@ -51,7 +57,7 @@ def searched(gains_from=GAINS_FROM, unsolved_from=5**0.5 / 2, off=0.0):
         "friction": 1.0,
         "without": 0.0,
     }
-    return pd.concat([CELLS, pd.DataFrame([*rows, others])], ignore_index=True)
+    return pd.concat([cells(), pd.DataFrame([*rows, others])], ignore_index=True)
 
 
 def test_the_impacts_drawn_come_down_and_turn():
@@ -64,8 +70,8 @@ def test_the_impacts_drawn_come_down_and_turn():
 
 def test_what_the_impacts_of_all_coins_do_is_what_those_of_each_do():
     counts = ["impacts", "gains", "pulls", "leaves", "unsolved"]
-    of_coins = CELLS[CELLS.coin.isin(COINS)].groupby(["law", "chi"])[counts].sum()
-    of_all = CELLS[CELLS.coin == "all"].groupby(["law", "chi"])[counts].sum()
+    of_coins = cells()[cells().coin.isin(COINS)].groupby(["law", "chi"])[counts].sum()
+    of_all = cells()[cells().coin == "all"].groupby(["law", "chi"])[counts].sum()
     assert np.all(of_coins == of_all)
 
 

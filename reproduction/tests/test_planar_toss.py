@@ -92,6 +92,7 @@ def test_faces_are_proved_and_the_same(chi, air, law):
     assert all(a == b for a, b, is_so in zip(proved, found, decided, strict=True) if is_so)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("air", [False, True])
 def test_impacts_are_heyokas_to_the_last_digit_of_a_double(air):
     pytest.importorskip("heyoka", reason="heyoka has wheels for Linux on x86-64 only")

@@ -5,7 +5,6 @@ from math import log, pi
 
 import numpy as np
 import pytest
-import sympy
 
 from cointoss import analytic
 from cointoss_reproduction.setups.planar_maps import case
@@ -38,6 +37,8 @@ COINS = {
 @pytest.mark.parametrize("name", ["map", "loss"])
 def test_a_touch_of_a_slowly_hopping_rotor_in_symbols(name):
     """Newton's impact at the angle ν - s from upright, where the end falls at W s, to leading order."""
+    import sympy
+
     small, nu, s, chi, spin = sympy.symbols("small nu s chi W", positive=True)
     phi = small * (nu - s)
     # The end lies cos φ below the centre and sin φ beside it; the centre falls at ν W.

@@ -109,8 +109,9 @@ def test_without_code_for_cards_the_card_can_not_be_used(monkeypatch):
 
 
 @pytest.mark.long
-def test_a_card_has_the_engine_without_a_fused_product_and_on_a_stack_of_known_size(queue):
+def test_a_card_has_the_engine_without_a_fused_product_and_on_a_stack_of_known_size(queue, tmp_path):
     assert "fma.rn.f64" not in queue.ptx
-    frames = [int(size) for size in re.findall(r"(\d+) bytes stack frame", queue.said)]
+    said = queue.assembled(tmp_path)
+    frames = [int(size) for size in re.findall(r"(\d+) bytes stack frame", said)]
     assert 0 < sum(sorted(frames)[-6:]) <= STACK
-    assert re.search(r"Used 128 registers", queue.said)
+    assert re.search(r"Used 128 registers", said)

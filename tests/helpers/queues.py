@@ -24,16 +24,18 @@ class BuiltQueue:
 
     library: Path
     ptx: str
-    said: str
-    """By the assembler."""
+
+    def assembled(self, folder: Path) -> str:
+        """Return what the assembler says of it."""
+        from cointoss.models.kernel.build import device
+
+        return device.assembled(self.ptx, folder)[1]
 
 
 def queue_of(module: str, folder: Path) -> BuiltQueue:
     """Build the queue of a table's entry, in a process of its own."""
     subprocess.run([sys.executable, "-m", __name__, module, str(folder)], check=True, env=HERE)
-    return BuiltQueue(
-        folder / "queue.so", (folder / "queue.ptx").read_text(), (folder / "said.txt").read_text()
-    )
+    return BuiltQueue(folder / "queue.so", (folder / "queue.ptx").read_text())
 
 
 def work(
@@ -88,10 +90,7 @@ def main(module: str, out: str) -> None:
     object_file = machine.emit_object(device.queue_module(code, entry, target, machine, on_card=False))
     with tempfile.TemporaryDirectory() as aside:
         (folder / "queue.so").write_bytes(linked([object_file], system.zig, ["-shared"], Path(aside)))
-        ptx = device.ptx_of(code, entry)
-        (folder / "queue.ptx").write_text(ptx)
-        _, said = device.assembled(ptx, Path(aside))
-    (folder / "said.txt").write_text(said)
+    (folder / "queue.ptx").write_text(device.ptx_of(code, entry))
 
 
 if __name__ == "__main__":

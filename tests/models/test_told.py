@@ -54,11 +54,11 @@ def trusts(count):
         yield from ((trusted, end) for trusted in {0, count - 1} for end in TrustEnd if end)
 
 
-ALL = [
+ALL = (  # used once
     made(count, trusted, end, outcome=outcome, ending=ending, **known)
     for outcome, ending, known, count in product(Outcome, Ending, KNOWN, (0, 1, 16))
     for trusted, end in trusts(count)
-]
+)
 
 
 def test_every_ending_is_proved_or_leaves_something_open():

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import sympy
 
 from cointoss.analytic.contact.automaton import Mode, flow
 from cointoss.analytic.contact.resistance import FloorFriction
@@ -53,8 +52,11 @@ def test_a_coin_that_turns_about_the_vertical_is_driven_out_by_its_lean(side, tu
     assert tilting(mode, friction, side, 0.03, turn) == pytest.approx(moment / inertia, rel=0.02)
 
 
+@pytest.mark.slow
 def test_newton_and_euler_make_the_closed_form_of_the_rim_that_rolls():
     """In axes along the floor, up the face and along the normal, which turn with the lean and about z."""
+    import sympy
+
     m, r, a, g, J, J_zeta, tilt, t = sympy.symbols("m r a g J J_zeta tilt t", positive=True)
     phi, turn, spin = (sympy.Function(name)(t) for name in ("phi", "Omega", "omega"))
     up, arm = sympy.Matrix([0, sympy.cos(phi), -sympy.sin(phi)]), sympy.Matrix([0, -r, a])

@@ -4,9 +4,10 @@ Numbers: a random state of a coin, with the rates that `equations_of_motion` giv
 printed scalar equations against the vector form (22), for every state at once.
 """
 
+from functools import cache
+
 import numpy as np
 import pytest
-import sympy
 
 from cointoss.analytic.air.force import force_and_moment
 from cointoss.analytic.flight.equations_of_motion import derivative
@@ -201,21 +202,32 @@ def test_scalar_forms_of_the_thin_coin_eqs_37_39(seed):
         assert motion.misfit(corrected, axis) < EXACT
 
 
-SYMBOLS = {name: sympy.Symbol(name, real=True) for name in ["m", "r", "h", *E, *D, *DD]}
-MOMENTS = {f"J_{axis}": sympy.Symbol(f"J_{axis}") for axis in ("xi", "eta", "zeta")}
-MOMENTS |= {name: sympy.Symbol(name) for _, _, name in PRODUCTS}
 NO_PRODUCTS = {name: 0 for _, _, name in PRODUCTS}
-FLAT = {"J_xi_zeta": 0, "J_eta_zeta": 0}
 
 
-def ideal_moments():
-    m, r, h = (SYMBOLS[name] for name in "mrh")
+@cache
+def free():
+    """Return a symbol for each name of a coin, its moments and its Euler parameters."""
+    import sympy
+
+    reals = {name: sympy.Symbol(name, real=True) for name in ["m", "r", "h", *E, *D, *DD]}
+    return reals | {name: sympy.Symbol(name) for name in ("J_xi", "J_eta", "J_zeta", *NO_PRODUCTS)}
+
+
+def flat():
+    return free() | {"J_xi_zeta": 0, "J_eta_zeta": 0}
+
+
+def ideal():
+    m, r, h = (free()[name] for name in "mrh")
     across = m * r**2 / 4 + m * h**2 / 12
-    return {"J_xi": across, "J_eta": across, "J_zeta": m * r**2 / 2}
+    return free() | NO_PRODUCTS | {"J_xi": across, "J_eta": across, "J_zeta": m * r**2 / 2}
 
 
 def vector_form(symbols, w, dw):
     """Give the left side of eq. (22)."""
+    import sympy
+
     J = sympy.diag(symbols["J_xi"], symbols["J_eta"], symbols["J_zeta"])
     for i, j, name in PRODUCTS:
         J[i, j] = J[j, i] = -symbols[name]
@@ -224,43 +236,52 @@ def vector_form(symbols, w, dw):
 
 
 def vanishes(expression):
+    import sympy
+
     return sympy.expand(sympy.nsimplify(expression, rational=True)) == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
-    ("left", "axis", "moments", "holds"),
+    ("left", "axis", "coin", "holds"),
     [
-        (PRINTED[30], 0, {}, True),
-        (PRINTED[31], 1, {}, True),
-        (PRINTED[32], 2, {}, True),
-        (PRINTED[34], 0, NO_PRODUCTS | ideal_moments(), True),
-        (PRINTED[35], 1, NO_PRODUCTS | ideal_moments(), True),
-        (PRINTED[36], 2, NO_PRODUCTS | ideal_moments(), False),
-        (CORRECTED[36], 2, NO_PRODUCTS | ideal_moments(), True),
-        (PRINTED[37], 0, FLAT, False),
-        (CORRECTED[37], 0, FLAT, True),
-        (PRINTED[38], 1, FLAT, False),
-        (CORRECTED[38], 1, FLAT, True),
-        (PRINTED[39], 2, FLAT, False),
-        (CORRECTED[39], 2, FLAT, True),
+        (PRINTED[30], 0, free, True),
+        (PRINTED[31], 1, free, True),
+        (PRINTED[32], 2, free, True),
+        (PRINTED[34], 0, ideal, True),
+        (PRINTED[35], 1, ideal, True),
+        (PRINTED[36], 2, ideal, False),
+        (CORRECTED[36], 2, ideal, True),
+        (PRINTED[37], 0, flat, False),
+        (CORRECTED[37], 0, flat, True),
+        (PRINTED[38], 1, flat, False),
+        (CORRECTED[38], 1, flat, True),
+        (PRINTED[39], 2, flat, False),
+        (CORRECTED[39], 2, flat, True),
     ],
     ids=lambda value: getattr(value, "name", ""),
 )
-def test_in_symbols_the_forms_in_euler_parameters_are_eq_22(left, axis, moments, holds):
-    symbols = SYMBOLS | MOMENTS | moments
+def test_in_symbols_the_forms_in_euler_parameters_are_eq_22(left, axis, coin, holds):
+    symbols = coin()
     right = vector_form(symbols, PRINTED[17](**symbols), PRINTED[18](**symbols))[axis]
     assert vanishes(left(**symbols) - right) == holds
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [26, 27, 28])
 def test_in_symbols_the_forms_in_angular_velocity_are_eq_22(number):
+    import sympy
+
     names = [f"{kind}_{axis}" for kind in ("w", "dw") for axis in ("xi", "eta", "zeta")]
     rates = {name: sympy.Symbol(name) for name in names}
-    right = vector_form(MOMENTS, [rates[name] for name in names[:3]], [rates[name] for name in names[3:]])
-    assert vanishes(PRINTED[number](**MOMENTS, **rates) - right[number - 26])
+    right = vector_form(free(), [rates[name] for name in names[:3]], [rates[name] for name in names[3:]])
+    assert vanishes(PRINTED[number](**free(), **rates) - right[number - 26])
 
 
+@pytest.mark.slow
 def test_in_symbols_eq_18_is_the_derivative_of_eq_17():
+    import sympy
+
     t = sympy.Symbol("t")
     e = [sympy.Function(name)(t) for name in E]
     d, dd = [x.diff(t) for x in e], [x.diff(t, 2) for x in e]
@@ -271,18 +292,23 @@ def test_in_symbols_eq_18_is_the_derivative_of_eq_17():
 
 def planar(J_xi_zeta):
     """Give the symbols of a plane motion by eq. (44), with the moments that eq. (22) then asks for."""
+    import sympy
+
     t = sympy.Symbol("t")
     theta = sympy.Function("theta")(t)
     e = [sympy.cos(theta / 2), sympy.sin(theta / 2), sympy.Integer(0), sympy.Integer(0)]
     values = [*e, *[x.diff(t) for x in e], *[x.diff(t, 2) for x in e]]
-    symbols = MOMENTS | {"J_xi_zeta": J_xi_zeta, "J_eta_zeta": 0}
+    symbols = free() | {"J_xi_zeta": J_xi_zeta, "J_eta_zeta": 0}
     symbols |= dict(zip([*E, *D, *DD], values, strict=True))
     theta_rate, theta_acceleration = theta.diff(t), theta.diff(t, 2)
     M = vector_form(symbols, [theta_rate, 0, 0], [theta_acceleration, 0, 0])
     return symbols, M, theta_rate, theta_acceleration
 
 
+@pytest.mark.slow
 def test_in_symbols_plane_motion_eqs_41_47():
+    import sympy
+
     symbols, M, theta_rate, theta_acceleration = planar(0)
     e0, e1, d0, d1, dd0, dd1 = (symbols[name] for name in ("e0", "e1", "d0", "d1", "dd0", "dd1"))
     # Eqs (45)-(46).
@@ -299,8 +325,11 @@ def test_in_symbols_plane_motion_eqs_41_47():
     assert M[2] != 0
 
 
+@pytest.mark.slow
 def test_in_symbols_plane_motion_needs_the_product_xi_zeta_to_vanish():
-    product = MOMENTS["J_xi_zeta"]
+    import sympy
+
+    product = free()["J_xi_zeta"]
     symbols, M, theta_rate, _ = planar(product)
     assert sympy.simplify(M[1] - CORRECTED[42](**symbols) - product * theta_rate**2) == 0
 

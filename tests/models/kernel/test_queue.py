@@ -59,9 +59,10 @@ def test_a_space_that_is_closed_leaves_all_rows(queue):
     assert np.isnan(answers).all()
 
 
-def test_a_card_has_the_same_code_assembled_without_a_fused_product(queue):
+@pytest.mark.slow
+def test_a_card_has_the_same_code_assembled_without_a_fused_product(queue, tmp_path):
     assert ".entry queue(" in queue.ptx
     assert ".target sm_75" in queue.ptx
     assert "mul.rn.f64" in queue.ptx
     assert "fma.rn.f64" not in queue.ptx
-    assert "Compiling entry function 'queue' for 'sm_90'" in queue.said
+    assert "Compiling entry function 'queue' for 'sm_90'" in queue.assembled(tmp_path)
