@@ -33,9 +33,13 @@ settings.load_profile("cointoss")
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Mark the cases of each test that is `slow_after_first`, but its first, before any is left out."""
+    """Mark tests that are `slow_after_first` but the first and `long` cases, before any is left out."""
     for before, item in pairwise(items):
-        if item.get_closest_marker("slow_after_first") and before.function is item.function:
+        if (
+            "slow_after_first" in item.keywords
+            and "long" not in item.keywords
+            and before.function is item.function
+        ):
             item.add_marker("slow")
 
 

@@ -153,8 +153,9 @@ def test_chances_sum_to_the_population_and_follow_the_scores(scores, population)
     assert np.ptp(found[below] / np.array(scores)[below]) == pytest.approx(0) if below.any() else True
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("is_long", [False, pytest.param(True, marks=pytest.mark.long)])
+@pytest.mark.parametrize(
+    "is_long", [pytest.param(False, marks=pytest.mark.slow), pytest.param(True, marks=pytest.mark.long)]
+)
 @pytest.mark.parametrize(
     ("chi", "law", "intervals"), [(0.0, "smooth", 60), (0.6, "smooth", 16), (0.3, "perfectly_rough", 16)]
 )
@@ -183,10 +184,12 @@ def test_no_dead_part_holds_a_boundary(chi, law, intervals, is_long):
     assert count > least
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("times", "number", "levels", "population", "pairs"),
-    [(6, 80, 5, 12, 800), pytest.param(10, 100, 7, 40, 3000, marks=pytest.mark.long)],
+    [
+        pytest.param(6, 80, 5, 12, 800, marks=pytest.mark.slow),
+        pytest.param(10, 100, 7, 40, 3000, marks=pytest.mark.long),
+    ],
 )
 def test_branching_finds_the_shares_that_pairs_of_tosses_show(times, number, levels, population, pairs):
     coin, own = coin_of(0.6)
@@ -234,11 +237,10 @@ def test_runs_agree_at_an_atoms_size_and_at_the_quantum_width(times, levels, pop
     assert 0.05 < np.log10(found).std() < 0.5
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("sizes", "least", "most_flat", "points", "most"),
     [
-        ({"levels": 2, "population": 8, "followed": 4}, 2, 3, 800, 20),
+        pytest.param({"levels": 2, "population": 8, "followed": 4}, 2, 3, 800, 20, marks=pytest.mark.slow),
         pytest.param(
             {"levels": 4, "population": 30, "followed": 20}, 15, 10, 3000, 100, marks=pytest.mark.long
         ),

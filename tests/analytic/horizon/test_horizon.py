@@ -54,8 +54,9 @@ def true_horizon(case: Scenario, impacts: Impacts) -> int:
     return n
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("tosses", [12, pytest.param(200, marks=pytest.mark.long)])
+@pytest.mark.parametrize(
+    "tosses", [pytest.param(12, marks=pytest.mark.slow), pytest.param(200, marks=pytest.mark.long)]
+)
 def test_no_trusted_impact_is_wrong_and_few_right_ones_are_left_out(tosses):
     """In the median the horizon is within two impacts of the true one."""
     rng = np.random.default_rng(1)
