@@ -40,6 +40,7 @@ def parts_of(coin, floor, air):
     return {"coin": COINS[coin], "floor": described, "air": air, "ending": {"max_time": 10.0}}
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("mirror", list(Mirror))
 @pytest.mark.parametrize("floor", FLOORS)
 @pytest.mark.parametrize("count", [2, pytest.param(100, marks=pytest.mark.long)])

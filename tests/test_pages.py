@@ -74,6 +74,7 @@ def tosses_of_each(words: list[str]) -> float:
     return int(words[words.index("--tosses") + 1]) if "--tosses" in words else float("inf")
 
 
+@pytest.mark.slow_after_first
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_the_code_of_a_page_runs_from_top_to_bottom(page, tmp_path, monkeypatch):
     """Python in one namespace for each page, and the fast commands, in one folder."""

@@ -1,6 +1,7 @@
 """`cointoss basin` draws: one map as asked, or both engines' and their difference, with their agreement."""
 
 import numpy as np
+import pytest
 import xarray as xr
 from PIL import Image
 
@@ -14,6 +15,7 @@ from tests.helpers.made_maps import halves
 AXES = ("--x", "release.angular_velocity.eta=20:60:6", "--y", "release.position.z=0.2:0.6:5", "--after", 0)
 
 
+@pytest.mark.slow
 def test_both_engines_make_a_map_each_and_are_compared(coin, tmp_path):
     out, png = tmp_path / "map.zarr", tmp_path / "map.png"
     answered = basin(coin, *AXES, "--compare", "--out", out, "--png", png)

@@ -96,6 +96,7 @@ main()
     assert not (tmp_path / "a.png").exists()
 
 
+@pytest.mark.slow
 def test_ctrl_c_prints_what_hands_have_counted_until_then(coin, tmp_path):
     """The third block is never tossed; `begun` is there from then on."""
     script = """
