@@ -4,6 +4,7 @@ import json
 import re
 from typing import Any
 
+import pytest
 from numpy._core import _multiarray_umath as core  # pyright: ignore[reportAttributeAccessIssue]
 
 from tests.helpers.command_line import python
@@ -29,6 +30,7 @@ def variables_of(kind: str, lacks: str) -> dict[str, Any]:
     return without if lacks else without | OLD
 
 
+@pytest.mark.slow
 def test_releases_rows_tosses_and_settings_are_the_same_on_every_kind_of_processor():
     known = {kind: lacks for kind, (has, lacks) in KINDS.items() if core.__cpu_features__.get(has)}
     answers = {

@@ -8,7 +8,7 @@ import numpy as np
 
 from cointoss import analytic
 from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.settings import FINE, MANY, MujocoSettings, Realisation
+from cointoss.coin_mj.model.settings import FINE, MANY, MujocoSettings, Realisation, rebound_of
 from cointoss.compare.metrics import margin, sequences
 from cointoss.models.hand import Hand
 from cointoss.models.laws import ContactLaw
@@ -18,7 +18,7 @@ from cointoss.models.scenario import Scenario
 from cointoss.models.sources import named_scenarios
 from tests.helpers.many import assert_same_toss
 
-RELEASES, DRAWN, TOSSED = 10_000, 200, 6
+RELEASES, DRAWN, TILTED, TOSSED = 10_000, 200, 1200, 6
 HANDS = {
     "tossed": Hand(psi=1.2, psi_scatter=0.05),
     "spun": Hand(spun=True, psi_scatter=0.2),
@@ -71,6 +71,10 @@ def drawn_scenario(number: int) -> Scenario:
 def results() -> dict[str, Any]:
     """Return what is to be the same, by name."""
     cases = [*map(drawn_scenario, range(DRAWN)), *map(load, named_scenarios())]
+    tilted = [
+        cases[-1].replace("coin.radius", 0.01 + part / 50, "floor.slope", slope, "release.angles", angles)
+        for part, slope, *angles in np.random.default_rng(72).random((TILTED, 5)).tolist()
+    ]
     rows = np.array([row_of(case) for case in cases])
     turned, many = margin.with_quaternions(rows), analytic.toss_rows(rows[:TOSSED])
     tosses = [analytic.toss(case, settings=analytic.MANY) for case in cases[:TOSSED]]
@@ -78,20 +82,20 @@ def results() -> dict[str, Any]:
         assert_same_toss(many, i, toss)
     found: dict[str, Any] = {
         "rows": rows,
-        "attitudes": [case.release.attitude for case in cases],
-        "bodies and rules": [(case.body, case.rules) for case in cases],
+        "attitudes": [case.release.attitude for case in (*cases, *tilted)],
+        "bodies and rules": [(case.body, case.rules) for case in (*cases, *tilted)],
         "toss_many": [many.outcome, many.ending, many.impacts, many.end_time],
         "toss": [[toss.outcome, toss.impacts.time, toss.impacts.impulse] for toss in tosses],
         "late faces": [row_of(sequences._touching_at(toss, 0, 1e-3)) for toss in tosses],
         "steps of margins": margin.FINE.ladder,
+        "springs": [rebound_of(restitution, FINE) for restitution in np.linspace(0.01, 1, TILTED)],
     }
     for name, hand in HANDS.items():
         found[f"releases, {name}"] = [hand.releases(coin, RELEASES) for coin in ("fig29", "zloty")]
     for quantity in margin.QUANTITIES:
         found[f"margins, {quantity.name}"] = quantity.change(turned, np.linspace(-1, 1, len(rows)))
-    realised = [case for case in cases[::9] if str(case.floor.contact) in REALISED]
     for name, settings in MUJOCO.items():
-        machines = [machine_of(case, settings) for case in realised]
+        machines = [machine_of(case, settings) for case in cases[::9] if str(case.floor.contact) in REALISED]
         found[f"MuJoCo, {name}"] = [
             (settings, unit, coin.body, coin.shape, coin.rebound, plastic.rebound, data.qpos, data.qvel)
             for _, data, settings, unit, coin, plastic in machines
