@@ -8,14 +8,20 @@ from functools import cache
 from pathlib import Path
 
 
+class EngineMissingError(ImportError):
+    """There is no library of an engine for this system, and it can't be built; the message says why."""
+
+
 @cache
 def base_folder() -> Path:
     """Return a folder of the user alone: $COINTOSS_CACHE, else in the user's cache, else a temporary one.
 
     Raises:
+        EngineMissingError: where $COINTOSS_CACHE can't be one.
         OSError: where none can be made.
     """
-    for base in _bases():
+    chosen = os.environ.get("COINTOSS_CACHE")
+    for base in [Path(chosen)] if chosen else _bases():
         try:
             base.mkdir(mode=0o700, parents=True, exist_ok=True)
         except OSError:
@@ -23,6 +29,10 @@ def base_folder() -> Path:
         # In another user's folder there may be another's code, and none of ours.
         if os.access(base, os.W_OK) and is_private(base.stat()):
             return base
+    if chosen:
+        raise EngineMissingError(
+            f"COINTOSS_CACHE = {chosen!r}: accepted: a folder in which this user alone can write"
+        )
     return Path(tempfile.mkdtemp(prefix="cointoss-"))
 
 
@@ -50,8 +60,6 @@ def write_whole(file: Path, content: bytes) -> None:
 
 def _bases() -> Iterator[Path]:
     """Yield where it may lie, the first choice first."""
-    if chosen := os.environ.get("COINTOSS_CACHE"):
-        yield Path(chosen)
     if caches := os.environ.get("XDG_CACHE_HOME"):
         yield Path(caches, "cointoss")
     if caches := os.environ.get("LOCALAPPDATA"):  # Windows

@@ -11,9 +11,9 @@ ENGINES = ("models", "analytic", "coin_mj")
 
 
 def digest_of(file: Path) -> str:
-    """Return the digest of a file's content, empty where it cannot be read."""
+    """Return the digest of a file's content, empty where it cannot be read or is none, but a device."""
     try:
-        return hashlib.sha256(file.read_bytes()).hexdigest()
+        return hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else ""
     except OSError:
         return ""
 

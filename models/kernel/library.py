@@ -17,7 +17,7 @@ from typing import Any, Generic, NamedTuple, ParamSpec, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.models.kernel.base_folder import base_folder, is_private
+from cointoss.models.kernel.base_folder import EngineMissingError, base_folder, is_private
 from cointoss.models.kernel.digests import HOME, digest_of
 from cointoss.models.kernel.kinds import ValueKind, kinds_of, may_lack, read, write
 
@@ -42,10 +42,6 @@ RELEASE = "release"
 """The symbol of what gives back the memory of an array that an entry has returned."""
 _ENTRY = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_char_p, ctypes.c_void_p, ctypes.c_void_p)
 """A function of arguments, of room for what it returns, and of room for an error's address."""
-
-
-class EngineMissingError(ImportError):
-    """There is no library of an engine for this system, and it can't be built; the message says why."""
 
 
 class Library:

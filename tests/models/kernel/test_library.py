@@ -14,6 +14,7 @@ import pytest
 
 from cointoss.models.kernel import base_folder, building, library
 from cointoss.models.kernel.building import build_once
+from cointoss.models.kernel.digests import digest_of
 from cointoss.models.kernel.library import MANIFEST, SYSTEM, EngineMissingError, library_file
 from tests.helpers.command_line import HERE
 from tests.helpers.processes import started, wait_until
@@ -207,4 +208,15 @@ def test_the_folder_is_the_users_own(tmp_path, monkeypatch):
     assert find() == chosen
     assert chosen.stat().st_mode & 0o777 == 0o700
     chosen.chmod(0o777)
+    (tmp_path / "file").write_text("")
+    for refused in (chosen, tmp_path / "file"):
+        monkeypatch.setenv("COINTOSS_CACHE", str(refused))
+        with pytest.raises(EngineMissingError, match=f"^COINTOSS_CACHE = '{refused}': accepted: a folder in which "):
+            find()
+    monkeypatch.delenv("COINTOSS_CACHE")
     assert find() == tmp_path / "caches" / "cointoss"
+
+
+def test_what_is_no_file_is_not_read():
+    """A library that is a link to /dev/zero would never be read to its end."""
+    assert digest_of(Path(os.devnull)) == ""
