@@ -5,17 +5,17 @@ from cointoss.analytic.air import force
 from cointoss.analytic.horizon import certainty, horizon
 from cointoss.analytic.horizon import event_tangent as tangent
 from cointoss.models import rows
-from cointoss.models.kernel.library import Library
+from cointoss.models.kernel.library import BROWSER, CUDA, Library
 
 engine = Library(__name__)
 
-examine = engine.entry(rows.examine)
-toss_each = engine.entry(by_rows.toss_each)
-toss_one = engine.entry(by_rows.toss_one)
-sample_path = engine.entry(by_rows.sample_path)
+examine = engine.entry(rows.examine, BROWSER)
+toss_each = engine.entry(by_rows.toss_each, BROWSER)
+toss_one = engine.entry(by_rows.toss_one, BROWSER)
+sample_path = engine.entry(by_rows.sample_path, BROWSER)
 
 toss_rows = engine.entry(by_rows.toss_rows)
-toss_apart = engine.entry(by_rows.toss_apart, on_cards=True)
+toss_apart = engine.entry(by_rows.toss_apart, CUDA)
 toss_coin = engine.entry(events.toss_coin)
 go_on = engine.entry(going_on.go_on)
 find_horizon = engine.entry(horizon.find_horizon)

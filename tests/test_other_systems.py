@@ -108,7 +108,7 @@ def test_a_report_is_made_and_says_why_it_has_no_video(elsewhere, tmp_path):
 def test_an_engine_is_built_by_one_process_at_a_time(elsewhere, tmp_path):
     script = (
         "import sys; from pathlib import Path; import cointoss.models.kernel.building as building\n"
-        "building._build = lambda _, name, folder, system: print(name, *folder.glob('*.lock'))\n"
+        "building._build = lambda _, name, folder, systems: print(name, *folder.glob('*.lock'))\n"
         "for _ in range(2): building.build_once('cointoss.analytic.entries', Path(sys.argv[1]))"
     )
     said = elsewhere("-W", "ignore", "-c", script, tmp_path)

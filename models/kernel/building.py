@@ -4,21 +4,21 @@
 """
 
 import hashlib
-import io
 import os
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
 
+from cointoss.models.kernel.base_folder import EngineMissingError
 from cointoss.models.kernel.digests import HOME
-from cointoss.models.kernel.library import CUDA, MANIFEST, SYSTEM, EngineMissingError, current
+from cointoss.models.kernel.library import BROWSER, CUDA, MANIFEST, SYSTEM, current
 
 NEEDED = ("numba", "llvmlite", "ziglang")
 UNUSED = 3 * 24 * 3600.0
@@ -29,8 +29,13 @@ EVERY = 10.0
 """The line is written again so often, with the time so far [s]."""
 
 
-def build_once(module: str, folder: Path, system: str = SYSTEM) -> None:
-    """Build a library into a folder, or wait for another process that does.
+def build_once(module: str, folder: Path, systems: Sequence[str] = (SYSTEM,)) -> None:
+    """Build an engine's libraries into a folder, or wait for another process that does.
+
+    Args:
+        module: the full name of the engine's table of entries.
+        folder: that of the libraries.
+        systems: for which they are; what is there already is not built.
 
     Raises:
         EngineMissingError: where it can't be built, in one line.
@@ -42,27 +47,25 @@ def build_once(module: str, folder: Path, system: str = SYSTEM) -> None:
         folder.mkdir(mode=0o700, exist_ok=True)
         remove_unused(folder)
         checkout = hashlib.sha256(str(HOME).encode()).hexdigest()[:8]
-        lock, begun = FileLock(folder / f"{name}-{system}-{checkout}.lock"), time.monotonic()
+        lock, begun = FileLock(folder / f"{name}-{checkout}.lock"), time.monotonic()
         try:
             lock.acquire(blocking=False)
         except Timeout:
-            with told(
-                f"waiting for another process, which builds the {name} engine{_FOR.get(system, '')}", begun
-            ):
+            with told(f"waiting for another process, which builds the {name} engine", begun):
                 lock.acquire()
         try:
-            if current(folder, name, system) is None:
-                _build(module, name, folder, system)
+            if missing := [each for each in systems if current(folder, name, each) is None]:
+                _build(module, name, folder, missing)
         finally:
             lock.release()
     except OSError as error:
         raise EngineMissingError(f"the {name} engine could not be built: {error}") from None
 
 
-def _build(module: str, name: str, folder: Path, system: str) -> None:
+def _build(module: str, name: str, folder: Path, systems: Sequence[str]) -> None:
     if missing := [each for each in NEEDED if find_spec(each) is None]:
         raise EngineMissingError(
-            f"there is no {name} engine for {system}, and no {', '.join(missing)} to build it; "
+            f"no {name} engine for {' and '.join(systems)}, and no {', '.join(missing)} to build it; "
             "accepted: a wheel for this system, or pip install --group dev in a checkout"
         )
     command = [
@@ -73,23 +76,32 @@ def _build(module: str, name: str, folder: Path, system: str) -> None:
         module,
         "--out",
         str(folder),
-        "--system",
-        system,
+        *(word for system in systems for word in ("--system", system)),
         "--of-parent",
     ]
     paths = filter(None, (str(HOME.parent), os.environ.get("PYTHONPATH")))
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
+    given, shown = (
+        subprocess.PIPE,
+        "" if systems[0] == SYSTEM else f" for {_WORDS.get(systems[0], systems[0])}",
+    )
     with (
-        told(f"building the {name} engine{_FOR.get(system, '')}, once", time.monotonic()),
+        tempfile.TemporaryFile("w+") as errors,
+        told(f"building the {name} engine{shown}, once", time.monotonic()) as parts,
         # It ends with this process, however that ends: then nobody holds its standard input any more.
-        subprocess.Popen(command, env=environment, text=True, **_PIPES) as process,
+        subprocess.Popen(
+            command, env=environment, text=True, stdin=given, stdout=given, stderr=errors
+        ) as process,
     ):
         try:
-            problem = (process.stderr or io.StringIO()).read()
+            for line in process.stdout or ():
+                parts[:] = [line.strip()]
             process.wait()
         except BaseException:
             process.send_signal(signal.SIGTERM)
             raise
+        errors.seek(0)
+        problem = errors.read()
     if process.returncode == REFUSED:
         raise EngineMissingError(f"the {name} engine could not be built: {problem.strip()}")
     if process.returncode:
@@ -97,25 +109,25 @@ def _build(module: str, name: str, folder: Path, system: str) -> None:
         raise EngineMissingError(f"the {name} engine could not be built: exit status {process.returncode}")
 
 
-_FOR = {CUDA: " for NVIDIA's cards"}
-_PIPES: dict[str, Any] = {
-    "stdin": subprocess.PIPE,
-    "stdout": subprocess.DEVNULL,
-    "stderr": subprocess.PIPE,
-}
+_WORDS = {CUDA: "NVIDIA's cards", BROWSER: "a browser"}
 
 
 @contextmanager
-def told(what: str, since: float) -> Iterator[None]:
-    """Say on standard error what is done within, in one line, with its time so far [s]."""
+def told(what: str, since: float) -> Iterator[list[str]]:
+    """Say on standard error what is done within, in one line, with its time so far [s].
+
+    Yields:
+        A list for the part of it that is done now.
+    """
     over, rewrites = threading.Event(), sys.stderr is not None and sys.stderr.isatty()
+    parts: list[str] = []
 
     def line(end: str) -> None:
         if sys.stderr is None:
             return
         with suppress(OSError, ValueError):  # nobody reads it, which stops no work
-            text = f"{chr(13) * rewrites}cointoss: {what}: {time.monotonic() - since:.0f} s"
-            print(text, end=end, file=sys.stderr, flush=True)
+            text = ": ".join(["cointoss", what, *parts, f"{time.monotonic() - since:.0f} s"])
+            print(f"\r\x1b[K{text}" if rewrites else text, end=end, file=sys.stderr, flush=True)
 
     def keep_telling() -> None:
         while not over.wait(0.25 if rewrites else EVERY):
@@ -124,10 +136,11 @@ def told(what: str, since: float) -> Iterator[None]:
     teller = threading.Thread(target=keep_telling, daemon=True)
     teller.start()
     try:
-        yield
+        yield parts
     finally:
         over.set()
         teller.join()
+        parts.clear()
         line("\n")
 
 

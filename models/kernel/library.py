@@ -30,6 +30,8 @@ SYSTEM = f"{sys.platform}-{platform.machine()}".lower()
 """This system and processor."""
 CUDA = "cuda"
 """In its place, NVIDIA's cards: their library is one file of code in PTX and for some of their kinds."""
+BROWSER = "wasm32"
+"""Or a browser: its library has the entries that a page calls alone, and gets what a page has to know."""
 SUFFIX = ".so"
 """The suffix of a library, on every system."""
 MANIFEST = f"{SUFFIX}.json"
@@ -40,6 +42,8 @@ AVX2 = ".avx2"
 """Ends the symbols for processors with vectors of four numbers: the same bits, sooner."""
 RELEASE = "release"
 """The symbol of what gives back the memory of an array that an entry has returned."""
+HAS_AVX2 = "has_avx2"
+"""The symbol of what says whether this is one of these processors."""
 _ENTRY = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_char_p, ctypes.c_void_p, ctypes.c_void_p)
 """A function of arguments, of room for what it returns, and of room for an error's address."""
 
@@ -57,15 +61,15 @@ class Library:
         self.module, self.lacks_none = module, lacks_none
         self._lock = threading.Lock()
 
-    def entry(self, function: Callable[P, R], *, on_cards: bool = False) -> "Entry[P, R]":
+    def entry(self, function: Callable[P, R], *elsewhere: str) -> "Entry[P, R]":
         """Return an entry: the function as Python calls it.
 
         Args:
             function: a compiled one.
-            on_cards: whether it is what a card's threads do, too; it takes a table of rows, and that of their
-                answers, first.
+            elsewhere: `CUDA` and `BROWSER`, where it is called there, too. What a card's threads call takes a
+                table of rows, and that of their answers, first.
         """
-        return Entry(self, function, on_cards=on_cards)
+        return Entry(self, function, elsewhere)
 
     @cached_property
     def loaded(self) -> ctypes.CDLL:
@@ -94,7 +98,7 @@ class Library:
         Raises:
             EngineMissingError: where there is none, or it passes other numbers than here.
         """
-        has_avx2 = getattr(self.loaded, "has_avx2", None)
+        has_avx2 = getattr(self.loaded, HAS_AVX2, None)
         end = AVX2 if has_avx2 is not None and has_avx2() and hasattr(self.loaded, name + AVX2) else ""
         if self._forms.get(name) != form:
             raise EngineMissingError(
@@ -115,10 +119,10 @@ class Library:
 class Entry(Generic[P, R]):
     """A compiled function as Python calls it: its annotations are the kinds of its rows of numbers."""
 
-    def __init__(self, library: Library, function: Callable[P, R], *, on_cards: bool = False) -> None:
+    def __init__(self, library: Library, function: Callable[P, R], elsewhere: tuple[str, ...] = ()) -> None:
         """Load nothing yet; see `Library.entry`."""
         update_wrapper(self, function)
-        self.library, self.function, self.on_cards = library, function, on_cards
+        self.library, self.function, self.elsewhere = library, function, elsewhere
         self.symbol: str = function.__name__.lstrip("_")
         self._code: dict[bool, Any] = {}
 
@@ -269,7 +273,7 @@ def library_file(module: str, system: str | None = None) -> Path:
         return found
     from cointoss.models.kernel.building import build_once
 
-    build_once(module, folder, system)
+    build_once(module, folder, [system])
     if (found := current(folder, name, system)) is not None:
         return found
     raise EngineMissingError(f"{folder}: the {name} engine was built, but of other sources; start again")

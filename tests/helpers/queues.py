@@ -77,19 +77,17 @@ def work(
 def main(module: str, out: str) -> None:
     """Build the queue of a module's entry into a folder."""
     from cointoss.models.kernel.build import device
-    from cointoss.models.kernel.build.__main__ import alone, asked_of, entries_of
-    from cointoss.models.kernel.build.linking import SYSTEMS, linked
-    from cointoss.models.kernel.build.lowering import LlvmTarget, lowered
-    from cointoss.models.kernel.library import SYSTEM
+    from cointoss.models.kernel.build.__main__ import alone, asked_of
+    from cointoss.models.kernel.build.linking import SYSTEMS, link
+    from cointoss.models.kernel.build.lowering import lowered, prepared
+    from cointoss.models.kernel.library import CUDA, SYSTEM
 
-    table, system, folder = alone(module), SYSTEMS[SYSTEM], Path(out)
-    (entry,) = (each.symbol for each in entries_of(table) if each.on_cards)
-    target = LlvmTarget(system.triple)
-    code = lowered(asked_of(table, (entry,)), target)
-    machine = target.machine()
+    asked, system, folder = asked_of(alone(module), CUDA), SYSTEMS[SYSTEM], Path(out)
+    (entry,), target = (each.symbol for each in asked), system.targets[""]
+    code, machine = prepared(lowered(asked), target, [entry]), target.machine()
     object_file = machine.emit_object(device.queue_module(code, entry, target, machine, on_card=False))
     with tempfile.TemporaryDirectory() as aside:
-        (folder / "queue.so").write_bytes(linked([object_file], system.zig, ["-shared"], Path(aside)))
+        (folder / "queue.so").write_bytes(link([object_file], ["queue"], system, Path(aside)))
     (folder / "queue.ptx").write_text(device.ptx_of(code, entry))
 
 

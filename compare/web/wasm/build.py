@@ -1,48 +1,34 @@
-"""Builds engine.wasm where a file is not of its sources: `python -m cointoss.compare.web.wasm.build FILE`."""
+"""Makes engine.wasm where a file is not of its sources: `python -m cointoss.compare.web.wasm.build FILE`."""
 
 import json
 import sys
-import tempfile
-import time
 from importlib.metadata import version
-from importlib.util import find_spec
 from pathlib import Path
 
 from cointoss.compare.output.files import write_bytes
 from cointoss.compare.web.wasm.carried import SECTION, made_of, sources
-from cointoss.models.kernel.building import NEEDED, told
-from cointoss.models.kernel.digests import digest_of_parts
+from cointoss.models.kernel.base_folder import EngineMissingError, base_folder
+from cointoss.models.kernel.building import build_once
+from cointoss.models.kernel.library import BROWSER, SYSTEM, library_file
 
-ENTRIES = ("examine", "toss_each", "toss_one", "sample_path")
-"""The entries of the analytic engine that a page calls."""
-STACK = 1 << 20
-"""Bytes of the stack."""
+MODULE = "cointoss.analytic.entries"
+"""The engine."""
 
 
-def build(out: Path) -> None:
-    """Compile the engine, link it, and write it, in a process that does nothing else.
+def build(out: Path, library: Path | None = None) -> None:
+    """Write the engine's library for a browser, with what engine.js has to know.
+
+    Args:
+        out: the file.
+        library: as it was linked; else it is built, where there is none, and with it that for this system.
 
     Raises:
-        RuntimeError: where it can't be done, in one line.
+        EngineMissingError: where it can't be built, in one line.
     """
-    if missing := [each for each in NEEDED if find_spec(each) is None]:
-        raise RuntimeError(f"{', '.join(missing)} is missing, which makes it: pip install --group dev")
-    from cointoss.models.kernel.build.__main__ import alone, asked_of
-    from cointoss.models.kernel.build.linking import linked
-    from cointoss.models.kernel.build.lowering import LlvmTarget, lowered, object_code
-
-    target, before = LlvmTarget("wasm32-unknown-unknown", "+bulk-memory"), sources()
-    exported = [f"-Wl,--export={name}" for name in (*ENTRIES, "malloc", "free")]
-    options = ["-mexec-model=reactor", "-O3", *exported, "-Wl,--no-entry", "-Wl,--strip-all"]
-    with told("building the engine for a browser, once", time.monotonic()):
-        asked = asked_of(alone("cointoss.analytic.entries"), ENTRIES)
-        code = object_code(lowered(asked, target), target, {})
-        with tempfile.TemporaryDirectory() as folder:
-            engine = linked([code], "wasm32-wasi", [*options, f"-Wl,-z,stack-size={STACK}"], Path(folder))
-    digest_of_parts.cache_clear()
-    if sources() != before:
-        raise RuntimeError("its sources have changed while they were compiled: build it again")
-    write_bytes(out, engine + _section(_description()))
+    if library is None:
+        build_once(MODULE, base_folder() / "engines", [SYSTEM, BROWSER])
+        library = library_file(MODULE, BROWSER)
+    write_bytes(out, library.read_bytes() + _section(_description()))
 
 
 def _description() -> dict[str, object]:
@@ -82,15 +68,15 @@ def _leb128(number: int) -> bytes:
 
 
 def main(arguments: list[str]) -> int:
-    """Build the file that is named, unless it is of these sources, and return the exit status."""
-    if len(arguments) != 1:
-        print("usage: python -m cointoss.compare.web.wasm.build FILE", file=sys.stderr)
+    """Make the file that is named, unless it is of these sources, and return the exit status."""
+    if len(arguments) not in (1, 2):
+        print("usage: python -m cointoss.compare.web.wasm.build FILE [LIBRARY]", file=sys.stderr)
         return 2
-    out = Path(arguments[0])
+    out, *library = map(Path, arguments)
     try:
         if not out.is_file() or made_of(out.read_bytes()) != sources():
-            build(out)
-    except (RuntimeError, OSError, ImportError) as problem:
+            build(out, *library)
+    except (EngineMissingError, OSError) as problem:
         print(f"engine.wasm: {problem}", file=sys.stderr)
         return 2
     return 0

@@ -39,7 +39,6 @@ export async function load(bytes, version) {
   } catch (problem) {
     throw new EngineError(`engine.wasm: cannot be started (${problem.message})`);
   }
-  instance.exports._initialize();
   return new Engine(instance.exports, about, module);
 }
 

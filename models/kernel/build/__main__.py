@@ -8,7 +8,8 @@ import signal
 import sys
 import tempfile
 import threading
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from importlib import import_module
 from importlib.util import find_spec, module_from_spec
 from pathlib import Path
@@ -17,13 +18,15 @@ from typing import TYPE_CHECKING, Any
 
 from cointoss.models.kernel.base_folder import write_whole
 from cointoss.models.kernel.digests import ENGINES, HOME, digest_of
-from cointoss.models.kernel.library import AVX2, CUDA, MANIFEST, RELEASE, SUFFIX, SYSTEM, Entry, Made
+from cointoss.models.kernel.library import AVX2, BROWSER, CUDA, MANIFEST, SUFFIX, SYSTEM, Entry, Made
 
 if TYPE_CHECKING:
     from cointoss.models.kernel.build.linking import System
 
 
-def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> None:
+def build(
+    module: str, out: Path, systems: Sequence[str], *, carried: bool, say: Callable[[str], object]
+) -> None:
     """Build the library of an engine for each system.
 
     Args:
@@ -31,6 +34,7 @@ def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> N
         out: the folder that gets each library, and a manifest beside it.
         systems: by their names.
         carried: whether a wheel is to carry the libraries: their names then have no digest.
+        say: is told what is done now.
 
     Raises:
         RuntimeError: where it can't be done, in one line.
@@ -41,23 +45,26 @@ def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> N
     table = alone(module)
     assembled = _assembler() if CUDA in systems else None  # is read as a source
     sources = {name: before.get(HOME / name) or digest_of(HOME / name) for name in read_sources()}
-    on_cards = [each.symbol for each in entries_of(table) if each.on_cards]
-    known = (*linking.SYSTEMS, *[CUDA] * bool(on_cards))
+    known = [name for name in (*linking.SYSTEMS, CUDA) if entries_of(table, name)]
     if unknown := [name for name in systems if name not in known]:
         raise RuntimeError(f"{', '.join(unknown)}: accepted: {', '.join(known)}")
-    asked = asked_of(table, on_cards if set(systems) == {CUDA} else ())
-    symbols = [each.symbol for each in asked]
-    forms = {each.symbol_of(lacks): each.form for each in entries_of(table) for lacks in each.variants}
-    first = next((name for name in systems if name != CUDA), "linux-x86_64")
-    code = lowering.lowered(asked, linking.SYSTEMS[first].targets[""])
+    symbols, ready = symbols_of(table, *systems), dict[str, bytes]()
+    code = lowering.lowered(asked_of(table, *systems), lambda count: say(f"lowering function {count}"))
     if any(digest_of(HOME / name) != digest for name, digest in sources.items()):
         raise RuntimeError("its sources have changed while they were compiled: build it again")
+    forms = {each.symbol_of(lacks): each.form for each in entries_of(table) for lacks in each.variants}
     with tempfile.TemporaryDirectory() as folder:
         for name in systems:
+            say(f"optimising the code for {name}")
+            like, kept = (
+                (BROWSER, symbols_of(table, BROWSER)) if name == BROWSER else ("linux-x86_64", symbols)
+            )
+            if like not in ready:
+                ready[like] = lowering.prepared(code, linking.SYSTEMS[like].targets[""], kept)
             if assembled is not None and name == CUDA:
-                library = assembled(code, on_cards[0], Path(folder))
+                library = assembled(ready[like], symbols_of(table, CUDA)[0], Path(folder))
             else:
-                library = _linked(code, symbols, linking.SYSTEMS[name], Path(folder), carried=carried)
+                library = _linked(ready[like], kept, linking.SYSTEMS[name], Path(folder), carried=carried)
             digest = hashlib.sha256(library).hexdigest()
             stem = f"{module.split('.')[-2]}-{name}" + ("" if carried else f"-{digest[:16]}")
             write_whole(out / f"{stem}{SUFFIX}", library)
@@ -76,12 +83,13 @@ def _linked(code: bytes, symbols: Sequence[str], system: "System", folder: Path,
     """Return the library of a module of code for a system: for all its processors, or this one."""
     from cointoss.models.kernel.build import linking, lowering
 
-    kinds = {end: target for end, target in system.targets.items() if carried or end == processor()}
-    codes, shown = [], []
+    is_known = not carried and processor() in system.targets
+    kinds = {processor(): system.targets[processor()]} if is_known else system.targets
+    codes, shown = [], list(system.shown)
     for end, target in kinds.items():
         new = {symbol: symbol + end for symbol in symbols}
-        released = {} if not codes else {RELEASE: RELEASE + end}
-        codes.append(lowering.object_code(code, target, new | released))
+        again = {symbol: symbol + end for symbol in system.shown} if codes else {}
+        codes.append(lowering.object_code(code, target, new | again))
         shown += new.values()
     return linking.link(codes, shown, system, folder)
 
@@ -102,13 +110,15 @@ def processor() -> str:
     return AVX2 if binding.get_host_cpu_features().get("avx2") else ""
 
 
-def entries_of(table: object) -> list[Entry[..., object]]:
-    """Return the entries of a table."""
-    return [each for each in vars(table).values() if isinstance(each, Entry)]
+def entries_of(table: object, *systems: str) -> list[Entry[..., object]]:
+    """Return the entries of a table, all or those that one of some systems has."""
+    has = [each for each in vars(table).values() if isinstance(each, Entry)]
+    some = {CUDA, BROWSER}.issuperset(systems) and systems
+    return [each for each in has if not some or set(some) & set(each.elsewhere)]
 
 
-def asked_of(table: object, only: Collection[str] = ()) -> list[Any]:
-    """Return what is asked of a table of entries, all or `only` some, for `lowering.lowered`.
+def asked_of(table: object, *systems: str) -> list[Any]:
+    """Return what is asked of a table of entries, all or those of some systems, for `lowering.lowered`.
 
     Raises:
         RuntimeError: where two entries have one name.
@@ -117,13 +127,17 @@ def asked_of(table: object, only: Collection[str] = ()) -> list[Any]:
 
     asked = [
         EntryRequest(each.symbol_of(lacks), each.function, *each.kinds, lacks)
-        for each in entries_of(table)
-        if not only or each.symbol in only
+        for each in entries_of(table, *systems)
         for lacks in each.variants
     ]
     if len({each.symbol for each in asked}) < len(asked):
         raise RuntimeError(f"{table}: two entries have one name")
     return asked
+
+
+def symbols_of(table: object, *systems: str) -> list[str]:
+    """Return the symbols of a table's entries, of all or those of some systems."""
+    return [each.symbol for each in asked_of(table, *systems)]
 
 
 def read_sources() -> Iterator[str]:
@@ -150,13 +164,16 @@ def main() -> int:
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--system", action="append")
     parser.add_argument("--carried", action="store_true")
-    parser.add_argument("--of-parent", action="store_true", help="end where standard input ends")
+    parser.add_argument(
+        "--of-parent", action="store_true", help="say what is done, end where standard input ends"
+    )
     given = parser.parse_args()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # what was written aside is removed
     if given.of_parent:
         threading.Thread(target=_end_with_input, daemon=True).start()
+    say = partial(print, flush=True) if given.of_parent else str
     try:
-        build(given.module, given.out, given.system or [SYSTEM], carried=given.carried)
+        build(given.module, given.out, given.system or [SYSTEM], carried=given.carried, say=say)
     except (RuntimeError, OSError, ImportError) as problem:
         print(problem, file=sys.stderr)
         return 2

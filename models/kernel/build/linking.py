@@ -1,14 +1,15 @@
 """Object files linked by ziglang, for each system that has a library."""
 
-import subprocess
-import sys
 from collections.abc import Sequence
-from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
 from cointoss.models.kernel.build.lowering import LlvmTarget
-from cointoss.models.kernel.library import AVX2, RELEASE
+from cointoss.models.kernel.build.zig import run_zig
+from cointoss.models.kernel.library import AVX2, BROWSER, HAS_AVX2, RELEASE
+
+STACK = 1 << 20
+"""Bytes of the stack in a page."""
 
 
 class System(NamedTuple):
@@ -17,23 +18,29 @@ class System(NamedTuple):
     triple: str
     """The system's name in LLVM."""
     zig: str
-    """The system's name in ziglang, with the oldest C library or system that the library needs."""
+    """The system's name in ziglang, with the oldest system that the library needs."""
+
+    @property
+    def shown(self) -> tuple[str, ...]:
+        """The symbols of its runtime that a library shows, beside those of its entries."""
+        if self.triple.startswith("wasm32"):
+            return "malloc", "free"
+        return (RELEASE, HAS_AVX2) if self.triple.startswith("x86_64") else (RELEASE,)
 
     @property
     def targets(self) -> dict[str, LlvmTarget]:
         """The kinds of its processor for which there is code, by what the symbols end with."""
-        plain = {"": LlvmTarget(self.triple)}
-        return (
-            {**plain, AVX2: LlvmTarget(self.triple, "+avx2")} if self.triple.startswith("x86_64") else plain
-        )
+        plain = {"": LlvmTarget(self.triple, "+bulk-memory" if self.triple.startswith("wasm32") else "")}
+        return plain | {AVX2: LlvmTarget(self.triple, "+avx2")} if HAS_AVX2 in self.shown else plain
 
 
 SYSTEMS = {
-    "linux-x86_64": System("x86_64-unknown-linux-gnu", "x86_64-linux-gnu.2.17"),
-    "linux-aarch64": System("aarch64-unknown-linux-gnu", "aarch64-linux-gnu.2.17"),
+    "linux-x86_64": System("x86_64-unknown-linux-gnu", "x86_64-linux-gnu"),
+    "linux-aarch64": System("aarch64-unknown-linux-gnu", "aarch64-linux-gnu"),
     "darwin-arm64": System("arm64-apple-macosx11.0.0", "aarch64-macos.11.0"),
     "darwin-x86_64": System("x86_64-apple-macosx10.15.0", "x86_64-macos.10.15"),
     "win32-amd64": System("x86_64-pc-windows-gnu", "x86_64-windows-gnu"),
+    BROWSER: System("wasm32-unknown-unknown", "wasm32-freestanding"),
 }
 """The systems by their names, see `cointoss.models.kernel.library.SYSTEM`."""
 _HAS_AVX2 = """
@@ -50,47 +57,36 @@ int has_avx2(void)
 """Whether processor and system have vectors of four numbers."""
 
 
-def link(codes: Sequence[bytes], symbols: Sequence[str], system: System, folder: Path) -> bytes:
+def link(codes: Sequence[bytes], shown: Sequence[str], system: System, folder: Path) -> bytes:
     """Return the library of object files, with a function `has_avx2` where that is a question.
 
     Args:
         codes: the object files.
-        symbols: that the library shows.
+        shown: the symbols that it shows.
         system: for which it is.
         folder: for what is made meanwhile.
 
     Raises:
         RuntimeError: where it can't be linked, in one line.
     """
-    options, shown = ["-shared"], [*symbols, RELEASE]
-    if system.triple.startswith("x86_64"):
-        source = folder / "has_avx2.c"
-        source.write_text(_HAS_AVX2)
-        options.append(str(source))
-        shown.append("has_avx2")
-    if "linux" in system.triple:
-        script = folder / "shown.map"
-        names = " ".join(f'"{name}";' for name in shown)
-        script.write_text(f"{{ global: {names} local: *; }};\n")
-        options.append(f"-Wl,--version-script={script}")
-    return linked(codes, system.zig, options, folder)
-
-
-def linked(codes: Sequence[bytes], target: str, options: Sequence[str], folder: Path) -> bytes:
-    """Return what ziglang links of object files with these options.
-
-    Raises:
-        RuntimeError: where it can't, in one line.
-    """
-    if find_spec("ziglang") is None:
-        raise RuntimeError("ziglang is missing, which links it: pip install --group dev")
     files = [folder / f"{number}.o" for number in range(len(codes))]
     for file, code in zip(files, codes, strict=True):
         file.write_bytes(code)
-    made = folder / "made"
-    command = [sys.executable, "-m", "ziglang", "cc", "-target", target, "-O2", "-s", *map(str, files)]
-    done = subprocess.run([*command, *options, "-o", str(made)], capture_output=True, text=True, check=False)
-    if done.returncode:
-        lines = done.stderr.strip().splitlines() or ["it says nothing"]
-        raise RuntimeError(f"the linker failed: {lines[-1]}")
+    if HAS_AVX2 in shown:
+        source, file = folder / "has_avx2.c", folder / "has_avx2.o"
+        source.write_text(_HAS_AVX2)
+        run_zig("cc", "-target", system.zig, "-O2", "-g0", "-c", source, "-o", file)
+        files.append(file)
+    made, script = folder / "made", folder / "shown.map"
+    names = " ".join(f'"{name}";' for name in shown)
+    script.write_text(f"{{ global: {names} local: *; }};\n")
+    if "linux" in system.triple:
+        # What it calls of a C library is there in any process that loads it.
+        run_zig("ld.lld", "-shared", "--strip-all", f"--version-script={script}", *files, "-o", made)
+    elif system.triple.startswith("wasm32"):
+        exported = [f"--export={name}" for name in shown]
+        options = ["--no-entry", "--stack-first", "-z", f"stack-size={STACK}", "--strip-all"]
+        run_zig("wasm-ld", *options, *exported, *files, "-o", made)
+    else:
+        run_zig("cc", "-target", system.zig, "-shared", "-O2", "-s", *files, "-o", made)
     return made.read_bytes()

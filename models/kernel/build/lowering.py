@@ -1,21 +1,24 @@
 """Compiled functions as one module of LLVM's code, for any processor, in a process of its own.
 
 numba compiles each function by itself: it optimises it with all that it calls, makes machine code for this
-machine, and wrappers for Python. Here numba is changed: the code of each function is only tidied up. All of
-it is linked into one module, references to arrays are no longer counted where no error can occur, and that
-module is optimised once for each processor.
+machine, and wrappers for Python. Here numba is changed: the code of each function is left as it is. All of
+it is linked into one module, the same for addresses of 64 bits and of 32. For either the module is tidied
+up, and references to arrays are no longer counted where no error can occur. For each processor it is
+optimised as a whole.
 """
 
 # numba describes few types.
 # pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
 # pyright: reportIncompatibleMethodOverride=false
 
-from collections.abc import Iterable, Mapping, Sequence
+import gc
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from enum import IntEnum
 from typing import Any, NamedTuple
 
 from llvmlite import binding, ir
 from numba import _dynfunc, from_dtype, njit, types
+from numba.core import event
 from numba.core.callconv import excinfo_ptr_t
 from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
 from numba.core.compiler import Compiler
@@ -24,7 +27,7 @@ from numba.core.cpu import CPUContext
 from numba.core.registry import CPUDispatcher, cpu_target
 from numba.core.runtime import rtsys
 from numba.core.runtime.context import NRTContext
-from numba.core.typed_passes import AnnotateTypes, DumpParforDiagnostics, InlineOverloads
+from numba.core.typed_passes import AnnotateTypes, DumpParforDiagnostics, InlineOverloads, NopythonRewrites
 from numba.core.untyped_passes import (
     FindLiterallyCalls,
     InlineClosureLikes,
@@ -35,13 +38,15 @@ from numba.core.untyped_passes import (
     WithLifting,
 )
 
-from cointoss.models.kernel.build.musl import call_musl, link_musl
-from cointoss.models.kernel.build.runtime import of_runtime
+from cointoss.models.kernel.build.musl import call_musl, musl_code
+from cointoss.models.kernel.build.runtime import OF_RUNTIME, of_runtime
 from cointoss.models.kernel.compiled import _Compiled
 from cointoss.models.kernel.kinds import ValueKind
 
-C_LIBRARY = {"malloc", "free", "memcpy", "memset", "memmove"}
-"""What the code may call of a system's C library."""
+C_LIBRARY = {"malloc", "free", "memcpy", "memset", "memmove", "__heap_base"}
+"""What the code may use of a system's C library, or of a page's linker."""
+_OBJECTS = 200_000
+"""So many new objects call Python's garbage collector: numba makes few circles, and millions of objects."""
 _WORD = ir.IntType(64)
 _OPTIONS = {
     "nopython": True,
@@ -87,22 +92,22 @@ class EntryRequest(NamedTuple):
     """Whether the number that may be None is None."""
 
 
-def lowered(asked: Sequence[EntryRequest], target: LlvmTarget) -> bytes:
-    """Return LLVM's bitcode of one module: an entry for each function asked for, and all that they call.
+def lowered(asked: Sequence[EntryRequest], done: Callable[[int], object] = lambda _: None) -> bytes:
+    """Return LLVM's bitcode of one module, an entry for each function asked for and all that they call.
 
     An entry takes the addresses of its numbers, of room for what it returns, and of room for an error's
     address; it returns 0 unless it failed. See `cointoss.models.kernel.kinds` for the numbers.
 
     Args:
         asked: the functions.
-        target: the width of its addresses is part of the code.
+        done: is told the number of functions lowered so far.
 
     Raises:
         RuntimeError: for a function that returns another kind than its annotation says.
     """
-    _change_numba(target)
-    codegen = cpu_target.target_context.codegen()
-    whole = _Code(codegen, "engine")
+    gc.set_threshold(_OBJECTS)
+    _change_numba(done)
+    whole = _Code(cpu_target.target_context.codegen(), "engine")
     kept = []
     for each in asked:
         kinds = tuple(_numba_type(kind, each.lacks) for kind in each.given)
@@ -116,21 +121,34 @@ def lowered(asked: Sequence[EntryRequest], target: LlvmTarget) -> bytes:
         whole.add_ir_module(_entry(each, result.fndesc))
         result.library.add_to(whole._final_module, kept)
     module = whole._final_module
-    module.link_in(rtsys.library._get_module_for_linking(), preserve=True)
-    link_musl(module)
+    module.link_in(binding.parse_bitcode(musl_code()), preserve=True)
+    return module.as_bitcode()
+
+
+def prepared(code: bytes, target: LlvmTarget, symbols: Collection[str]) -> bytes:
+    """Return a module with numba's runtime, tidied up for a target and all others with addresses as wide.
+
+    Args:
+        code: the module, as LLVM's bitcode.
+        target: for which it is.
+        symbols: of the entries that are kept, with what they call.
+    """
+    module, machine = binding.parse_bitcode(code), target.machine()
+    module.triple, module.data_layout = target.triple, str(machine.target_data)
     for text in of_runtime(is_narrow=target.is_narrow):
-        module.link_in(binding.parse_assembly(text))
-    symbols = {each.symbol for each in asked} | {"release"}
+        part = binding.parse_assembly(text)
+        part.triple, part.data_layout = module.triple, module.data_layout
+        module.link_in(part)
     for each in (*module.functions, *module.global_variables):
         if not each.is_declaration:
-            each.linkage = "external" if each.name in symbols else "internal"
-    _spare_references(module, codegen)
+            each.linkage = "external" if each.name in (*symbols, *OF_RUNTIME) else "internal"
+    _spare_references(module, machine)
     module.verify()
     return module.as_bitcode()
 
 
 def object_code(code: bytes, target: LlvmTarget, symbols: Mapping[str, str]) -> bytes:
-    """Return an object file of a module that was lowered for addresses as wide, optimised as a whole.
+    """Return an object file of a module that was prepared for addresses as wide, optimised as a whole.
 
     Args:
         code: the module, as LLVM's bitcode.
@@ -153,13 +171,17 @@ def optimise(module: binding.ModuleRef, target: LlvmTarget, machine: binding.Tar
     """Optimise a module as a whole for a target."""
     module.triple, module.data_layout = target.triple, str(machine.target_data)
     for level, vectors in ((0, False), (3, True)):  # the first brings references into one function
-        options = binding.create_pipeline_tuning_options(speed_level=level)
-        options.loop_vectorization = options.slp_vectorization = vectors
-        builder = binding.create_pass_builder(machine, options)
+        builder = _pass_builder(machine, level, vectors=vectors)
         passes = builder.getModulePassManager()
         passes.add_refprune_pass()
         passes.run(module, builder)
     module.verify()
+
+
+def _pass_builder(machine: binding.TargetMachine, level: int, *, vectors: bool) -> binding.PassBuilder:
+    options = binding.create_pipeline_tuning_options(speed_level=level)
+    options.loop_vectorization = options.slp_vectorization = vectors
+    return binding.create_pass_builder(machine, options)
 
 
 def foreign_to(module: binding.ModuleRef) -> set[str]:
@@ -180,21 +202,10 @@ class _Code(JITCodeLibrary):
         if isinstance(library, _Code):
             self.callees.append(library)
 
-    def finalize(self) -> None:
-        """Take no more code."""
-        self._raise_if_finalized()
-        self._finalize_dynamic_globals()
-        self._finalized = True
-
     def _optimize_functions(self, ll_module: binding.ModuleRef) -> None:
         call_musl(ll_module)
-        ll_module.data_layout = self._codegen._data_layout
-        passes = binding.create_new_module_pass_manager()
-        passes.add_sroa_pass()
-        passes.add_instruction_combine_pass()
-        passes.add_simplify_cfg_pass()
-        passes.add_aggressive_dce_pass()
-        passes.run(ll_module, self._codegen.plain_passes())
+        self._codegen.count += 1
+        self._codegen.done(self._codegen.count)
 
     def add_to(self, module: binding.ModuleRef, kept: "list[_Code]") -> None:
         """Add this code and that of all it calls to a module, but for what is `kept` there."""
@@ -208,17 +219,13 @@ class _Code(JITCodeLibrary):
 
 
 class _Codegen(JITCPUCodegen):
-    """Makes code for a target, and runs none."""
+    """Makes code of which none is run, and tells how many functions it has."""
 
     _library_class = _Code
 
-    def __init__(self, own: Any, machine: binding.TargetMachine) -> None:
+    def __init__(self, own: Any, done: Callable[[int], object]) -> None:
         vars(self).update(vars(own))
-        self._tm, self._target_data = machine, machine.target_data
-        self._data_layout, self._engine = str(machine.target_data), _Nothing()
-
-    def plain_passes(self) -> Any:
-        return self._pass_builder(opt=0, loop_vectorize=False, slp_vectorize=False)
+        self._engine, self.count, self.done = _Nothing(), 0, done
 
 
 class _Nothing:
@@ -240,7 +247,7 @@ class _Compiler(Compiler):
         return [needed]
 
 
-# For closures, `with`, literal values, functions inlined by numba, listings, and loops in parallel.
+# For closures, `with`, literal values, functions inlined by numba, whole arrays, listings, loops in parallel.
 _NOT_NEEDED = {
     AnnotateTypes,
     DumpParforDiagnostics,
@@ -251,6 +258,7 @@ _NOT_NEEDED = {
     LiteralPropagationSubPipelinePass,
     LiteralUnroll,
     MakeFunctionToJitFunction,
+    NopythonRewrites,
     WithLifting,
 }
 
@@ -279,19 +287,18 @@ class _Dispatcher(CPUDispatcher):
         )
 
 
-def _change_numba(target: LlvmTarget) -> None:
-    """Let numba compile for a target from here on, and make no machine code."""
+def _change_numba(done: Callable[[int], object]) -> None:
+    """Let numba make no machine code from here on, and tell `done` of each function."""
     njit(lambda: None)()  # numba makes its own runtime for this machine when it first compiles
-    context = cpu_target.target_context
+    context, typing = cpu_target.target_context, cpu_target.typing_context
     rtsys.initialize(context)
     own = context.codegen()
     _kept.append(own._engine)
-    context._internal_codegen = _Codegen(own, target.machine())
+    context._internal_codegen = _Codegen(own, done)
     context.cached_internal_func.clear()
     context.nrt = _References(context, True)
-    rtsys.library._get_module_for_linking = lambda: binding.parse_assembly(
-        f'target triple = "{target.triple}"'
-    )
+    typing.resolve_function_type = _remembered(typing.resolve_function_type)
+    event.broadcast = lambda _: None  # numba's clocks
     CPUContext.get_executable = lambda _, *described: _not_run(*described)
     _Compiled.dispatched = lambda function: _Dispatcher(
         function.py_func,
@@ -304,24 +311,40 @@ _kept: list[Any] = []
 """What owns modules that numba still asks for their names."""
 
 
+def _remembered(resolve: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function that finds the types of a call, for which numba asks again and again, once."""
+    known: dict[Any, Any] = {}
+
+    def resolved(function: Any, arguments: Any, named: Any) -> Any:
+        if not isinstance(function, types.Type):
+            return resolve(function, arguments, named)
+        call = function, arguments, *dict(named).items()
+        if call not in known:
+            known[call] = resolve(function, arguments, named)
+        return known[call]
+
+    return resolved
+
+
 def _not_run(library: Any, description: Any, environment: Any) -> Any:
     return _dynfunc.make_function(
         description.lookup_module(), description.qualname, "never run", 0, environment, (library,)
     )
 
 
-def _spare_references(module: binding.ModuleRef, codegen: _Codegen) -> None:
+def _spare_references(module: binding.ModuleRef, machine: binding.TargetMachine) -> None:
     """Remove the counting of references to arrays across calls that cannot fail.
 
     numba counts across every call, lest an error leaves a count behind, and removes what it can by looking at
     one function at a time. Where nothing else calls a module's functions it is known which calls cannot fail.
     """
     passes = binding.create_new_module_pass_manager()
-    passes.add_ipsccp_pass()
-    passes.add_simplify_cfg_pass()
-    passes.add_sroa_pass()
-    passes.add_refprune_pass()
-    passes.run(module, codegen.plain_passes())
+    for step in (
+        *("global_dead_code_eliminate", "sroa", "instruction_combine", "simplify_cfg", "aggressive_dce"),
+        *("ipsccp", "simplify_cfg", "sroa", "refprune"),
+    ):
+        getattr(passes, f"add_{step}_pass")()
+    passes.run(module, _pass_builder(machine, 0, vectors=False))
 
 
 def _numba_type(kind: ValueKind, lacks: bool) -> Any:

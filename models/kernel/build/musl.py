@@ -6,20 +6,14 @@ They are compiled from the sources that ziglang brings, without fusing products 
 # llvmlite has no types.
 # pyright: reportAttributeAccessIssue=false
 
-import hashlib
 import re
-import subprocess
-import sys
 import tempfile
-from contextlib import suppress
-from functools import cache
-from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
 
 from llvmlite import binding
 
-from cointoss.models.kernel.base_folder import base_folder, write_whole
+from cointoss.models.kernel.build.zig import run_zig
 
 PREFIX = "musl."
 """The beginning of the functions' names in LLVM's code."""
@@ -118,45 +112,12 @@ def call_musl(module: binding.ModuleRef) -> None:
             raise RuntimeError(f"compiled code calls {name}, which is not among {', '.join(FUNCTIONS)}")
 
 
-def link_musl(module: binding.ModuleRef) -> None:
-    """Add musl's functions to a module.
-
-    Raises:
-        RuntimeError: where code that numba has compiled by itself calls those of the system.
-    """
-    if other := [_name(function) for function in _declared(module) if _name(function) in FUNCTIONS]:
-        raise RuntimeError(f"numba's own code calls {', '.join(other)} of the system")
-    module.link_in(binding.parse_bitcode(musl_code()), preserve=True)
-
-
-@cache
 def musl_code() -> bytes:
-    """Return the functions as one module without a target; compiled, or kept from an earlier build.
+    """Return the functions as one module without a target.
 
     Raises:
         RuntimeError: where ziglang is missing or does not have musl's functions, in one line.
     """
-    made_of = hashlib.sha256(f"{version('ziglang')}\n".encode() + Path(__file__).read_bytes()).hexdigest()[
-        :16
-    ]
-    kept = base_folder() / f"musl-{made_of}.bc"
-    try:
-        digest, code = kept.read_bytes().split(b"\n", 1)
-        if digest == _digest(code):
-            return code
-    except (OSError, ValueError):
-        pass
-    code = _build()
-    with suppress(OSError):  # on a full disk it is compiled again the next time
-        write_whole(kept, _digest(code) + b"\n" + code)
-    return code
-
-
-def _digest(code: bytes) -> bytes:
-    return hashlib.sha256(code).hexdigest().encode()
-
-
-def _build() -> bytes:
     found = find_spec("ziglang")
     if found is None or found.origin is None:
         raise RuntimeError("ziglang is missing, which has musl's sources: pip install --group dev")
@@ -186,15 +147,9 @@ def _build() -> bytes:
 
 def _llvm(source: Path, musl: Path, folder: Path) -> str:
     """Return the code of a source in LLVM's language, for any processor."""
-    if not source.is_file():
-        raise RuntimeError(f"ziglang has no {source.name}: pip install --group dev")
     target = folder / f"{source.stem}.ll"
     included = [f"-I{musl / part}" for part in ("src/internal", "src/include", "src/math", "arch/generic")]
-    command = [sys.executable, "-m", "ziglang", "cc", *_OPTIONS, *included]
-    command += ["-include", str(folder / "first.h"), str(source), "-o", str(target)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise RuntimeError(f"the compiler failed: {done.stderr.strip().splitlines()[-1]}")
+    run_zig("cc", *_OPTIONS, *included, "-include", folder / "first.h", source, "-o", target)
     text = target.read_text(encoding="utf-8")
     # Not every processor has other names of functions, such as that of lgamma_r.
     left_out = r"^(target |source_filename|attributes |!|@\S+ = weak .*alias ).*\n"

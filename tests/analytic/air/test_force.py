@@ -288,7 +288,6 @@ from llvmlite import binding
 from cointoss.analytic.entries import force_and_moment
 from cointoss.analytic.flight.flying import fly
 from cointoss.models.kernel.arrays import Row
-from cointoss.models.kernel.build.linking import SYSTEMS
 from cointoss.models.kernel.build.lowering import EntryRequest, lowered
 from cointoss.models.kernel.kinds import kind_of
 
@@ -298,7 +297,7 @@ asked = [
     EntryRequest("linear", fly, given, returned, True),
     EntryRequest("other", force_and_moment.function, *force_and_moment.kinds, False),
 ]
-module = binding.parse_bitcode(lowered(asked, SYSTEMS["linux-x86_64"].targets[""]))
+module = binding.parse_bitcode(lowered(asked))
 print(*(each.name for each in module.functions if not each.is_declaration))
 """
 """Prints the names of all functions of a flight in linear air, and of the force of other air, as compiled."""

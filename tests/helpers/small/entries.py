@@ -8,7 +8,7 @@ import numpy as np
 
 from cointoss.models.kernel.arrays import Flags, Row, Table
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.library import Library
+from cointoss.models.kernel.library import CUDA, Library
 from cointoss.models.kernel.vectors import Vector, add
 
 engine = Library(__name__)
@@ -80,4 +80,4 @@ def sums(rows: Table, answers: Table, scale: float) -> None:
         answers[i, 0] = scale * held[0] if spaces > 0 else 0.0
 
 
-sums_on_cards = engine.entry(sums, on_cards=True)
+sums_on_cards = engine.entry(sums, CUDA)

@@ -127,7 +127,7 @@ def test_a_library_that_is_stale_damaged_or_anothers_is_not_loaded_but_built_aga
     monkeypatch.setattr(building, "build_once", lambda *given: asked.append(given))
     with pytest.raises(EngineMissingError, match="of other sources"):
         library_file(MODULE)
-    assert asked == [(MODULE, cached[0].parent, SYSTEM)]
+    assert asked == [(MODULE, cached[0].parent, [SYSTEM])]
 
 
 @pytest.mark.slow
@@ -211,7 +211,9 @@ def test_the_folder_is_the_users_own(tmp_path, monkeypatch):
     (tmp_path / "file").write_text("")
     for refused in (chosen, tmp_path / "file"):
         monkeypatch.setenv("COINTOSS_CACHE", str(refused))
-        with pytest.raises(EngineMissingError, match=f"^COINTOSS_CACHE = '{refused}': accepted: a folder in which "):
+        with pytest.raises(
+            EngineMissingError, match=f"^COINTOSS_CACHE = '{refused}': accepted: a folder in which "
+        ):
             find()
     monkeypatch.delenv("COINTOSS_CACHE")
     assert find() == tmp_path / "caches" / "cointoss"
