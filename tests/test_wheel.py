@@ -8,13 +8,15 @@ import sys
 import tarfile
 import tomllib
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 from zipfile import ZipFile
 
 import pytest
 
 from cointoss.compare.web.wasm import carried
-from cointoss.models.kernel.build.wheel import BROWSER, MODULES
+from cointoss.models.kernel.build import wheel as hooks
+from cointoss.models.kernel.build.wheel import BROWSER, MODULES, Engines
 from cointoss.models.kernel.library import SYSTEM, library_file
 from tests.helpers.command_line import python
 
@@ -74,6 +76,45 @@ def run(installed, folder, *words, **environment):
     return python("-P", *words, folder=folder, PYTHONPATH=paths, **environment)
 
 
+ABOUT: Any = SimpleNamespace(version="1")
+HOOK = Engines(str(TOP), {}, ABOUT, ABOUT, "", "wheel")
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "says"),
+    [
+        ("sys", SimpleNamespace(version_info=(3, 10)), r"needs Python >= 3\.11; this is 3\."),
+        ("SYSTEM", "plan9-mips", "has no engine for plan9-mips; accepted: linux-x86_64, "),
+        ("platform", SimpleNamespace(libc_ver=lambda: ("", "")), "needs glibc: MuJoCo and numba have no "),
+    ],
+)
+def test_where_it_cannot_be_installed_the_hook_says_so_before_anything_is(monkeypatch, name, value, says):
+    assert HOOK.dependencies() == []
+    monkeypatch.setattr(hooks, name, value)
+    with pytest.raises(SystemExit, match=f"^cointoss-dynamics {says}.*$"):
+        HOOK.dependencies()
+
+
+def test_what_builds_an_engine_finds_what_the_hook_finds(monkeypatch, tmp_path):
+    ran = []
+    monkeypatch.setattr(
+        hooks, "_run", lambda words, paths, _: ran.append([words[0], *paths.split(os.pathsep)])
+    )
+    monkeypatch.setattr(sys, "path", ["", "/of/an/installer"])
+    HOOK._made = tmp_path
+    assert HOOK._built(SYSTEM) == tmp_path / "engines"
+    builds = ["cointoss.models.kernel.build"] * 3 + ["cointoss.compare.web.wasm.build"]
+    assert ran == [[module, str(tmp_path), "/of/an/installer"] for module in builds]
+
+
+def test_an_engine_that_cannot_be_built_is_told_with_the_reason(tmp_path):
+    (tmp_path / "failing.py").write_text("import sys; sys.exit('first\\nziglang is missing')")
+    with pytest.raises(
+        SystemExit, match=r"^cointoss-dynamics: an engine could not be built: ziglang is missing$"
+    ):
+        hooks._run(["failing"], str(tmp_path), "an engine")
+
+
 @pytest.mark.slow
 def test_a_wheel_has_every_file_under_one_name_and_no_other(wheel):
     folders = [TOP / "cointoss", *(TOP / "cointoss" / folder for folder in FOLDERS)]
@@ -84,7 +125,9 @@ def test_a_wheel_has_every_file_under_one_name_and_no_other(wheel):
         if path.is_file() and "__pycache__" not in path.parts
     }
     files = {name for name in ZipFile(wheel).namelist() if ".dist-info/" not in name}
-    engines = {f"{module.split('.')[-2]}-{SYSTEM}.so{end}" for module in MODULES for end in ("", ".json")}
+    engines = {
+        f"{module.split('.')[-2]}-{hooks.SYSTEM}.so{end}" for module in MODULES for end in ("", ".json")
+    }
     engines = {f"cointoss/models/kernel/engines/{name}" for name in engines}
     assert files == expected | engines | {f"cointoss/{BROWSER}"}
     kinds = {entry.external_attr >> 28 for entry in ZipFile(wheel).infolist()}

@@ -1,6 +1,7 @@
 """Puts the engines into a wheel, as libraries and for a browser: hatchling runs it when it builds one."""
 
 import os
+import platform
 import shutil
 import subprocess
 import sys
@@ -12,6 +13,8 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 MODULES = ("cointoss.models.entries", "cointoss.analytic.entries", "cointoss.coin_mj.entries")
 """The tables of entries, a library each."""
+ENGINE = MODULES[1]
+"""The one that a browser has, too."""
 BROWSER = "compare/web/wasm/engine.wasm"
 """The place of the engine for a browser."""
 PLATFORMS = {
@@ -22,6 +25,8 @@ PLATFORMS = {
     "win32-amd64": "win_amd64",
 }
 """The platforms in a wheel's name, by the name of the system."""
+SYSTEM = f"{sys.platform}-{platform.machine()}".lower()
+"""This system, as `cointoss.models.kernel.library` names it, which can't be imported here."""
 
 
 class Engines(BuildHookInterface[Any]):
@@ -31,7 +36,12 @@ class Engines(BuildHookInterface[Any]):
     libraries already, as `make wheels` builds them, the one for NVIDIA's cards, and the engine for a browser.
     """
 
-    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
+    def dependencies(self) -> "list[str]":
+        """Return none beside those of pyproject.toml; an installer asks for them before it builds."""
+        _system()
+        return []
+
+    def initialize(self, version: str, build_data: "dict[str, Any]") -> None:
         """Build what the wheel carries; an editable install builds its own at its first toss.
 
         Raises:
@@ -39,34 +49,9 @@ class Engines(BuildHookInterface[Any]):
         """
         if self.target_name != "wheel" or version == "editable":
             return
-        asked = os.environ.get("COINTOSS_SYSTEM")
-        if asked is not None and asked not in PLATFORMS:
-            raise SystemExit(f"COINTOSS_SYSTEM = {asked!r}: accepted: {', '.join(PLATFORMS)}")
+        system = _system()
         self._made = Path(tempfile.mkdtemp())
-        home = self._made / "cointoss"
-        shutil.copytree(
-            Path(self.root, "cointoss"), home, ignore=shutil.ignore_patterns("__pycache__"), symlinks=True
-        )
-        for part in ("models", "analytic", "coin_mj", "compare"):
-            (home / part).unlink(missing_ok=True)
-            (home / part).symlink_to(Path(self.root, part), target_is_directory=True)
-        about = self._made / f"cointoss_dynamics-{self.metadata.version}.dist-info"
-        about.mkdir()
-        (about / "METADATA").write_text(f"Name: cointoss-dynamics\nVersion: {self.metadata.version}\n")
-        named = {"PYTHONPATH": str(self._made)}
-        this = subprocess.run(
-            [sys.executable, "-c", "from cointoss.models.kernel.library import SYSTEM; print(SYSTEM)"],
-            env={**os.environ, **named},
-            capture_output=True,
-            text=True,
-            check=True,
-        ).stdout.strip()
-        system = asked or this
-        if system not in PLATFORMS:
-            raise SystemExit(
-                f"cointoss-dynamics: there is no engine for {system}; there is: {', '.join(PLATFORMS)}"
-            )
-        folder = Path(os.environ.get("COINTOSS_ENGINES") or self._built(system, named))
+        folder = Path(os.environ.get("COINTOSS_ENGINES") or self._built(system))
         libraries = [
             f"{module.split('.')[-2]}-{system}.so{end}" for module in MODULES for end in ("", ".json")
         ]
@@ -81,24 +66,64 @@ class Engines(BuildHookInterface[Any]):
         build_data["tag"] = f"py3-none-{PLATFORMS[system]}"
         build_data["pure_python"] = False
 
-    def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:  # noqa: ARG002
+    def finalize(self, version: str, build_data: "dict[str, Any]", artifact_path: str) -> None:  # noqa: ARG002
         """Remove what was made meanwhile."""
         if hasattr(self, "_made"):
             shutil.rmtree(self._made)
 
-    def _built(self, system: str, named: dict[str, str]) -> Path:
-        folder = self._made / "engines"
+    def _built(self, system: str) -> Path:
+        """Build the engines of these sources, and return their folder."""
+        home, folder = self._made / "cointoss", self._made / "engines"
         folder.mkdir()
-        browser = folder / Path(BROWSER).name
-        if Path(self.root, BROWSER).is_file():
-            shutil.copyfile(Path(self.root, BROWSER), browser)  # is kept where it is of these sources
-        build = [sys.executable, "-m", "cointoss.models.kernel.build"]
-        commands = {
-            f"the engine of {module}": [*build, module, "--out", folder, "--carried", "--system", system]
-            for module in MODULES
-        }
-        commands["engine.wasm"] = [sys.executable, "-m", "cointoss.compare.web.wasm.build", browser]
-        for what, command in commands.items():
-            if subprocess.run(command, env={**os.environ, **named}, check=False).returncode:
-                raise SystemExit(f"cointoss-dynamics: {what} could not be built for {system}")
+        shutil.copytree(
+            Path(self.root, "cointoss"), home, ignore=shutil.ignore_patterns("__pycache__"), symlinks=True
+        )
+        for part in ("models", "analytic", "coin_mj", "compare"):
+            (home / part).unlink(missing_ok=True)
+            (home / part).symlink_to(Path(self.root, part), target_is_directory=True)
+        about = self._made / f"cointoss_dynamics-{self.metadata.version}.dist-info"
+        about.mkdir()
+        (about / "METADATA").write_text(f"Name: cointoss-dynamics\nVersion: {self.metadata.version}\n")
+        # An installer may have put what builds them where its own process alone finds it.
+        paths = os.pathsep.join([str(self._made), *filter(None, sys.path)])
+        build = ["cointoss.models.kernel.build", "--out", str(folder), "--carried", "--system", system]
+        for module in MODULES:
+            more = ["--system", "wasm32"] if module == ENGINE else []
+            _run([*build, module, *more], paths, f"the engine of {module} for {system}")
+        made = [str(folder / Path(BROWSER).name), str(folder / f"{ENGINE.split('.')[-2]}-wasm32.so")]
+        _run(["cointoss.compare.web.wasm.build", *made], paths, "engine.wasm")
         return folder
+
+
+def _system() -> str:
+    """Return the name of the system that is asked for.
+
+    Raises:
+        SystemExit: where there is no engine for it, or none of what builds engines or runs them; in one line.
+    """
+    if sys.version_info < (3, 11):  # noqa: UP036, pip looks for what builds an engine first
+        raise SystemExit(f"cointoss-dynamics needs Python >= 3.11; this is {platform.python_version()}")
+    system = os.environ.get("COINTOSS_SYSTEM", SYSTEM)
+    if system not in PLATFORMS:
+        raise SystemExit(f"cointoss-dynamics has no engine for {system}; accepted: {', '.join(PLATFORMS)}")
+    if (sys.platform, system) == ("linux", SYSTEM) and platform.libc_ver()[0] != "glibc":
+        raise SystemExit("cointoss-dynamics needs glibc: MuJoCo and numba have no packages for another Linux")
+    return system
+
+
+def _run(words: "list[str]", paths: str, what: str) -> None:
+    """Run a module of Python.
+
+    Raises:
+        SystemExit: where it fails, with the last line that it says.
+    """
+    done = subprocess.run(
+        [sys.executable, "-m", *words],
+        env={**os.environ, "PYTHONPATH": paths},
+        stderr=subprocess.PIPE,
+        text=True,
+        check=False,
+    )
+    if done.returncode:
+        said = done.stderr.strip().splitlines() or [f"exit status {done.returncode}"]
+        raise SystemExit(f"cointoss-dynamics: {what} could not be built: {said[-1]}")
