@@ -24,7 +24,7 @@ PIP := $(BIN)/python -m pip install --quiet --no-compile --no-build-isolation
 
 .PHONY: report test slow check test-all installed bench docs examples pages screens paper results releasable release wheels lock lint sink emulated opengl chromium firefox engines clean
 
-report: $(READY) opengl engines $(ENGINE)
+report: $(READY) opengl engines
 	@mkdir -p out
 	@$(BIN)/cointoss lab --out out/lab.html
 	@for name in $(SCENARIOS); do $(BIN)/cointoss compare $$name --out out/$$name || exit; done
@@ -57,7 +57,7 @@ installed: $(TESTED)
 
 # The tests there run the same tosses once; only here are they timed. KEEP=1 keeps the processor times of a commit
 # in docs/benchmarks.csv, of which `make pages` draws a picture.
-bench: $(VENV)/.ready-slow $(if $(KEEP),,$(ENGINE) chromium)
+bench: $(VENV)/.ready-slow engines $(if $(KEEP),,chromium)
 	$(BIN)/pytest tests/benchmarks $(if $(KEEP),$(KEPT),tests/site/test_speed.py) \
 	  --benchmark-enable --benchmark-columns=min,median,rounds
 KEPT := -p tests.benchmarks.keeping --benchmark-timer=time.process_time --benchmark-json=/dev/null
@@ -71,7 +71,7 @@ docs: $(VENV)/.ready-docs chromium firefox engines $(MADE)/pages/explorer.html
 	@echo "The site, made and tested: out/site/index.html"
 
 # The commands and the Python of the pages, each page in an empty folder. PAGES=docs/TUTORIAL.md runs one page.
-examples: $(TESTED) opengl engines $(ENGINE)
+examples: $(TESTED) opengl engines
 	@PYTHONPATH=. $(BIN)/python docs/extensions/examples.py $(PAGES)
 
 # What docs/ has that is made of other files there: nothing is computed.
@@ -114,7 +114,7 @@ release: releasable
 # The archive of the sources, and a wheel for each system with the engines' libraries for it: out of one module of code.
 SYSTEMS := linux-x86_64 linux-aarch64 darwin-arm64 win32-amd64
 WHEEL := $(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation --wheel-dir dist
-wheels: $(VENV)/.ready-slow $(ENGINE)
+wheels: $(VENV)/.ready-slow engines
 	rm -rf dist out/engines
 	mkdir -p out/engines
 	@for module in models analytic coin_mj; do \
@@ -137,7 +137,7 @@ results: $(VENV)/.ready-docs opengl engines
 lock: $(VENV)/.ready-docs $(VENV)/.ready-lint
 	$(BIN)/python -m pip freeze --exclude-editable > constraints.txt
 
-$(MADE)/pages/explorer.html: $(READY) $(CODE) $(ENGINE) docs/conf.py $(wildcard docs/extensions/*.py) | engines
+$(MADE)/pages/explorer.html: $(READY) $(CODE) docs/conf.py $(wildcard docs/extensions/*.py) | engines
 	rm -rf $(MADE)
 	mkdir -p $(@D)
 	$(BIN)/cointoss basin fig24a --x release.angular_velocity.eta=20:60:160 --y release.position.z=0.2:0.6:120 \
@@ -150,11 +150,6 @@ $(MADE)/pages/explorer.html: $(READY) $(CODE) $(ENGINE) docs/conf.py $(wildcard 
 # libc6-arm64-cross, and wine.
 emulated: $(TESTED)
 	$(BIN)/python -m tests.helpers.emulated
-
-# Is built where the file is not of its sources, once the other engines are.
-$(ENGINE): FORCE | $(READY) engines
-	@$(BIN)/python -m cointoss.compare.web.wasm.build $@
-FORCE:
 
 lint: $(VENV)/.ready-lint
 	$(BIN)/ruff check --quiet .
@@ -209,10 +204,11 @@ firefox: | chromium
 	  || echo "Firefox could not be installed; its test of the site will fail." >&2; \
 	fi
 
-# The libraries of the engines are built once for the sources that lie here, side by side.
+# The libraries of the engines are built once for the sources that lie here, side by side; the analytic engine for a
+# browser is made with its own.
 engines: $(READY)
 	@$(BIN)/python -m cointoss.models.kernel.building cointoss.coin_mj.entries cointoss.models.entries & \
-	$(BIN)/python -m cointoss.models.kernel.building cointoss.analytic.entries && wait $$!
+	$(BIN)/python -m cointoss.compare.web.wasm.build $(ENGINE) && wait $$!
 
 clean:
 	rm -rf $(VENV) out dist $(ENGINE) .pytest_cache .ruff_cache .hypothesis .import_linter_cache

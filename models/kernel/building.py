@@ -25,7 +25,7 @@ UNUSED = 3 * 24 * 3600.0
 """Libraries that were not used for so long are removed when another is built [s]."""
 REFUSED = 2
 """Exit status of a build that says in one line why it can't be."""
-EVERY = 10.0
+EVERY = 60.0
 """The line is written again so often, with the time so far [s]."""
 
 
@@ -66,7 +66,7 @@ def _build(module: str, name: str, folder: Path, systems: Sequence[str]) -> None
     if missing := [each for each in NEEDED if find_spec(each) is None]:
         raise EngineMissingError(
             f"no {name} engine for {' and '.join(systems)}, and no {', '.join(missing)} to build it; "
-            "accepted: a wheel for this system, or pip install --group dev in a checkout"
+            "accepted: a wheel for this system, or pip install --group build in a checkout"
         )
     command = [
         sys.executable,

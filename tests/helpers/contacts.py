@@ -2,11 +2,20 @@
 
 import numpy as np
 
-from cointoss.analytic.contact.automaton import Event, Mode, contact_at, margin_event, mode_after, project
-from cointoss.analytic.contact.contact import SustainedContact
+from cointoss.analytic.contact.automaton import (
+    Event,
+    Mode,
+    contact_at,
+    flow,
+    margin_event,
+    mode_after,
+    project,
+)
+from cointoss.analytic.contact.contact import SustainedContact, lower_rim_of
 from cointoss.analytic.contact.integrator import ContactStep, contact_work, step_contact
 from cointoss.analytic.contact.resets import stop_slip, tip_over
 from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.analytic.contact.rim_contact import rim_contact
 from cointoss.analytic.flight.state_vector import state_of
 from cointoss.analytic.numerics.tolerances import STEP_ERROR
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
@@ -28,6 +37,16 @@ def held(body: Body, friction: FloorFriction, mode: int, y: Array) -> SustainedC
 def put_on_floor(body: Body, friction: FloorFriction, mode: int, y: Array) -> None:
     """Project y onto the floor, as its mode allows; see `cointoss.analytic.contact.automaton.project`."""
     project(held(body, friction, mode, y), y)
+
+
+def assert_lowest_point_stays(body: Body, friction: FloorFriction, mode: int, y: Array) -> None:
+    """Check that D v_A/dt = 0, by differences, where the coin sticks; else its vertical part."""
+    rim, dy, dt = lower_rim_of(y), np.empty(13), 1e-6
+    flow(held(body, friction, mode, y), y, dy)
+    after, before = (np.array(rim_contact(body, y + side * dt * dy, rim).velocity) for side in (1, -1))
+    part = slice(None) if mode == Mode.STICKING else slice(2, 3)
+    change = ((after - before) / (2 * dt))[part]
+    assert np.abs(change).max() <= 1e-6 * float(np.linalg.norm(dy))
 
 
 def end_mode(body: Body, friction: FloorFriction, mode: int, y: Array) -> Event:

@@ -89,4 +89,4 @@ def _tools() -> Path:
         for folder in sorted(Path(place).glob("cu*/bin"), reverse=True):
             if (folder / "ptxas").is_file():
                 return folder
-    raise RuntimeError("ptxas is missing, which assembles it: pip install --group dev")
+    raise RuntimeError("ptxas is missing, which assembles it: pip install --group slow")

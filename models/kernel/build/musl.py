@@ -120,7 +120,7 @@ def musl_code() -> bytes:
     """
     found = find_spec("ziglang")
     if found is None or found.origin is None:
-        raise RuntimeError("ziglang is missing, which has musl's sources: pip install --group dev")
+        raise RuntimeError("ziglang is missing, which has musl's sources: pip install --group build")
     musl = Path(found.origin).parent / "lib" / "libc" / "musl"
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "first.h").write_text(_FIRST, encoding="utf-8")
