@@ -1,5 +1,8 @@
 """Functions that take long are named; far too long ones fail the run where the machine is idle."""
 
+from types import SimpleNamespace
+
+from tests.conftest import pytest_collection_modifyitems
 from tests.helpers.command_line import python
 from tests.helpers.durations import is_busy
 
@@ -46,5 +49,21 @@ def test_what_takes_long_is_named_and_fails_an_idle_machines_run(tmp_path):
 
 
 def test_a_machine_is_busy_where_more_runs_than_it_has_cores_and_the_run_has_workers():
-    assert [is_busy(load, 4, 2) for load in (2.0, 3.9, 4.0)] == [False, False, True]
-    assert [is_busy(load, 2, 2) for load in (2.5, 3.0)] == [False, True]
+    loads = {2: (2.5, 3.0), 4: (2.5, 3.9, 4.0)}
+    assert [(load, n) for n, some in loads.items() for load in some if is_busy(load, n, 2)] == [
+        (3, 2),
+        (4, 4),
+    ]
+
+
+def test_cases_after_the_first_are_slow_but_long_ones():
+    """Of the functions a, which is plain, and b, which is `slow_after_first`."""
+    marked, later = [], "slow_after_first"
+    cases = [
+        SimpleNamespace(
+            function=name[0], keywords=words, add_marker=lambda _, name=name: marked.append(name)
+        )
+        for name, words in (("a1", {}), ("a2", {}), ("b1", {later}), ("b2", {later, "long"}), ("b3", {later}))
+    ]
+    pytest_collection_modifyitems(cases)
+    assert marked == ["b3"]

@@ -22,8 +22,11 @@ register("numba:compile", _compiling)
 
 def too_long(times: Mapping[str, float], least: float) -> list[str]:
     """Return a line for each function that takes at least so long [s], the dearest first."""
-    dearest = sorted(times.items(), key=lambda each: -each[1])
-    return [f"{seconds:6.1f} s {function}" for function, seconds in dearest if seconds >= least]
+    return [
+        f"{seconds:6.1f} s {function}"
+        for function, seconds in sorted(times.items(), key=lambda each: -each[1])
+        if seconds >= least
+    ]
 
 
 def is_busy(load: float, cores: int, workers: int) -> bool:
