@@ -35,7 +35,6 @@ def force_of_the_air(case, data):
     return np.array([*(R @ f), *m])
 
 
-@pytest.mark.slow_after_first
 @pytest.mark.parametrize("center", [PAPER_OFFSET, [0, 0, 0]], ids=["imperfect", "balanced"])
 @pytest.mark.parametrize("air", AIRS.values(), ids=AIRS.keys())
 def test_forces_and_accelerations_of_flight_are_those_of_mj_forward(center, air):
