@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from cointoss.models.kernel.base_folder import write_whole
 from cointoss.models.kernel.digests import ENGINES, HOME, digest_of
-from cointoss.models.kernel.library import AVX2, BROWSER, CUDA, MANIFEST, SUFFIX, SYSTEM, Entry, Made
+from cointoss.models.kernel.library import AVX2, BROWSER, CUDA, MANIFEST, RELEASE, SUFFIX, SYSTEM, Entry, Made
 
 if TYPE_CHECKING:
     from cointoss.models.kernel.build.linking import System
@@ -88,7 +88,7 @@ def _linked(code: bytes, symbols: Sequence[str], system: "System", folder: Path,
     codes, shown = [], list(system.shown)
     for end, target in kinds.items():
         new = {symbol: symbol + end for symbol in symbols}
-        again = {symbol: symbol + end for symbol in system.shown} if codes else {}
+        again = {RELEASE: RELEASE + end} if codes else {}
         codes.append(lowering.object_code(code, target, new | again))
         shown += new.values()
     return linking.link(codes, shown, system, folder)

@@ -55,6 +55,22 @@ int has_avx2(void)
 }
 """
 """Whether processor and system have vectors of four numbers."""
+_FLOOR = """
+double floor(double x)
+{
+    const double whole = 0x1p52, size = x < 0 ? -x : x;
+    if (!(size < whole) || x == 0) return x;
+    double near = x < 0 ? x - whole + whole : x + whole - whole;
+    if (near > x) near -= 1;
+    return near == 0 ? 0 : near;
+}
+"""
+"""What LLVM calls on plain x86-64, which has no instruction for it."""
+_C_LIBRARY = """
+void malloc(void) {} void free(void) {} void memcpy(void) {} void memset(void) {} void memmove(void) {}
+void __tls_get_addr(void) {}
+"""
+"""Stands in for the C library of any Linux: all that is called of it, without a version."""
 
 
 def link(codes: Sequence[bytes], shown: Sequence[str], system: System, folder: Path) -> bytes:
@@ -72,17 +88,17 @@ def link(codes: Sequence[bytes], shown: Sequence[str], system: System, folder: P
     files = [folder / f"{number}.o" for number in range(len(codes))]
     for file, code in zip(files, codes, strict=True):
         file.write_bytes(code)
+    made, script, library = folder / "made", folder / "shown.map", folder / "c_library.so"
+    is_linux = "linux" in system.triple
     if HAS_AVX2 in shown:
-        source, file = folder / "has_avx2.c", folder / "has_avx2.o"
-        source.write_text(_HAS_AVX2)
-        run_zig("cc", "-target", system.zig, "-O2", "-g0", "-c", source, "-o", file)
-        files.append(file)
-    made, script = folder / "made", folder / "shown.map"
-    names = " ".join(f'"{name}";' for name in shown)
-    script.write_text(f"{{ global: {names} local: *; }};\n")
-    if "linux" in system.triple:
-        # What it calls of a C library is there in any process that loads it.
-        run_zig("ld.lld", "-shared", "--strip-all", f"--version-script={script}", *files, "-o", made)
+        files.append(_compiled(_HAS_AVX2 + _FLOOR * is_linux, system, folder / "has_avx2.o"))
+    if is_linux:
+        names = " ".join(f'"{name}";' for name in shown)
+        script.write_text(f"{{ global: {names} local: *; }};\n")
+        c_library = _compiled(_C_LIBRARY, system, folder / "c_library.o")
+        run_zig("ld.lld", "-shared", "-soname=libc.so.6", c_library, "-o", library)
+        options = ["-shared", "-z", "defs", "--strip-all", f"--version-script={script}"]
+        run_zig("ld.lld", *options, *files, library, "-o", made)
     elif system.triple.startswith("wasm32"):
         exported = [f"--export={name}" for name in shown]
         options = ["--no-entry", "--stack-first", "-z", f"stack-size={STACK}", "--strip-all"]
@@ -90,3 +106,11 @@ def link(codes: Sequence[bytes], shown: Sequence[str], system: System, folder: P
     else:
         run_zig("cc", "-target", system.zig, "-shared", "-O2", "-s", *files, "-o", made)
     return made.read_bytes()
+
+
+def _compiled(source: str, system: System, file: Path) -> Path:
+    """Return the object file of a source in C."""
+    file.with_suffix(".c").write_text(source)
+    options = ("-O2", "-g0", "-fPIC", "-ffreestanding", "-ffp-contract=off", "-w", "-c")
+    run_zig("cc", "-target", system.zig, *options, file.with_suffix(".c"), "-o", file)
+    return file
