@@ -13,8 +13,6 @@ from cointoss.compare.web.wasm.carried import engine_bytes, made_of, sources
 from cointoss.models.answers import ANSWER, REFUSED
 from cointoss.models.faults import Fault
 from cointoss.models.fields import FIELDS
-from cointoss.models.kernel import building as engines
-from cointoss.models.kernel.library import SYSTEM
 from cointoss.models.records import Outcome
 from cointoss.models.rows import EXAMINED, foreign_number, row_of
 from tests.helpers.draws import scenario
@@ -40,15 +38,6 @@ def test_numbers_are_written_seven_bits_a_byte():
 def test_one_file_is_named(arguments, capsys):
     assert main(arguments) == 2
     assert capsys.readouterr().err == "usage: python -m cointoss.compare.web.wasm.build FILE [LIBRARY]\n"
-
-
-def test_without_what_makes_it_it_says_what_to_install(monkeypatch, capsys, tmp_path):
-    monkeypatch.setattr(building, "base_folder", lambda: tmp_path)
-    monkeypatch.setattr(engines, "find_spec", lambda _: None)
-    assert main([str(tmp_path / "engine.wasm")]) == 2
-    said = f"no analytic engine for {SYSTEM} and wasm32, and no numba, llvmlite, ziglang to build it; "
-    assert capsys.readouterr().err.startswith(f"engine.wasm: {said}accepted: ")
-    assert [path.name for path in tmp_path.iterdir()] == ["engines"]
 
 
 def test_the_library_of_the_engine_is_the_beginning_of_the_file(tmp_path):
