@@ -60,9 +60,7 @@ def test_cases_after_the_first_are_slow_but_long_ones():
     """Of the functions a, which is plain, and b, which is `slow_after_first`."""
     marked, later = [], "slow_after_first"
     cases = [
-        SimpleNamespace(
-            function=name[0], keywords=words, add_marker=lambda _, name=name: marked.append(name)
-        )
+        SimpleNamespace(function=name[0], keywords=words, add_marker=lambda _, name=name: marked.append(name))
         for name, words in (("a1", {}), ("a2", {}), ("b1", {later}), ("b2", {later, "long"}), ("b3", {later}))
     ]
     pytest_collection_modifyitems(cases)
