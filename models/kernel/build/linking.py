@@ -55,7 +55,7 @@ int has_avx2(void)
 }
 """
 """Whether processor and system have vectors of four numbers."""
-_FLOOR = """
+_ROUNDED = """
 double floor(double x)
 {
     const double whole = 0x1p52, size = x < 0 ? -x : x;
@@ -64,8 +64,11 @@ double floor(double x)
     if (near > x) near -= 1;
     return near == 0 ? 0 : near;
 }
+
+double ceil(double x) { return -floor(-x); }
+double trunc(double x) { return x < 0 ? ceil(x) : floor(x); }
 """
-"""What LLVM calls on plain x86-64, which has no instruction for it."""
+"""What LLVM calls on plain x86-64, which has no instructions for it."""
 _C_LIBRARY = """
 void malloc(void) {} void free(void) {} void memcpy(void) {} void memset(void) {} void memmove(void) {}
 void __tls_get_addr(void) {}
@@ -91,7 +94,7 @@ def link(codes: Sequence[bytes], shown: Sequence[str], system: System, folder: P
     made, script, library = folder / "made", folder / "shown.map", folder / "c_library.so"
     is_linux = "linux" in system.triple
     if HAS_AVX2 in shown:
-        files.append(_compiled(_HAS_AVX2 + _FLOOR * is_linux, system, folder / "has_avx2.o"))
+        files.append(_compiled(_HAS_AVX2 + _ROUNDED * is_linux, system, folder / "has_avx2.o"))
     if is_linux:
         names = " ".join(f'"{name}";' for name in shown)
         script.write_text(f"{{ global: {names} local: *; }};\n")

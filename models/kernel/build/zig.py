@@ -15,4 +15,5 @@ def run_zig(*words: str | Path) -> None:
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         lines = done.stderr.strip().splitlines() or ["it says nothing"]
-        raise RuntimeError(f"ziglang's {words[0]} failed: {lines[-1]}")
+        told = next((line for line in lines if "error: " in line), lines[-1])
+        raise RuntimeError(f"ziglang's {words[0]} failed: {told}")
