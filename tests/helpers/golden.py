@@ -9,9 +9,9 @@ left out; a line after : is a remark.
 
 import json
 import math
-import os
 import re
 import shlex
+from contextlib import chdir
 from functools import partial
 from html import unescape
 from pathlib import Path
@@ -64,15 +64,11 @@ def replayed(transcript: str) -> str:
     names: dict[str, Any] = {}
     answers = {"$": answer, ">>>": partial(value, names=names), ":": lambda _: ""}
     lines = [line for line in transcript.splitlines() if line.startswith(("$ ", ": ", ">>> "))]
-    here = Path.cwd()
     with TemporaryDirectory() as folder:
         for file in FILES.iterdir():
             copy(file, folder)
-        os.chdir(folder)
-        try:
+        with chdir(folder):
             told = [answers[line.split()[0]](line.partition(" ")[2]) for line in lines]
-        finally:
-            os.chdir(here)
     pairs = zip(lines, told, strict=True)
     return VERSION.sub("…", "".join(f"{line}\n{one}\n" if one else f"{line}\n" for line, one in pairs))
 
