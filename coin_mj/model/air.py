@@ -144,8 +144,9 @@ def _friction_on_wall(motion: ScaledMotion) -> Sums:
     still_B = math.acos(min(max(v[2] / W, -1.0), 1.0)) if W > 0 else 0.0
     still_C = math.acos(min(max(w[2] / V, -1.0), 1.0)) if V > 0 else 0.0
     starts = np.array((middle_B - still_B, middle_B + still_B, middle_C - still_C, middle_C + still_C))
-    for i in range(4):
-        start, place = starts[i] % (2 * math.pi), i
+    turn = 2 * math.pi
+    for i in range(4):  # no remainder, for which LLVM asks the C library
+        start, place = starts[i] + turn * ((starts[i] < 0) - (starts[i] >= turn)), i
         while place > 0 and starts[place - 1] > start:
             starts[place] = starts[place - 1]
             place -= 1
@@ -153,8 +154,8 @@ def _friction_on_wall(motion: ScaledMotion) -> Sums:
     total = _NOTHING
     for i in range(4):
         start = starts[i]
-        before = starts[i - 1] if i > 0 else starts[3] - 2 * math.pi
-        after = starts[i + 1] if i < 3 else starts[0] + 2 * math.pi
+        before = starts[i - 1] if i > 0 else starts[3] - turn
+        after = starts[i + 1] if i < 3 else starts[0] + turn
         B, C, D = _velocities_of_wall(motion, math.sin(start), math.cos(start))
         layer = math.hypot(math.hypot(B, C), D * motion.half) / math.hypot(V, W) if V + W > 0 else 0.0
         for end in ((start + before) / 2, (start + after) / 2):
