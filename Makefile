@@ -32,16 +32,16 @@ report: $(READY) opengl engines
 	@echo "Next: $(BIN)/cointoss toss table tosses a coin, and make test runs the tests."
 
 # A worker that crashes ends the run: with another in its place a run was seen never to end.
-PYTEST := $(BIN)/pytest -n 2 --dist loadfile --max-worker-restart 0
+PYTEST := $(BIN)/python -m pytest -n 2 --dist loadfile --max-worker-restart 0
 
 test: $(TESTED) opengl chromium engines
 	$(BIN)/ruff check --quiet .
 	$(BIN)/ruff format --quiet --check .
 	$(PYTEST)
 
-# The tests that take longer: their further cases, and larger ones.
+# The tests that take longer: their further cases, and larger ones. A file's may take minutes, so that workers share them.
 slow: $(VENV)/.ready-slow opengl chromium engines
-	$(PYTEST) -m slow
+	$(PYTEST) -m slow --dist worksteal
 
 # Lint, and the tests of the mechanics.
 check: lint engines
