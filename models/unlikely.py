@@ -84,10 +84,9 @@ def unlikely_units(
 def _larger_than_a_body_has(coin: Coin) -> str | None:
     """Return a line about a moment of inertia larger than with all mass at the coin's edge, or None."""
     J = inertia_about_mass_center(coin.moments, -coin.mass, coin.center_of_mass)  # about B
-    square = coin.radius * coin.radius
     most = {
-        "a diameter": (largest_across(J), coin.mass * (square + coin.thickness * coin.thickness / 4)),
-        "the axis": (J[2][2], coin.mass * square),
+        "a diameter": (largest_across(J), coin.mass * (coin.radius**2 + coin.thickness**2 / 4)),
+        "the axis": (J[2][2], coin.mass * coin.radius**2),
     }
     for axis, (moment, bound) in most.items():
         if moment > bound * _ROUNDED:

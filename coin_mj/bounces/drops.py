@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 
 from cointoss.coin_mj.bounces.bodies import BALL, FlatBody
-from cointoss.coin_mj.bounces.contact import HARDEST, ContactSettings
+from cointoss.coin_mj.bounces.contact import ContactSettings
 from cointoss.coin_mj.bounces.unlogged import unlogged
 from cointoss.models.records import Array
 
@@ -50,14 +50,6 @@ def drops_of(contact: ContactSettings, body: FlatBody = BALL, gravity: float = 0
         found = [_drop(contact, body, gravity, (number + 0.5) / PHASES) for number in range(PHASES)]
     restitutions, durations, depths = (np.array(column) for column in zip(*found, strict=True))
     return Drops(restitutions, durations, float(depths.max()))
-
-
-def restitutions_of_a_ball(
-    solref: tuple[float, float], dt: float, integrator: str, solimp: str = HARDEST
-) -> Array:
-    """Return the restitutions of a ball at the `PHASES` of its touch, as `drops_of` does, (`PHASES`,)."""
-    contact = ContactSettings(solref=solref, timestep=dt, integrator=integrator, solimp=solimp)
-    return drops_of(contact).restitutions
 
 
 def _drop(

@@ -6,18 +6,7 @@ from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.fitting.flips import MOST_FLIPS, Flips
 from cointoss.compare.fitting.flips_table import PAIRS, key_of
 from cointoss.compare.fitting.observed import Observed
-from cointoss.compare.fitting.table import read_seen
 from cointoss.models.unused import UnusedFieldWarning
-
-
-@pytest.fixture
-def read(tmp_path):
-    def read_text(text: str, sd=None):
-        path = tmp_path / "counts.csv"
-        path.write_text(text, encoding="utf-8")
-        return read_seen(path, sd)
-
-    return read_text
 
 
 @pytest.mark.parametrize(
@@ -98,7 +87,7 @@ def test_sides_are_read_in_any_spelling():
     ],
 )
 def test_what_no_counts_are_is_refused(read, text, message):
-    with pytest.raises(ObservationError, match=r"^\S*counts.csv: ") as refused:
+    with pytest.raises(ObservationError, match=r"^\S*seen.csv: ") as refused:
         read(text)
     assert message in str(refused.value)
     assert "\n" not in str(refused.value)

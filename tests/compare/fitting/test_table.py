@@ -14,16 +14,6 @@ from cointoss.models.unused import UnusedFieldWarning
 SD = {"time": 0.001, "height": 0.002, "attitude": 0.03}
 
 
-@pytest.fixture
-def read(tmp_path):
-    def read_text(text: str, sd=SD):
-        path = tmp_path / "seen.csv"
-        path.write_text(text, encoding="utf-8")
-        return read_seen(path, sd)
-
-    return read_text
-
-
 @pytest.mark.parametrize(
     "text",
     [

@@ -60,11 +60,6 @@ def test_trust_is_that_of_toss_and_by_the_analytic_engine():
         toss_many(CASE, GRID, engine="mujoco", trust="impacts")
 
 
-def test_answers_do_not_depend_on_the_workers():
-    one, three = (toss_many(CASE, {"spin": "20:60:300"}, workers=workers) for workers in (1, 3))
-    assert one.identical(three)
-
-
 def test_what_is_no_scenario_is_refused_or_kept():
     vary = {"restitution": [0.5, 1.5, 0.6], "height": 0.3}
     with pytest.raises(cointoss.ScenarioError, match=r"floor\.restitution = 1\.5.*at toss 1"):
