@@ -18,7 +18,7 @@ class System(NamedTuple):
     triple: str
     """The system's name in LLVM."""
     zig: str
-    """The system's name in ziglang, with the oldest system that the library needs."""
+    """The system's name in ziglang, with the oldest C library or system that the library needs."""
 
     @property
     def shown(self) -> tuple[str, ...]:
@@ -35,8 +35,8 @@ class System(NamedTuple):
 
 
 SYSTEMS = {
-    "linux-x86_64": System("x86_64-unknown-linux-gnu", "x86_64-linux-gnu"),
-    "linux-aarch64": System("aarch64-unknown-linux-gnu", "aarch64-linux-gnu"),
+    "linux-x86_64": System("x86_64-unknown-linux-gnu", "x86_64-linux-gnu.2.17"),
+    "linux-aarch64": System("aarch64-unknown-linux-gnu", "aarch64-linux-gnu.2.17"),
     "darwin-arm64": System("arm64-apple-macosx11.0.0", "aarch64-macos.11.0"),
     "darwin-x86_64": System("x86_64-apple-macosx10.15.0", "x86_64-macos.10.15"),
     "win32-amd64": System("x86_64-pc-windows-gnu", "x86_64-windows-gnu"),
@@ -55,25 +55,6 @@ int has_avx2(void)
 }
 """
 """Whether processor and system have vectors of four numbers."""
-_ROUNDED = """
-double floor(double x)
-{
-    const double whole = 0x1p52, size = x < 0 ? -x : x;
-    if (!(size < whole) || x == 0) return x;
-    double near = x < 0 ? x - whole + whole : x + whole - whole;
-    if (near > x) near -= 1;
-    return near == 0 ? 0 : near;
-}
-
-double ceil(double x) { return -floor(-x); }
-double trunc(double x) { return x < 0 ? ceil(x) : floor(x); }
-"""
-"""What LLVM calls on plain x86-64, which has no instructions for it."""
-_C_LIBRARY = """
-void malloc(void) {} void free(void) {} void memcpy(void) {} void memset(void) {} void memmove(void) {}
-void __tls_get_addr(void) {}
-"""
-"""Stands in for the C library of any Linux: all that is called of it, without a version."""
 
 
 def link(codes: Sequence[bytes], shown: Sequence[str], system: System, folder: Path) -> bytes:
@@ -91,29 +72,19 @@ def link(codes: Sequence[bytes], shown: Sequence[str], system: System, folder: P
     files = [folder / f"{number}.o" for number in range(len(codes))]
     for file, code in zip(files, codes, strict=True):
         file.write_bytes(code)
-    made, script, library = folder / "made", folder / "shown.map", folder / "c_library.so"
-    is_linux = "linux" in system.triple
-    if HAS_AVX2 in shown:
-        files.append(_compiled(_HAS_AVX2 + _ROUNDED * is_linux, system, folder / "has_avx2.o"))
-    if is_linux:
-        names = " ".join(f'"{name}";' for name in shown)
-        script.write_text(f"{{ global: {names} local: *; }};\n")
-        c_library = _compiled(_C_LIBRARY, system, folder / "c_library.o")
-        run_zig("ld.lld", "-shared", "-soname=libc.so.6", c_library, "-o", library)
-        options = ["-shared", "-z", "defs", "--strip-all", f"--version-script={script}"]
-        run_zig("ld.lld", *options, *files, library, "-o", made)
-    elif system.triple.startswith("wasm32"):
+    made, options = folder / "made", ["-target", system.zig, "-shared", "-O2", "-s"]
+    if system.triple.startswith("wasm32"):
         exported = [f"--export={name}" for name in shown]
         options = ["--no-entry", "--stack-first", "-z", f"stack-size={STACK}", "--strip-all"]
         run_zig("wasm-ld", *options, *exported, *files, "-o", made)
-    else:
-        run_zig("cc", "-target", system.zig, "-shared", "-O2", "-s", *files, "-o", made)
+        return made.read_bytes()
+    if HAS_AVX2 in shown:
+        files.append(folder / "has_avx2.c")
+        files[-1].write_text(_HAS_AVX2)
+    if "linux" in system.triple:
+        script = folder / "shown.map"
+        names = " ".join(f'"{name}";' for name in shown)
+        script.write_text(f"{{ global: {names} local: *; }};\n")
+        options.append(f"-Wl,--version-script={script}")
+    run_zig("cc", *options, *files, "-o", made)
     return made.read_bytes()
-
-
-def _compiled(source: str, system: System, file: Path) -> Path:
-    """Return the object file of a source in C."""
-    file.with_suffix(".c").write_text(source)
-    options = ("-O2", "-g0", "-fPIC", "-ffreestanding", "-ffp-contract=off", "-w", "-c")
-    run_zig("cc", "-target", system.zig, *options, file.with_suffix(".c"), "-o", file)
-    return file

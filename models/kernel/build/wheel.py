@@ -1,5 +1,6 @@
 """Puts the engines into a wheel, as libraries and for a browser: hatchling runs it when it builds one."""
 
+import atexit
 import os
 import platform
 import shutil
@@ -51,6 +52,7 @@ class Engines(BuildHookInterface[Any]):
             return
         system = _system()
         self._made = Path(tempfile.mkdtemp())
+        atexit.register(shutil.rmtree, self._made)
         folder = Path(os.environ.get("COINTOSS_ENGINES") or self._built(system))
         libraries = [
             f"{module.split('.')[-2]}-{system}.so{end}" for module in MODULES for end in ("", ".json")
@@ -65,11 +67,6 @@ class Engines(BuildHookInterface[Any]):
                 build_data["force_include"][str(file)] = f"cointoss/models/kernel/engines/{file.name}"
         build_data["tag"] = f"py3-none-{PLATFORMS[system]}"
         build_data["pure_python"] = False
-
-    def finalize(self, version: str, build_data: "dict[str, Any]", artifact_path: str) -> None:  # noqa: ARG002
-        """Remove what was made meanwhile."""
-        if hasattr(self, "_made"):
-            shutil.rmtree(self._made)
 
     def _built(self, system: str) -> Path:
         """Build the engines of these sources, and return their folder."""

@@ -6,6 +6,7 @@ import os
 import shutil
 import signal
 import sys
+import time
 from pathlib import Path
 from typing import Any
 
@@ -159,12 +160,21 @@ def test_processes_that_start_at_once_build_it_once(tmp_path):
     with started("-c", program, env=environment) as one, started("-c", program, env=environment) as other:
         (out_1, said_1), (out_2, said_2) = (process.communicate() for process in (one, other))
     assert out_1 == out_2 == f"{math.sin(1.0)!r}\n"
-    told = {line.partition(":")[2].rpartition(":")[0] for line in (said_1 + said_2).splitlines()}
+    told = {line.split(":")[1] for line in (said_1 + said_2).splitlines()}
     assert told == {
         " building the small engine, once",
         " waiting for another process, which builds the small engine",
     }
     assert len([*(tmp_path / "engines").glob(f"*{MANIFEST}")]) == 1
+
+
+def test_a_line_says_what_is_done_now_and_at_the_end_the_time(monkeypatch, capsys):
+    monkeypatch.setattr(building, "EVERY", 0.01)
+    with building.told("building", time.monotonic()) as parts:
+        parts[:] = ["lowering function 7"]
+        time.sleep(0.2)
+    *_, before, last = capsys.readouterr().err.splitlines()
+    assert (before, last) == ("cointoss: building: lowering function 7: 0 s", "cointoss: building: 0 s")
 
 
 def left_by_an_interrupted_build(cache):
