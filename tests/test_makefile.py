@@ -71,14 +71,6 @@ esac
     assert (f"make release: {says}" if says else "") in done.stderr
 
 
-def test_what_is_told_to_be_quiet_is_told_of():
-    recipes = [line for line in MAKEFILE.read_text().splitlines() if line.startswith("\t")]
-    quiets = re.compile(r"\$\((PIP|WHEEL)\)|pip install|sphinx-build -q|apt-get inst")
-    quiet = [line for line in recipes if quiets.search(line)]
-    assert len(quiet) == 7
-    assert all("$(STEP)" in line for line in quiet)
-
-
 def test_the_container_makes_all_results_and_pages_by_targets_that_there_are():
     container = (MAKEFILE.parent / "Containerfile").read_text(encoding="utf-8")
     (asked,) = re.findall(r"^RUN make (.*)$", container, flags=re.MULTILINE)

@@ -69,14 +69,6 @@ def test_what_no_card_tosses_is_refused_by_name(monkeypatch):
     assert not card.given
 
 
-def test_mujoco_takes_auto_for_the_cpu(monkeypatch):
-    card, rows = with_card(monkeypatch), rows_of(scenario(), 1)
-    processor = Processor("auto")
-    processor.expect(LEAST_TOSSES)
-    assert same(coin_mj.toss_rows(rows, device=processor), coin_mj.toss_rows(rows))
-    assert not card.given
-
-
 def test_a_law_of_ones_own_is_tossed_by_the_cpu(monkeypatch):
     card, law, rows, processor = with_card(monkeypatch), analytic.OwnLaw(smooth), rows_in(), Processor("auto")
     with pytest.raises(UnsupportedError, match=r"^law: given, accepted: none with `device` cuda;"):

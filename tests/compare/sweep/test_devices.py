@@ -56,17 +56,6 @@ def test_a_batch_on_a_card_is_that_of_the_cpu(monkeypatch, tmp_path, device):
     assert kept.attrs["device"] == ("Stand-in" if device == "cuda" else "cpu")
 
 
-def test_a_map_on_a_card_is_that_of_the_cpu(monkeypatch):
-    axes: dict[str, Any] = {"x": "spin=20:60:10", "y": "height=0.2:0.6:6"}
-    more: dict[str, Any]
-    for more in ({"after": 1}, {"margin": "height"}, {"trust": True}):
-        card = with_card(monkeypatch)
-        found, due = (cointoss.basin(CASE, **axes, **more, device=one) for one in ("cuda", "cpu"))
-        assert_same_tosses(found, due)
-        assert found.attrs["device"] == "Stand-in"
-        assert len(card.given) > (5 if "margin" in more else 0)
-
-
 def test_auto_is_the_cpu_for_few_tosses_by_mujoco_and_without_a_card(monkeypatch):
     card = with_card(monkeypatch)
     assert LEAST_TOSSES > 30
