@@ -172,7 +172,7 @@ def test_a_system_without_a_library_says_so_in_a_line(installed, foreign):
     )
     done = run(installed, foreign, "-c", program)
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.endswith(f"no analytic engine for plan9-mips; there is: {SYSTEM}\n")
+    assert done.stderr.endswith(f"no models engine for plan9-mips; there is: {SYSTEM}\n")
     assert len(done.stderr.splitlines()) == 1
 
 

@@ -141,12 +141,13 @@ def symbols_of(table: object, *systems: str) -> list[str]:
 
 
 def read_sources() -> Iterator[str]:
-    """Yield the paths of the project's files that this process has imported, in the project's folder."""
+    """Yield the paths of the engines' files that this process has imported, in the project's folder."""
     yield "models/kernel/build/__main__.py"
     for name, module in sorted(sys.modules.items()):
         file = getattr(module, "__file__", None)
-        if file and name.startswith("cointoss."):
-            path = Path(*name.split(".")[1:])
+        home, *parts = name.split(".")
+        if file and home == "cointoss" and parts and parts[0] in ENGINES:
+            path = Path(*parts)
             yield (
                 path / "__init__.py" if hasattr(module, "__path__") else path.with_suffix(".py")
             ).as_posix()
