@@ -34,6 +34,14 @@ def test_marked():
 
 def test_child():
     subprocess.run([sys.executable, "-c", BUSY])
+
+@pytest.fixture(scope="module", autouse=True)
+def what_all_share():
+    yield
+    busy(0.35)
+
+def test_last():
+    pass
 """
 
 
@@ -44,7 +52,7 @@ def test_what_takes_long_is_named_and_fails_an_idle_machines_run(tmp_path):
     assert [line.split()[-1] for line in run.stdout.splitlines() if " s test_long.py" in line] == [
         "test_long.py::test_child", "test_long.py::test_both_cases"
     ]  # fmt: skip
-    assert "4 passed" in run.stdout
+    assert "5 passed" in run.stdout
     assert run.returncode == 1
 
 
