@@ -20,7 +20,7 @@ MAKEFLAGS += $(if $(filter 0,$(MAKELEVEL)),--jobs=2)
 # A step whose own words are shown only where it fails: one line with its time.
 STEP := .ci/step
 APT := $(STEP) "apt: installing what is missing" sh -c 'apt-get update && apt-get install -y --no-install-recommends "$$@"' apt
-PIP := $(BIN)/python -m pip install --quiet --no-compile --no-build-isolation
+PIP := $(BIN)/python -m pip install --quiet --no-compile
 
 .PHONY: report test slow check test-all installed bench docs examples pages screens paper results releasable release wheels lock lint sink emulated opengl chromium firefox engines clean
 
@@ -167,7 +167,7 @@ $(READY): pyproject.toml
 	@$(STEP) "making $(VENV)" $(PYTHON) -m venv $(VENV)
 	@$(STEP) "pip: updating itself" $(BIN)/python -m pip install --quiet --no-compile "pip>=25.1"
 	@$(STEP) "pip: installing what builds cointoss" $(PIP) --group build
-	@$(STEP) "pip: installing cointoss and what it needs" $(PIP) --editable .
+	@$(STEP) "pip: installing cointoss and what it needs" $(PIP) --no-build-isolation --editable .
 	@touch $@
 
 # What pyproject.toml lists as groups, each where it is needed. The studies are installed with the tests, which are theirs
@@ -176,7 +176,7 @@ $(TESTED): $(READY) reproduction/pyproject.toml
 $(VENV)/.ready-slow $(VENV)/.ready-docs: $(TESTED)
 $(VENV)/.ready-lint: $(VENV)/.ready-slow
 $(VENV)/.ready-test $(VENV)/.ready-slow $(VENV)/.ready-lint $(VENV)/.ready-docs: $(VENV)/.ready-%:
-	@$(STEP) "pip: installing what make $* needs" $(PIP) --group $* $(if $(filter test,$*),--editable reproduction)
+	@$(STEP) "pip: installing what make $* needs" $(PIP) --group $* $(if $(filter test,$*),--no-build-isolation --editable reproduction)
 	@touch $@
 
 # MuJoCo draws without a screen through EGL. Debian's packages are installed where that is allowed; elsewhere
