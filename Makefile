@@ -14,8 +14,9 @@ CODE := $(shell find analytic coin_mj models compare cointoss -type f -not -path
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
 # Tests start hundreds of processes, each of which would compile all modules to bytecode.
 unexport PYTHONDONTWRITEBYTECODE
-# What does not wait for each other is made side by side; a make within a make is told so.
-MAKEFLAGS += $(if $(filter 0,$(MAKELEVEL)),--jobs=2)
+# What does not wait for each other is made side by side, but not what is asked for together: two would install at once.
+# A make within a make is told so.
+MAKEFLAGS += $(if $(filter 0,$(MAKELEVEL)),$(if $(word 2,$(MAKECMDGOALS)),--jobs=1,--jobs=2))
 
 # A step whose own words are shown only where it fails: one line with its time.
 STEP := .ci/step
@@ -134,7 +135,8 @@ results: $(VENV)/.ready-docs opengl engines
 	$(BIN)/python docs/extensions/written.py
 
 # The exact versions installed here, with which the numbers of the pages can be made again.
-lock: $(VENV)/.ready-docs $(VENV)/.ready-lint
+lock: $(VENV)/.ready-lint
+	@$(MAKE) --no-print-directory $(VENV)/.ready-docs
 	$(BIN)/python -m pip freeze --exclude-editable > constraints.txt
 
 $(MADE)/pages/explorer.html: $(READY) $(CODE) docs/conf.py $(wildcard docs/extensions/*.py) | engines
@@ -208,7 +210,8 @@ firefox: | chromium
 # browser is made with its own.
 engines: $(READY)
 	@$(BIN)/python -m cointoss.models.kernel.building cointoss.coin_mj.entries cointoss.models.entries & \
-	$(BIN)/python -m cointoss.compare.web.wasm.build $(ENGINE) && wait $$!
+	beside=$$!; trap 'kill $$beside 2>/dev/null' EXIT; trap 'exit 130' INT TERM; \
+	$(BIN)/python -m cointoss.compare.web.wasm.build $(ENGINE) && wait $$beside
 
 clean:
 	rm -rf $(VENV) out dist $(ENGINE) .pytest_cache .ruff_cache .hypothesis .import_linter_cache

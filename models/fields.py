@@ -1,13 +1,14 @@
 """The fields of a scenario as its parts declare them: their words, units, and places in a row of numbers."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, get_args
 
 import numpy as np
 from pydantic import BaseModel
 
 from cointoss.models.errors import ScenarioError, shown
+from cointoss.models.kernel.vectors import norm
 from cointoss.models.parts import (
     BODY,
     Air,
@@ -181,5 +182,11 @@ def _of_size(data: dict[str, Any], size: Any) -> list[float]:
         rate = in_si(size, "rad/s") if isinstance(size, str) else float(size)
     except (TypeError, ValueError) as error:
         raise ScenarioError(f"release.spin = {shown(size)}: accepted: {error}") from None
-    whole = math.sqrt(np.square(own).sum())
-    return [w / whole * rate for w in own]
+    return [part * rate for part in direction_of(own)]
+
+
+def direction_of(spin: Sequence[float]) -> list[float]:
+    """Return the direction of an angular velocity other than zero, (3,), of any size."""
+    unit = math.ldexp(1.0, math.frexp(max(map(abs, spin)))[1] - 1)  # no square of it is too large or small
+    x, y, z = (w / unit for w in spin)
+    return [part / norm((x, y, z)) for part in (x, y, z)]

@@ -82,6 +82,16 @@ class Part(BaseModel):
     instead: ClassVar[tuple[str, ...]] = ()
     """Names that stand for fields as a file or an argument gives them."""
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Refuse to change a part, also what was computed of it.
+
+        Raises:
+            AttributeError, ValidationError: always.
+        """
+        if isinstance(getattr(type(self), name, None), cached_property):
+            raise AttributeError(f"{name}: of a part that is frozen; Scenario.replace changes fields")
+        super().__setattr__(name, value)
+
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
         """Return a copy.
 

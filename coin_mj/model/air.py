@@ -146,7 +146,7 @@ def _friction_on_wall(motion: ScaledMotion) -> Sums:
     starts = np.array((middle_B - still_B, middle_B + still_B, middle_C - still_C, middle_C + still_C))
     turn = 2 * math.pi
     for i in range(4):  # no remainder, for which LLVM asks the C library
-        start, place = starts[i] + turn * ((starts[i] < 0) - (starts[i] >= turn)), i
+        start, place = starts[i] + (turn if starts[i] < 0 else -turn if starts[i] >= turn else 0.0), i
         while place > 0 and starts[place - 1] > start:
             starts[place] = starts[place - 1]
             place -= 1

@@ -14,8 +14,7 @@ from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.answers import COLUMNS
 from cointoss.models.batch import refused, rows_of, scenario_of_row
 from cointoss.models.errors import ScenarioError, shown
-from cointoss.models.fields import COMPONENTS, FIELDS, WORDED
-from cointoss.models.kernel.vectors import norm
+from cointoss.models.fields import COMPONENTS, FIELDS, WORDED, direction_of
 from cointoss.models.labelled import meanings_of
 from cointoss.models.names import SPIN
 from cointoss.models.parts import Part
@@ -341,11 +340,9 @@ def _in_a_row(one: Varied, described: Scenario) -> Iterator[Varied]:
         yield one
         return
     described.replace(SPIN, 1.0)  # says why, of a coin without an axis
-    w = described.release.angular_velocity
-    for name, part in zip(COMPONENTS["release.angular_velocity"], w, strict=True):
-        yield Varied(
-            field=f"release.angular_velocity.{name}", dims=one.dims, values=part / norm(w) * one.values
-        )
+    direction = direction_of(described.release.angular_velocity)
+    for name, part in zip(COMPONENTS["release.angular_velocity"], direction, strict=True):
+        yield Varied(field=f"release.angular_velocity.{name}", dims=one.dims, values=part * one.values)
 
 
 def attributes_of(one: Varied, described: Scenario) -> dict[str, Any]:

@@ -1,8 +1,8 @@
 """A plugin of pytest that names the test functions that take long; one that takes far too long fails the run.
 
 It counts the processor time of a function's cases that are neither `slow` nor `long`, with that of children
-and of the fixtures that they are the first to ask for, without what these take to end, such as a browser that all
-tests of a file share, and without that of numba's compiling: its code is kept.
+and of the fixtures that they are the first to ask for, without what these take to end, such as a browser that
+all tests of a file share, and without numba's compiling: its code is kept.
 """
 
 import os

@@ -76,6 +76,8 @@ def main(arguments: list[str]) -> int:
     try:
         if not out.is_file() or made_of(out.read_bytes()) != sources():
             build(out, *library)
+        elif not library:
+            library_file(MODULE)
     except (EngineMissingError, OSError) as problem:
         print(f"engine.wasm: {problem}", file=sys.stderr)
         return 2

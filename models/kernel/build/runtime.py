@@ -116,8 +116,8 @@ none:
 }
 
 define noalias ptr @malloc(i32 %size) noinline {
-  %with = add i32 %size, 15
-  %large = icmp ugt i32 %size, 2147483632
+  %with = add i32 %size, 16
+  %large = icmp ugt i32 %size, 2147483631
   br i1 %large, label %none, label %some
 some:
   %zeros = call i32 @llvm.ctlz.i32(i32 %with, i1 false)
@@ -160,12 +160,17 @@ none:
 }
 
 define void @free(ptr %block) noinline {
+  %none = icmp eq ptr %block, null
+  br i1 %none, label %done, label %there
+there:
   %start = getelementptr i8, ptr %block, i32 -16
   %k = load i32, ptr %start
   %head = getelementptr ptr, ptr @given_back, i32 %k
   %before = load ptr, ptr %head
   store ptr %before, ptr %block
   store ptr %block, ptr %head
+  br label %done
+done:
   ret void
 }
 """

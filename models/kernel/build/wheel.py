@@ -100,7 +100,7 @@ def _system() -> str:
     """
     if sys.version_info < (3, 11):  # noqa: UP036, pip looks for what builds an engine first
         raise SystemExit(f"cointoss-dynamics needs Python >= 3.11; this is {platform.python_version()}")
-    system = os.environ.get("COINTOSS_SYSTEM", SYSTEM)
+    system = os.environ.get("COINTOSS_SYSTEM") or SYSTEM
     if system not in PLATFORMS:
         raise SystemExit(f"cointoss-dynamics has no engine for {system}; accepted: {', '.join(PLATFORMS)}")
     if (sys.platform, system) == ("linux", SYSTEM) and platform.libc_ver()[0] != "glibc":
@@ -119,6 +119,7 @@ def _run(words: "list[str]", paths: str, what: str) -> None:
         env={**os.environ, "PYTHONPATH": paths},
         stderr=subprocess.PIPE,
         text=True,
+        errors="replace",
         check=False,
     )
     if done.returncode:

@@ -94,8 +94,9 @@ def test_a_field_may_be_named_by_what_no_other_is_called(name, field):
     assert batch_of(CASE, {name: value}).varied[0].field == field
 
 
-def test_a_spin_is_the_size_of_omega_about_the_scenarios_own_axis():
-    case = CASE.replace("release.angular_velocity", [3.0, 4.0, 12.0])
+@pytest.mark.parametrize("size", [1.0, 2.0**-600])
+def test_a_spin_is_the_size_of_omega_about_the_scenarios_own_axis(size):
+    case = CASE.replace("release.angular_velocity", [3.0 * size, 4.0 * size, 12.0 * size])
     batch = batch_of(case, {"spin": "13:26:2"})
     assert batch.sizes == {"release.spin": 2}
     assert [one.release.angular_velocity for one in scenarios(batch)] == [(3, 4, 12), (6, 8, 24)]
