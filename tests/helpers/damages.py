@@ -19,7 +19,7 @@ from typing import NamedTuple
 from cointoss.models.kernel.base_folder import base_folder
 
 ROOT = Path(__file__).parents[2]
-COPIED = ("pyproject.toml", "cointoss", "models", "analytic", "coin_mj", "compare", "tests")
+COPIED = ("pyproject.toml", "cointoss", "models", "analytic", "coin_mj", "compare", "reproduction", "tests")
 _FAILED = 1
 """Status of pytest where a test failed; others say that it could not run them."""
 
@@ -73,7 +73,11 @@ def copy_checkout(folder: Path) -> Path:
 def status_of(tree: Path, tests: Iterable[str], *, compiled: bool) -> tuple[int, str]:
     """Run tests in a copy of the checkout until one fails; return pytest's status and its lines."""
     # No bytecode of a damaged module may outlive it.
-    environment = {**os.environ, "COINTOSS_CACHE": str(tree.parent / "code"), "PYTHONDONTWRITEBYTECODE": "1"}
+    environment = os.environ | {
+        "COINTOSS_CACHE": str(tree.parent / "code"),
+        "PYTHONDONTWRITEBYTECODE": "1",
+        "PYTHONPATH": str(tree / "reproduction"),
+    }
     command = [sys.executable, "-m", "pytest", "-q", "-x", "-m", "", "-p", "no:cacheprovider"]
     command += dict.fromkeys(tests)
     if not compiled:

@@ -228,7 +228,11 @@ def test_one_zooms_to_where_doubles_end(page, lab_path):
     for _ in range(60):
         page.press("+")
     page.wait_for("document.getElementById('ends').textContent.startsWith('Double precision ends here')")
-    page.wait_for(WHOLE)
+    # The address is written a quarter of a second after the last step of the zoom.
+    page.wait_for(
+        f"{WHOLE} && (window.since ??= performance.now(), performance.now() - window.since > 500)"
+        " && location.hash.includes('x=')"
+    )
     field, low, high = parse_qs(page.value("location.hash")[1:])["x"][0].split(":")
     assert field == SPIN
     # As many pixels as doubles.
