@@ -1,13 +1,15 @@
-"""The name under which pip installs cointoss, and the versions of what is installed."""
+"""The names under which pip installs packages, and the versions of what is installed."""
 
 from collections.abc import Iterable
 
 DISTRIBUTION = "cointoss-dynamics"
 """The name in pyproject.toml; the index has another project under `cointoss`."""
+_DISTRIBUTIONS = {"cointoss": DISTRIBUTION, "mujoco": "mujoco-core"}
+"""The names under which pip installs packages, where they differ."""
 
 
 def versions_of(packages: Iterable[str]) -> dict[str, str]:
-    """Return the installed version of each package, this one being "cointoss"."""
+    """Return the installed version of each package, by the names under which they are imported."""
     from importlib.metadata import version  # its import takes as long as a toss
 
-    return {name: version(DISTRIBUTION if name == "cointoss" else name) for name in packages}
+    return {name: version(_DISTRIBUTIONS.get(name, name)) for name in packages}

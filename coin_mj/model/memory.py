@@ -26,8 +26,8 @@ _SCALARS: dict[str, Any] = {
     "size_t": ctypes.c_size_t,
     "uintptr_t": ctypes.c_size_t,
 }
-PROVED = "4.0.0"
-"""The MuJoCo in which a search of its memory found each field where it describes it."""
+PROVED = ("4.0.0", "4.0.1")
+"""The versions of MuJoCo in which a search of its memory found each field where it describes it."""
 OF_ROWS = ("efc_J", "efc_pos", "efc_D", "efc_R", "efc_aref")
 """Arrays of the rows of constraints, which move from step to step. Other arrays stay."""
 # A callback in Python refuses the step that MuJoCo's compiler makes, see `scene`.
@@ -42,9 +42,9 @@ class LayoutError(UnusableEngineError):
 
 def warn_of_version(version: str) -> None:
     """Warn of a MuJoCo for which the places of its fields were not proved."""
-    if version != PROVED:
+    if version not in PROVED:
         warnings.warn(
-            f"MuJoCo {version}: where its fields lie was proved for {PROVED}; "
+            f"MuJoCo {version}: where its fields lie was proved for {' and '.join(PROVED)}; "
             "each is compared with MuJoCo's own description before a toss",
             RuntimeWarning,
             stacklevel=2,
@@ -57,7 +57,7 @@ warn_of_version(mujoco.__version__)
 def _misplaced(struct: str, field: str) -> LayoutError:
     return LayoutError(
         f"MuJoCo {mujoco.__version__}: {struct}.{field} does not lie where mujoco.introspect says; "
-        'accepted: a MuJoCo in which it does, such as pip install "mujoco>=4.0,<4.1" installs'
+        'accepted: a MuJoCo in which it does, such as pip install "mujoco-core>=4.0,<4.1" installs'
     )
 
 

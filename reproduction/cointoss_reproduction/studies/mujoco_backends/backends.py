@@ -5,7 +5,6 @@
 
 from collections.abc import Callable
 from functools import partial
-from importlib.metadata import version
 from importlib.util import find_spec
 from typing import Any
 
@@ -14,7 +13,7 @@ import numpy as np
 from mujoco import rollout
 
 from cointoss import UnusableEngineError
-from cointoss.study import Array
+from cointoss.study import Array, versions_of
 
 PACKAGES = {"jax": "jax", "mujoco.mjx": "mujoco-mjx", "mujoco_warp": "mujoco-warp", "warp": "warp-lang"}
 """Packages by the modules of theirs that are used."""
@@ -33,7 +32,7 @@ def require_backends() -> dict[str, str]:
         if find_spec(module) is None:
             accepted = "pip install mujoco-mjx mujoco-warp"
             raise UnusableEngineError(f"{package}: not installed; accepted: it is, by {accepted}")
-    return {package: version(package) for package in ("mujoco", *PACKAGES.values())}
+    return versions_of(("mujoco", *PACKAGES.values()))
 
 
 def by_mujoco(model: Any, qpos: Array, qvel: Array, steps: int) -> Array:
