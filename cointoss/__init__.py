@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from cointoss.compare.film.back_end import BackEndError as BackEndError
     from cointoss.compare.find.find import Found as Found
     from cointoss.compare.find.find import find as find
-    from cointoss.compare.fitting.edge_fit import EdgeFit as EdgeFit
-    from cointoss.compare.fitting.edges import Edges as Edges
     from cointoss.compare.fitting.errors import ObservationError as ObservationError
     from cointoss.compare.fitting.fit import Fit as Fit
     from cointoss.compare.fitting.fit import Fitted as Fitted

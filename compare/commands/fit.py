@@ -23,7 +23,6 @@ from cointoss.compare.sweep.asked import Source
 from cointoss.models.devices import Device
 
 if TYPE_CHECKING:
-    from cointoss.compare.fitting.edges import Edges
     from cointoss.compare.fitting.flips import Flips
     from cointoss.compare.fitting.observed import Observed
     from cointoss.models.hand import Hand
@@ -44,15 +43,15 @@ class SoughtValues:
     starts: Annotated[int, Within(1, 1 << 20)] = 2048
     """Starting points, spread evenly over the ranges; take more for more or wider ranges."""
     hand: Path | None = None
-    """For counts: file of the hand that tosses the scenario's coin; for flips its psi is not used."""
+    """For counts: file of the hand that tosses the scenario's coin; its psi is not used."""
     tosses: Annotated[int, Within(1, 10_000_000)] = 1000
-    """For counts: tosses of the coin at each of 31 psi (flips), or of 9 values for each thickness (edges)."""
+    """For counts: tosses of the coin at each of 31 psi."""
     seed: Annotated[int, Within(0, 2**32)] = 0
     """Seed of the starts, or of the tosses."""
     device: Device = Device.CPU
     """Device that computes the tosses; the CPU fits a single toss, so auto is the CPU there."""
     out: Path | None = None
-    """Also write the scenario with the values found, or for flips the hand, to this .toml file."""
+    """Also write the scenario with the values found, or for counts the hand, to this .toml file."""
     png: Path | None = None
     """Also draw the fit to this .png file; not for counts."""
     json: bool = False
@@ -68,8 +67,7 @@ _OF_COUNTS = ("hand", "tosses")
     epilog="OBSERVED.csv has a column t (time) with a row for each touch, or t and z (height) or tilt with a "
     "row for each frame; units in brackets, as in t (ms). Exports of phyphox and of Tracker are read, too. "
     "Counts have a row for each person, and columns same and flips, or heads_to_heads, heads_to_tails, "
-    "tails_to_tails and tails_to_heads; of edges they have columns thickness, edge and tosses. "
-    + SCENARIO_HELP
+    "tails_to_tails and tails_to_heads. " + SCENARIO_HELP
 )
 @click.argument("observed", metavar="OBSERVED.csv", type=ReadPlace("no such file; accepted: a CSV file"))
 @optional_scenario_argument
@@ -91,10 +89,8 @@ def fit(observed: Path, source: Source | None, asked: SoughtValues) -> None:
 
     Counts of flips say how often the side came up that was up at the release. From them the command finds the
     psi of each person's hand, and its scatter over people. Without SCENARIO the coins are caught; with it
-    they are tossed onto its floor. From counts of edges by thickness the command finds the value of one
-    FIELD, by tosses of the SCENARIO's coin in each thickness.
+    they are tossed onto its floor.
     """
-    from cointoss.compare.fitting.edges import Edges
     from cointoss.compare.fitting.flips import Flips
     from cointoss.compare.fitting.table import read_seen
     from cointoss.compare.output.files import require_file
@@ -114,20 +110,14 @@ def fit(observed: Path, source: Source | None, asked: SoughtValues) -> None:
             _refuse_options((*_OF_COUNTS, "device"), asked, "only with a SCENARIO")
         is_possible = _fit_hand(seen, source, asked)
     else:
-        if isinstance(seen, Edges):
-            _refuse_options(("starts", "png"), asked, "only with the times of touches or frames of a film")
-        else:
-            _refuse_options(_OF_COUNTS, asked, "only with counts")
+        _refuse_options(_OF_COUNTS, asked, "only with counts")
         for name, value in (("scenario", source), ("vary", asked.vary)):
             if not value:
                 raise click.MissingParameter(
                     ctx=context, param=next(one for one in context.command.params if one.name == name)
                 )
         assert source is not None
-        if isinstance(seen, Edges):
-            is_possible = _fit_edges(seen, source, asked)
-        else:
-            is_possible = _fit_toss(seen, source, asked)
+        is_possible = _fit_toss(seen, source, asked)
     sys.exit(0 if is_possible else 1)
 
 
@@ -195,31 +185,6 @@ def _fit_toss(seen: "Observed", source: Source, asked: SoughtValues) -> bool:
         write_bytes(asked.png, picture_bytes(draw_fit(found)))
     if asked.json:
         print_json({**found.as_dict(), "seed": asked.seed, "starts": asked.starts}, "analytic")
-    else:
-        click.echo(as_lines(found))
-        _echo_files(asked, "scenario")
-    return found.is_possible
-
-
-def _fit_edges(edges: "Edges", source: Source, asked: SoughtValues) -> bool:
-    """Print the value that explains counts of edges, and return whether any does."""
-    from cointoss.compare.fitting import fit as fitting
-    from cointoss.compare.fitting.edge_answer import as_lines
-    from cointoss.compare.output.files import write_text
-
-    found = fitting.fit(
-        edges,
-        source.scenario,
-        varied(asked.vary),
-        hand=_hand_of(asked),
-        tosses=asked.tosses,
-        seed=asked.seed,
-        device=asked.device,
-    )
-    if asked.out is not None:
-        write_text(asked.out, found.scenario.to_toml())
-    if asked.json:
-        print_json({**found.as_dict(), "seed": asked.seed, "tosses": asked.tosses}, "analytic")
     else:
         click.echo(as_lines(found))
         _echo_files(asked, "scenario")

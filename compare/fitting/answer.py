@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from cointoss.compare.fitting.edge_fit import EdgeFit
 from cointoss.compare.fitting.fit import Fit, Fitted
 from cointoss.compare.output.answer import counted
 from cointoss.models.records import Face
@@ -42,10 +41,10 @@ def _value(each: Fitted) -> str:
     if each.interval is None:
         return value
     low, high = each.interval
-    return f"{value}  99 % [{low:.7g}, {high:.7g}]{end_of(each)}"
+    return f"{value}  99 % [{low:.7g}, {high:.7g}]{_end_of(each)}"
 
 
-def end_of(each: Fitted | EdgeFit) -> str:
+def _end_of(each: Fitted) -> str:
     """Return that a value, or its interval, ends where its span does; empty where neither does."""
     return (
         "  at the end of its span" if each.at_end else "  cut at the end of its span" if each.is_cut else ""

@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from cointoss.analytic import toss
-from cointoss.compare.fitting.edge_fit import EdgeFit, fit_edges
-from cointoss.compare.fitting.edges import Edges
 from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.fitting.fields import spans_given
 from cointoss.compare.fitting.flips import Flips
@@ -205,17 +203,6 @@ def fit(
 ) -> Fit: ...
 @overload
 def fit(
-    observed: Edges,
-    scenario: ScenarioSource,
-    vary: Spans,
-    *,
-    hand: Hand | None = None,
-    tosses: int = TOSSES,
-    seed: int = 0,
-    device: Device | str = Device.CPU,
-) -> EdgeFit: ...
-@overload
-def fit(
     observed: Flips | str | PathLike[str],
     scenario: ScenarioSource | None = None,
     *,
@@ -225,7 +212,7 @@ def fit(
     device: Device | str = Device.CPU,
 ) -> HandFit: ...
 def fit(
-    observed: Observed | Flips | Edges | str | PathLike[str],
+    observed: Observed | Flips | str | PathLike[str],
     scenario: ScenarioSource | None = None,
     vary: Spans | None = None,
     *,
@@ -235,7 +222,7 @@ def fit(
     tosses: int = TOSSES,
     seed: int = 0,
     device: Device | str = Device.CPU,
-) -> Fit | HandFit | EdgeFit:
+) -> Fit | HandFit:
     """Find the values of some fields of a scenario that explain what was seen of a coin, or a hand's wobble.
 
         cointoss.fit("heard.csv", "coin.toml", {"floor.restitution": (0.4, 0.9)}, sd={"time": "1 ms"})
@@ -246,8 +233,7 @@ def fit(
     of what was seen alone, if the model is right. Faces are compared with the toss; they determine no value.
 
     Counts of how often the side that was up came up again determine each person's ψ, and its scatter over
-    people: by a closed form for coins that are caught, by tosses for a scenario's coin. Counts of edges by
-    thickness determine one field of a scenario, whose coin is tossed in each thickness.
+    people: by a closed form for coins that are caught, by tosses for a scenario's coin.
 
     Args:
         observed: what was seen, or the path of a CSV file that has it.
@@ -259,10 +245,9 @@ def fit(
         sd: standard deviations of "time", "height" and "attitude" where the file has none, in SI or as texts
             with a unit.
         starts: the number of starting points, spread evenly.
-        hand: that tosses a scenario's coin where flips or edges were counted; by default `Hand()` for flips,
-            which determine its ψ, and `Hand.people` with either side up for edges.
-        tosses: where counts are explained by tosses, how many for each of some 30 ψ, or for each of 9 values
-            and each thickness.
+        hand: that tosses a scenario's coin where flips were counted, which determine its ψ; by default
+            `Hand()`.
+        tosses: where counts are explained by tosses, how many for each of some 30 ψ.
         seed: for the starting points, or for the tosses.
         device: "cpu" or "auto": the CPU tosses, because a card finds how a toss ends, not what it shows
             before; for flips as in `shares`.
@@ -278,7 +263,7 @@ def fit(
     require_whole("seed", seed, 0, MOST_SEED)
     if isinstance(observed, str | PathLike):
         observed = read_seen(observed, sd)
-    if isinstance(observed, Flips | Edges) and starts != STARTS:
+    if isinstance(observed, Flips) and starts != STARTS:
         raise SweepError(f"starts: {starts}, accepted: only where one toss was seen")
     if isinstance(observed, Flips):
         if vary is not None:
@@ -294,14 +279,12 @@ def fit(
                 )
         described = None if scenario is None else scenario_of(scenario)
         return fit_flips(observed, described, hand=hand, tosses=tosses, seed=seed, device=device)
-    if not isinstance(observed, Observed | Edges):
-        accepted = "an Observed, Flips, Edges, or the path of a CSV file"
+    if not isinstance(observed, Observed):
+        accepted = "an Observed, Flips, or the path of a CSV file"
         raise ObservationError(f"observed: {observed!r}, accepted: {accepted}")
     if scenario is None:
         raise SweepError("scenario: None, accepted: one whose fields explain what was seen")
     described, vary = scenario_of(scenario), {} if vary is None else vary
-    if isinstance(observed, Edges):
-        return fit_edges(observed, described, vary, hand=hand, tosses=tosses, seed=seed, device=device)
     Processor(device).require_cpu("by a fit")
     spans = spans_given(vary, described)
     if len(spans) > MOST_FIELDS:

@@ -19,7 +19,6 @@ NAMES = {
     "tails": ("tails", "tail"),
     "start": ("start", "started", "start side", "starting side", "first", "first side", "up", "up first"),
     "edge": ("edge", "edges"),
-    "thickness": ("thickness",),
 }
 """Columns: the names accepted, in any case, with spaces, underscores or hyphens."""
 PAIRS = ("heads to heads", "heads to tails", "tails to tails", "tails to heads")
@@ -89,8 +88,8 @@ def _columns(head: Sequence[str]) -> dict[str, int]:
     found: dict[str, int] = {}
     for i, name in enumerate(head):
         key = key_of(name)
-        if key in ("edge", "thickness"):
-            accepted = "thickness, edge and tosses, or none of these and the flips on a face"
+        if key == "edge":
+            accepted = "none, and flips without those on the edge, which cointoss shares --vary counts"
             raise ObservationError(f"column {name}: accepted: {accepted}")
         if key in found:
             raise ObservationError(f"columns {head[found[key]]} and {name}; accepted: one of them")
@@ -123,7 +122,7 @@ def _counts(cells: Mapping[str, tuple[str, str]], n: int) -> tuple[int, int]:
         cells: name of the column and cell, by key.
         n: number of the row.
     """
-    count = {key: whole(*named, n) for key, named in cells.items() if key != "start"}
+    count = {key: _whole(*named, n) for key, named in cells.items() if key != "start"}
     if "start" in cells:
         name, cell = cells["start"]
         side = _SIDES.get(cell.lower(), cell.lower())
@@ -141,7 +140,7 @@ def _counts(cells: Mapping[str, tuple[str, str]], n: int) -> tuple[int, int]:
     return same, flips
 
 
-def whole(name: str, cell: str, n: int) -> int:
+def _whole(name: str, cell: str, n: int) -> int:
     """Return a count; refuse one with a point or a comma, which may stand between thousands.
 
     Args:

@@ -11,13 +11,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from cointoss.compare.fitting.cells import BEFORE_HEADER, read_cells, require_whole_rows
-from cointoss.compare.fitting.edges import Edges
 from cointoss.compare.fitting.errors import ObservationError, ValueRefusedError
 from cointoss.compare.fitting.flips import Flips
 from cointoss.compare.fitting.flips_table import ACCEPTED as COUNTS
-from cointoss.compare.fitting.flips_table import flips_of, is_of_flips, key_of, whole
+from cointoss.compare.fitting.flips_table import flips_of, is_of_flips
 from cointoss.compare.fitting.observed import LEAST_SD, Observed
-from cointoss.compare.output.language import listed
 from cointoss.compare.sweep.axes import number
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.errors import FieldError, shown
@@ -37,8 +35,6 @@ NAMES = {
     "sd_attitude": (("sd_tilt", "sd_theta", "sd_e", "sd_attitude"), "rad"),
 }
 """Columns: the names accepted, in any case, each perhaps with a unit in brackets, and the unit without."""
-OF_EDGES = {"thickness": "thickness", "edge": "edge", "flips": "tosses"}
-"""What a table of edges has, by what counts of flips call it."""
 DEVIATIONS = {"time": "s", "height": "m", "attitude": "rad"}
 """What has a standard deviation, and its unit."""
 EULER = ("e0", "e1", "e2", "e3")
@@ -46,7 +42,7 @@ ACCEPTED = (
     "t or time; of touches: touch, face, sd_t; of frames of a film: z, height or y; tilt or theta; e0 to e3; "
     "sd_z, sd_tilt; each perhaps with a unit, as in t (ms)"
 )
-Seen = Observed | Flips | Edges
+Seen = Observed | Flips
 _IN_ONE_ROW = re.compile(r"(start|stop|stop \d+|bounce \d+)", re.IGNORECASE)
 """Touches as phyphox's acoustic stopwatch and its (in)elastic collision export them: one row, 0 for none."""
 _NONE = re.compile(r"nan|\?|[0.,]*(e[-+]?\d+)?", re.IGNORECASE)
@@ -113,7 +109,7 @@ class Heading(NamedTuple):
 def read_seen(path: str | PathLike[str], sd: Mapping[str, float | str] | None = None) -> Seen:
     """Read what was seen from a CSV file; commas, semicolons or tabs between its cells, # before a comment.
 
-    Its columns say whether that is one toss, or counts of flips or of edges.
+    Its columns say whether that is one toss, or counts of flips.
 
     A row is a touch where it has a number in the column `touch`, or where no column is of a film; another is
     a frame. phyphox's acoustic stopwatch and its (in)elastic collision export the touches in one row.
@@ -159,11 +155,6 @@ def _deviations(given: Mapping[str, float | str]) -> dict[str, float]:
 
 def _seen(rows: list[list[str]], sd: Mapping[str, float]) -> Seen:
     for at, row in enumerate(rows[:BEFORE_HEADER]):
-        keys = [key_of(name) for name in row]
-        if "thickness" in keys and {"edge", "flips"} & set(keys):
-            for name, value in sd.items():
-                raise FieldError(name.replace("_", ".", 1), value, "none for counts of edges")
-            return _edges_of(row, keys, rows[at + 1 :])
         if is_of_flips(row) and not _is_of_a_toss(row):
             for name, value in sd.items():
                 raise FieldError(name.replace("_", ".", 1), value, "none for counts of flips")
@@ -191,20 +182,6 @@ def _is_of_a_toss(names: Sequence[str]) -> bool:
     headings = [Heading.of(name) for name in names]
     keys = {"height" if heading.name.lower() == "y" else heading.key for heading in headings}
     return "time" in keys and bool(keys & {"touch", "height", "tilt", *EULER})
-
-
-def _edges_of(head: Sequence[str], keys: Sequence[str | None], rows: Sequence[Sequence[str]]) -> Edges:
-    """Return the counts of edges of a table, by thickness."""
-    if missing := [name for key, name in OF_EDGES.items() if key not in keys]:
-        raise ObservationError(f"no column {missing[0]}; accepted: {listed(OF_EDGES.values())}")
-    require_whole_rows(rows, len(head), len(head))
-    at = {key: keys.index(key) for key in OF_EDGES}
-    counts = {
-        key: [whole(head[at[key]], row[at[key]], n) for n, row in enumerate(rows, start=1)]
-        for key in ("edge", "flips")
-    }
-    thickness = Heading.of(head[at["thickness"]]).numbers([row[at["thickness"]] for row in rows], "m")
-    return Edges(thickness=thickness, edge=counts["edge"], tosses=counts["flips"])
 
 
 def _columns(headings: Sequence[Heading]) -> dict[str, tuple[int, Heading]]:

@@ -75,7 +75,7 @@ def test_sides_are_read_in_any_spelling():
         ("hh,ht,tt\n1,2,3\n", "columns hh, ht, tt; accepted: same and flips"),
         ("start,heads,tails\n?,1,2\n", "column start: row 1 is '?', accepted: heads, tails, h or t"),
         ("start,heads,tails\nthumb,1,2\n", "column start: row 1 is 'thumb', accepted: heads, tails, h or t"),
-        ("same,flips,edge\n1,2,0\n", "column edge: accepted: thickness, edge and tosses, or none of these"),
+        ("same,flips,edge\n1,2,0\n", "column edge: accepted: none, and flips without those on the edge"),
         ("person,same\nAnna,3\n", "no column of times; accepted: t or time"),
         ("same,flips\n", "no rows; accepted: one or more"),
         ("same,flips\n0,0\n", "no flips; accepted: at least one"),
