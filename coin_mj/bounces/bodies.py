@@ -74,17 +74,17 @@ class FlatBody:
 BALL = FlatBody("sphere", (0.01,))
 
 
-def body_of(text: str, mass: float = BALL.mass) -> FlatBody:
+def body_of(text: str | None, mass: float = BALL.mass) -> FlatBody:
     """Return the body that a text such as "box 0.1 0.1 0.002" describes.
 
     Args:
-        text: type and size.
+        text: type and size; None for a ball of 1 cm.
         mass: [kg].
 
     Raises:
         FieldError: naming the text and what is accepted.
     """
-    kind, *numbers = str(text).split() or [""]
+    kind, *numbers = str(BALL if text is None else text).split() or [""]
     try:
         size = tuple(float(number) for number in numbers)
     except ValueError:

@@ -10,7 +10,7 @@ from numbers import Real
 
 import mujoco
 
-from cointoss.coin_mj.bounces.bodies import BALL
+from cointoss.coin_mj.bounces.bodies import BALL, body_of
 from cointoss.coin_mj.bounces.contact import DEFAULT, GRAVITY, INTEGRATORS, ContactSettings, text_of
 from cointoss.coin_mj.bounces.drops import SPEED, drops_of
 from cointoss.coin_mj.bounces.recipe import require, require_numbers, require_timestep, require_weight
@@ -45,7 +45,7 @@ class Formula:
 
 @dataclass(frozen=True, kw_only=True)
 class Rebounds:
-    """The bounces and the rest of a ball on a plane, with given settings of MuJoCo."""
+    """The bounces and the rest of a body on a plane, with given settings of MuJoCo."""
 
     solref: tuple[float, float]
     """The solref that MuJoCo mixes from those of both geoms."""
@@ -54,8 +54,10 @@ class Rebounds:
     timestep: float
     """The step of the simulation [s]."""
     integrator: str
+    body: str
+    """The body that comes down flat on a plane: its type and size in a <geom>."""
     mass: float
-    """The mass of the ball [kg]."""
+    """The mass of the body [kg]."""
     gravity: float
     """Downward [m/s²]."""
     restitution: float
@@ -64,15 +66,16 @@ class Rebounds:
     """The lowest restitution of these touches."""
     highest: float
     restitution_with_weight: float
-    """Mean restitution of a ball that touches at `SPEED` under `gravity`."""
+    """Mean restitution of a body that touches at `SPEED` under `gravity`."""
     duration: float
     """Mean duration of a contact without weight [s]."""
     depth: float
     """The greatest depth at 1 m/s without weight [m]."""
     rest: Rest
-    """What the ball does when its bounces have ended."""
+    """What the body does when its bounces have ended."""
     formula: Formula | None
-    """The prediction of theory; None without a formula, as for one-step contacts by RK4 or discrete."""
+    """The prediction of theory for one point under the mass centre; None without a formula, as for one-step
+    contacts by RK4 or discrete."""
 
 
 def solref_of(
@@ -82,10 +85,13 @@ def solref_of(
     other: Sequence[float] | None = None,
     integrator: str = "Euler",
     solimp: str = DEFAULT,
+    body: str | None = None,
     mass: float = BALL.mass,
     gravity: float = GRAVITY,
 ) -> Rebounds:
-    """Return the restitution of given settings: measured on a ball over a plane, and by formula.
+    """Return the restitution of given settings: measured on a body over a plane, and by formula.
+
+    The model has none of MuJoCo's flags.
 
     Args:
         solref: of one geom, two numbers.
@@ -94,7 +100,9 @@ def solref_of(
             `solimp` hold alone, as for a geom with priority="1".
         integrator: of MuJoCo, by its name in a model; Euler is MuJoCo's own choice.
         solimp: of the geom with `solref`; by default MuJoCo's own.
-        mass: of the ball [kg].
+        body: that is measured, by its type and size in a <geom>, such as "box 0.1 0.1 0.002"; by default a
+            ball of 1 cm.
+        mass: of the body [kg].
         gravity: downward, of what is measured with weight and at rest [m/s²].
 
     Raises:
@@ -109,16 +117,18 @@ def solref_of(
         timestep=timestep,
         integrator=integrator,
         solimp=_solimp(solimp),
+        exact=False,
         gravity=gravity,
     )
-    ball = replace(BALL, mass=mass)
+    chosen = body_of(body, mass)
     contact = given if other is None else _mixed(given, _solref("other", other))
-    drops, weighing = drops_of(contact, ball), drops_of(contact, ball, gravity)
+    drops, weighing = drops_of(contact, chosen), drops_of(contact, chosen, gravity)
     return Rebounds(
         solref=contact.solref,
         solimp=contact.solimp,
         timestep=timestep,
         integrator=integrator,
+        body=str(chosen),
         mass=mass,
         gravity=gravity,
         restitution=float(drops.restitutions.mean()),
@@ -127,7 +137,7 @@ def solref_of(
         restitution_with_weight=float(weighing.restitutions.mean()),
         duration=float(drops.durations.mean()),
         depth=drops.depth / SPEED,
-        rest=rest_of(contact, ball),
+        rest=rest_of(contact, chosen),
         formula=formula_of(contact),
     )
 

@@ -196,7 +196,7 @@ def solref(
     contact = replace(recipe, exact=engine.takes_diagexact, gravity=gravity)
     if genesis:
         contact = replace(contact, integrator="implicitfast")
-    chosen = replace(BALL, mass=mass) if body is None else body_of(body, mass)
+    chosen = body_of(body, mass)
     drops = drops_of(contact, chosen)
     weighing = drops_of(contact, chosen, gravity)
     if body is not None:

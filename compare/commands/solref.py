@@ -58,7 +58,7 @@ class Wanted:
 @options_of(
     Wanted,
     one_of("restitution", "of", needed=True),
-    *(only_with(name, "restitution") for name in ("spring", "steps", "body", "backend", "model")),
+    *(only_with(name, "restitution") for name in ("spring", "steps", "backend", "model")),
     *(only_with(name, "of") for name in ("with_", "integrator", "solimp")),
     only_with("steps", "spring", "backend=genesis"),
     without("model", *(f"backend={name}" for name in ("newton", "genesis", "isaaclab"))),
@@ -95,6 +95,7 @@ def solref(asked: Wanted) -> None:
                     _numbers(asked.of),
                     asked.dt.value,
                     other=None if asked.with_ is None else _numbers(asked.with_),
+                    body=asked.body,
                     gravity=asked.gravity.value,
                     mass=asked.mass.value,
                     **{name: value for name, value in chosen.items() if value is not None},
@@ -227,7 +228,9 @@ def _rebounds(found: "Rebounds") -> str:
             _by_formula(theory.restitution, found.restitution, f"{theory.restitution:.4f}", found),
             _by_formula(theory.duration, found.duration, f"{1e3 * theory.duration:.3g} ms", found),
             _by_formula(theory.depth, found.depth, f"{1e3 * theory.depth:.3g} mm", found),
-            _by_formula(theory.rest, found.rest.depth, f"{1e6 * theory.rest:.3g} um deep", found),
+            _by_formula(theory.rest, found.rest.depth, f"{1e6 * theory.rest:.3g} um deep", found)
+            if found.body.startswith("sphere")
+            else f"; by formula {1e6 * theory.rest:.3g} um deep on one point",
         ]
     return "\n".join(
         [
@@ -254,15 +257,18 @@ def _weight(found: "Bounce | Rebounds") -> list[str]:
 
 
 def _deep(found: "Rebounds") -> str:
-    """Return at which speed the contact is deeper than half of the ball that was measured, in words."""
-    from cointoss.coin_mj.bounces.bodies import BALL
+    """Return at which speed the contact is deeper than half of the body that was measured, in words."""
+    from cointoss.coin_mj.bounces.bodies import body_of
     from cointoss.coin_mj.bounces.drops import SPEED
 
-    fastest = BALL.thinnest / found.depth if found.depth else inf
+    thinnest = body_of(found.body).thinnest
+    fastest = thinnest / found.depth if found.depth else inf
     if fastest >= SPEED:
         return ""
-    ball = f"this ball of {2e3 * BALL.thinnest:g} mm"
-    return f"; above {fastest:.2g} m/s deeper than half of {ball}, which only a plane sends back"
+    return (
+        f"; above {fastest:.2g} m/s deeper than half of a {found.body}, {2e3 * thinnest:g} mm thick, "
+        "which only a plane sends back"
+    )
 
 
 def _by_formula(theory: float, measured: float, text: str, found: "Rebounds") -> str:

@@ -52,6 +52,11 @@ def test_the_depth_at_rest_is_that_of_the_weight_that_is_left(solref_given):
     assert found.rest.depth == pytest.approx(found.formula.rest, rel=1e-3)
 
 
+def test_a_box_lies_a_quarter_as_deep_as_a_ball():
+    found = solref_of((-2000.0, -60.0), 1e-3, solimp="0.9 0.9 0.001 0.5 2", body="box 0.1 0.1 0.002")
+    assert found.rest.depth == pytest.approx(0.1 * 9.81 / 2000 / 4, rel=1e-3)
+
+
 def test_on_the_moon_the_depth_at_rest_is_that_of_its_weight_for_every_mass():
     solimp, moon = "0.9 0.9 0.001 0.5 2", 1.62
     found = solref_of((-2000.0, -60.0), 1e-3, solimp=solimp, gravity=moon)
