@@ -11,7 +11,7 @@ import mujoco
 import numpy as np
 
 from cointoss.coin_mj.bounces.approach import Pair
-from cointoss.coin_mj.bounces.rest import LOOKED_AT, STEPS, STILL
+from cointoss.coin_mj.bounces.rest import HOP, LOOKED_AT, STEPS, STILL
 from cointoss.models.records import Array
 
 FALL = 10.0
@@ -31,7 +31,8 @@ class PairRest:
     depth: float
     """The greatest depth of a contact, in the mean over the steps [m]."""
     hop: float
-    """Rise along the normal from its lowest to its highest position, without what it sinks [m]."""
+    """Rise along the normal from its lowest to its highest position, without what it sinks [m]; 0 for less
+    than a twentieth of the depth."""
     sinking: float
     """The mean speed along the normal into the other [m/s]."""
     drift: float
@@ -43,7 +44,8 @@ class PairRest:
     slope: float
     """The slope on which `slip` was measured: tangential over normal gravity; 0 where it was not."""
     slip: float
-    """The mean speed at which the points that touch slip on that slope [m/s]; NaN where not measured."""
+    """The mean speed at which the points that touch slip on that slope [m/s]; NaN where not measured, or
+    where the geoms part within 2000 steps."""
 
 
 class _Pose(NamedTuple):
@@ -85,7 +87,8 @@ def rest_between(pair: Pair) -> PairRest | str:
     places = np.array([pose.place for pose in poses])
     heights, times = places @ normal, EVERY * dt * np.arange(len(poses))
     rise, start = np.polyfit(times, heights, 1)
-    hop = float(np.ptp(heights - rise * times - start))
+    hop, depth = float(np.ptp(heights - rise * times - start)), float(np.mean([pose.depth for pose in poses]))
+    hop = hop if hop > max(still, HOP * depth) else 0.0
     steps = np.diff(places - heights[:, None] * normal, axis=0)
     drift, path = float(np.linalg.norm(steps.sum(axis=0))), float(np.linalg.norm(steps, axis=1).sum())
     rocking = _rocking(np.array([pose.attitude for pose in poses]), normal)
@@ -93,8 +96,8 @@ def rest_between(pair: Pair) -> PairRest | str:
     rolls = turns and drift > max(still, path / 2)
     slope = _slope(pair) if max(hop, drift) <= still else 0.0
     return PairRest(
-        depth=float(np.mean([pose.depth for pose in poses])),
-        hop=hop if hop > still else 0.0,
+        depth=depth,
+        hop=hop,
         sinking=-float(rise) if abs(rise) * times[-1] > still else 0.0,
         drift=drift / float(times[-1]) if drift > still else 0.0,
         rocking=rocking if turns and not rolls else 0.0,
@@ -148,9 +151,8 @@ def _rocking(attitudes: Array, normal: Array) -> float:
 
 def _slope(pair: Pair) -> float:
     """Return the slope on which a slip is measured; 0 without friction, or where no free body lies."""
-    touch = pair.contact
-    held = touch.dim > 1 and pair.free() and pair.touches()
-    return min(SLOPE, float(touch.friction[0]) / 2) if held else 0.0
+    held = pair.contact.dim > 1 and pair.free() and pair.touches()
+    return min(SLOPE, float(pair.contact.friction[0]) / 2) if held else 0.0
 
 
 def _slip(pair: Pair, slope: float) -> float:
@@ -168,7 +170,7 @@ def _slip(pair: Pair, slope: float) -> float:
 
 
 def _slip_now(pair: Pair) -> float:
-    """Return the mean speed at which the points that touch slip [m/s]; infinite where none touches."""
+    """Return the mean speed at which the points that touch slip [m/s]; NaN where none touches."""
     model, data, found = pair.model, pair.data, []
     for contact in pair.touches().values():
         total = np.zeros((3, model.nv))
@@ -177,4 +179,4 @@ def _slip_now(pair: Pair) -> float:
             mujoco.mj_jac(model, data, jacobian, None, contact.pos, int(model.geom_bodyid[geom]))
             total += sign * jacobian
         found.append(float(np.linalg.norm(contact.frame[3:].reshape(2, 3) @ (total @ data.qvel))))
-    return float(np.mean(found)) if found else math.inf
+    return float(np.mean(found)) if found else math.nan

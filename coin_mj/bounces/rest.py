@@ -22,6 +22,8 @@ FALL = 50.0
 """Speed of the fall before, over g dt."""
 STILL = 1e-3
 """A body that moves by less than this part of g dt² in the last quarter of the steps lies still."""
+HOP = 0.05
+"""A body that rises by less than this part of its depth then does not hop."""
 
 
 def depth_at_rest(contact: ContactSettings, body: FlatBody = BALL) -> float:
@@ -89,10 +91,10 @@ def rest_of(contact: ContactSettings, body: FlatBody = BALL) -> Rest:
             mujoco.mj_step(model, data)
             last[step] = body.height - data.qpos[2]
     sinking, start = np.polyfit(times, last, 1)
-    hop = float(np.ptp(last - sinking * times - start))
+    hop, depth = float(np.ptp(last - sinking * times - start)), float(last.mean())
     still = STILL * gravity * dt**2
     return Rest(
-        depth=float(last.mean()),
-        hop=hop if hop > still else 0.0,
+        depth=depth,
+        hop=hop if hop > max(still, HOP * depth) else 0.0,
         sinking=float(sinking) if abs(sinking) * times[-1] > still else 0.0,
     )

@@ -1,5 +1,7 @@
 """What one geom does at rest on another, in lines."""
 
+from math import isnan
+
 from cointoss.coin_mj.bounces.pair import PairBounce
 from cointoss.coin_mj.bounces.pair_rest import PairRest
 
@@ -20,11 +22,14 @@ def rest_lines(found: PairBounce) -> str:
 
 def _rest(rest: PairRest) -> str:
     if rest.hop:
-        return f"never still: it hops on, by {1e6 * rest.hop:.3g} um"
+        return (
+            f"never still: it hops on, by {1e6 * rest.hop:.3g} um, {1e6 * rest.depth:.3g} um deep in the mean"
+        )
     if rest.sinking:
         return f"sinks {1e6 * rest.sinking:.3g} um/s"
     does = "rolls away" if rest.rolls else "moves along the other geom" if rest.drift else "lies still"
-    return f"{does}, {1e6 * rest.depth:.3g} um deep"
+    # A margin holds the geoms apart.
+    return f"{does}, {1e6 * abs(rest.depth):.3g} um {'deep' if rest.depth >= 0 else 'above the other'}"
 
 
 def _rocking(rest: PairRest) -> str:
@@ -36,7 +41,9 @@ def _rocking(rest: PairRest) -> str:
 def _creep(rest: PairRest, found: PairBounce) -> str:
     if rest.drift:
         return f"{1e6 * rest.drift:.3g} um/s along the other geom"
-    if rest.slope:
+    if rest.slope and isnan(rest.slip):
+        slope = f"on a slope of {rest.slope:g} it does not stay on the other geom"
+    elif rest.slope:
         slope = (
             f"on a slope of {rest.slope:g} the points that touch slip at {1e6 * rest.slip:.2g} um/s, "
             "in proportion to the slope"

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from cointoss.coin_mj import bounce
+from cointoss.coin_mj.bounces import pair_rest
 from cointoss.coin_mj.bounces.approach import Pair
 from cointoss.coin_mj.bounces.pair_rest import PairRest, rest_between
 from cointoss.coin_mj.bounces.recipe import recipe_of
@@ -13,7 +14,8 @@ from tests.helpers.two_geoms import DT, FLOOR, HARD, SET, ball, model
 
 ROUGH = f'{HARD.geom} condim="3" priority="1"'
 SPRING = recipe_of(0.8, DT, 40)
-BOX = '<body pos="0 0 1"><freejoint/><geom name="b" type="box" size="0.1 0.1 0.05" {}/></body>'
+BLOCK = '<geom name="b" type="box" size="0.1 0.1 0.05" {}/>'
+BOX = f'<body pos="0 0 1"><freejoint/>{BLOCK}</body>'
 STIFFNESS, DAMPING = (-number for number in HARD.solref)
 LEFT = 1e-4 * 9.81
 """The part of its weight that the contact leaves to a body, over its mass [m/s²]."""
@@ -110,6 +112,24 @@ def test_what_falls_off_is_told():
 
 
 def test_a_model_that_becomes_unstable_is_told():
+def test_a_coin_that_rises_and_falls_by_a_hundredth_of_its_depth_does_not_hop(monkeypatch):
+    """MuJoCo's default contact holds it on a box, in which its middle is 0.11 mm deep by plain steps."""
+    monkeypatch.setattr(pair_rest, "STEPS", 2000)
+    monkeypatch.setattr(pair_rest, "LOOKED_AT", 500)
+    coin = '<geom name="b" type="cylinder" size="0.012 0.001" mass="0.005"/>'
+    bodies = '<geom name="a" type="box" size="0.4 0.4 0.025"/>' + BOX.replace(BLOCK, coin)
+    lying = rest(bodies)
+    assert lying.hop == 0
+    assert lying.depth == pytest.approx(1.1e-4, rel=0.15)
+    monkeypatch.setattr(pair_rest, "HOP", 0)
+    assert 0.005 < rest(bodies).hop / lying.depth < 0.02
+
+
+def test_what_rolls_off_the_other_on_a_slope_has_no_slip():
+    lying = rest('<geom name="a" type="box" size="0.05 0.05 0.05"/>' + ball(ROUGH))
+    assert (lying.slope, np.isnan(lying.slip)) == (0.01, True)
+
+
     wild = 'solref="-1e20 0" solimp="0.9999 0.9999 0.001" condim="1" priority="1"'
     with unlogged():
         assert "unstable" in str(found(FLOOR + ball(wild)))
