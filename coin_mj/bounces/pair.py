@@ -50,6 +50,8 @@ class PairOutcome(StrEnum):
     PASSES = "go through"
     """They part on the wrong sides, or one is beyond the other's middle after a step."""
     MISSES = "do not touch"
+    TURNED = "meet at a turned normal"
+    """The normal of the first contact is not that along which they came: one is already deep in the other."""
     OTHER_SPEED = "come at another speed"
     """Something else brakes or accelerates them by more than `SHARE` of their speed on the way."""
     CHANGES = "change speed in a step"
@@ -244,11 +246,11 @@ def _come(pair: Pair, speed: float) -> _Come | PairOutcome:
     if (points.normals @ pair.normal).mean() < 0:
         return PairOutcome.PASSES
     found = -points.speed_at_touch(apart)
-    if math.isnan(found):
-        return PairOutcome.CHANGES
-    if abs(found - speed) > SHARE * speed + _weight(pair) * model.opt.timestep:
-        return PairOutcome.OTHER_SPEED
-    return _Come(points, found, _kinetic_energy(model, apart))
+    if abs(found - speed) <= SHARE * speed + _weight(pair) * model.opt.timestep:
+        return _Come(points, found, _kinetic_energy(model, apart))
+    if (points.normals @ pair.normal).mean() < 1 - SHARE:
+        return PairOutcome.TURNED
+    return PairOutcome.CHANGES if math.isnan(found) else PairOutcome.OTHER_SPEED
 
 
 def _part(pair: Pair, came: _Come) -> _Touch:

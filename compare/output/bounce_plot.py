@@ -17,6 +17,7 @@ MEANINGS = {
     PairOutcome.LASTS: f"the contact goes on for more than {LONGEST} steps, and the geoms still move",
     PairOutcome.PASSES: "the geoms part on the wrong sides, or pass each other's middle within a step",
     PairOutcome.MISSES: "the approach starts against a force of the model, such as a spring, that ends it",
+    PairOutcome.TURNED: "after a step they are so deep in each other that the contact pushes aside",
     PairOutcome.OTHER_SPEED: f"something else changes the speed by more than {100 * SHARE:g} % on the way",
     PairOutcome.CHANGES: f"the point's speed changes by more than {100 * SHARE:g} %; take a shorter step",
 }

@@ -191,6 +191,15 @@ def test_a_point_whose_speed_changes_in_a_step_has_no_restitution():
     assert found.energy_kept[0] == pytest.approx(0.64, abs=6e-3)
 
 
+def test_geoms_that_are_deep_in_each_other_after_a_step_meet_at_a_turned_normal(monkeypatch):
+    monkeypatch.setattr(pair, "SPEEDS", (5.0,))
+    bodies = (
+        '<geom name="a" type="capsule" size="0.01 0.2" euler="90 0 0"/><body pos="0 0 1"><freejoint/>'
+        '<geom name="b" type="cylinder" size="0.012 0.001" euler="0 40 0"/></body>'
+    )
+    assert "8 of 8 meet at a turned normal" in bounce_table(bounce(model(bodies), "a", "b"))
+
+
 @pytest.mark.parametrize("how", COUPLED)
 def test_what_is_coupled_comes_along(how):
     found = bounce(model(SLIDES, more=COUPLED[how]), "b", "a")
