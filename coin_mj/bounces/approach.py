@@ -24,15 +24,17 @@ CLOSED = 1e-10
 """Error of an equality constraint that is met [m or rad]."""
 HELD = 1e-6
 """If two geoms approach at less than this part of a speed, equality constraints hold them."""
+STRAIGHT = 1e-4
+"""A body moves straight along a way if it leaves it, and turns, by less than this part of its motion."""
 
 
 class Pair:
-    """Two geoms of a model, alone, that one joint or a free body brings together.
+    """Two geoms of a model, alone, that joints bring together.
 
-    Other geoms touch nothing. A geom on a free body approaches straight along the normal, without turning. If
-    neither geom is on a free body, the joints move as an impulse between the two geoms would move them.
-    Bodies that active equality constraints couple move along. On a height field a body comes along the
-    field's own z.
+    Other geoms touch nothing. A geom whose joints let it move along the normal while no body turns approaches
+    straight, with all that hangs on those joints. If neither can, the joints move as an impulse between the
+    two geoms would move them. Bodies that active equality constraints couple move along. On a height field a
+    body comes along the field's own z.
     """
 
     def __init__(self, model: mujoco.MjModel, one: int, two: int) -> None:
@@ -59,11 +61,17 @@ class Pair:
         if not bounds:
             raise self._apart("at least one is no plane")
         self.size = min(bounds)
+        self.free = [
+            geom for geom in (one, two) if all(self._straight(geom, way) is not None for way in np.eye(3))
+        ]
         self._close()
         self._bring_to(-1e-3 * self.size)
         self.contact = self._contact()
-        self._bring_to(self.contact.includemargin + 1e-3 * self.size)
+        approach = self._bring_to(self.contact.includemargin + 1e-3 * self.size)
         self.start = self.data.qpos.copy()
+        self.data.qvel[:] = approach
+        mujoco.mj_forward(self.model, self.data)
+        self.turning = round(float(np.linalg.norm(self.data.cvel[:, :3], axis=1).max()), 3)
         _, self.normal, point = self._nearest()
         self.soft = self._soft(self._row(self.normal, point))
 
@@ -134,12 +142,13 @@ class Pair:
         """Bring the geoms to a distance [m]; return the velocity that brings them nearer at 1 m/s, (nv,)."""
         for _ in range(TRIES):
             found, normal, point = self._nearest()
-            approach = self._approach(normal, point)
+            thrown = self.thrown(normal)
+            approach = self._approach(thrown, self._row(normal, point))
             missing = distance - found
             if abs(missing) < 1e-9 * self.size:
                 return approach
             move = -missing * approach
-            move *= min(1.0, TURN / np.abs(move).max()) if not self.free() else 1.0
+            move *= min(1.0, TURN / np.abs(move).max()) if thrown is None else 1.0
             mujoco.mj_integratePos(self.model, self.data.qpos, move, 1.0)
             mujoco.mj_forward(self.model, self.data)
             self._close()
@@ -209,14 +218,43 @@ class Pair:
             raise self._apart("MuJoCo lets them pass, or the one is not above the height field")
         return inside, up if other == self.one else -up, place - inside * up
 
-    def _approach(self, normal: Array, point: Array) -> Array:
+    def thrown(self, normal: Array) -> tuple[int, Array] | None:
+        """Return the geom that comes nearer straight, at 1 m/s, and by which generalised velocity, (nv,).
+
+        It is that on a free body, where one is.
+        """
+        ways = {self.one: -normal, self.two: normal}
+        found = ((geom, self._straight(geom, ways[geom])) for geom in (*self.free, *ways))
+        return next(((geom, velocity) for geom, velocity in found if velocity is not None), None)
+
+    def _straight(self, geom: int, way: Array) -> Array | None:
+        """Return the generalised velocity by which a geom moves, not the other, and no body turns, (nv,).
+
+        Of several that by the joints nearest to the world, which moves the most; None where there is none.
+        """
+        own, other = (self._moves(self.model.geom_bodyid[number]) for number in (geom, *self.geoms - {geom}))
+        chain = np.unique(self.model.dof_bodyid[own.any(axis=0)])
+        rows = np.vstack([own[:3], *(self._moves(body)[3:] for body in chain)]) * ~other.any(axis=0)
+        asked = np.pad(way, (0, 3 * len(chain)))
+        for body in chain:
+            upper = rows * (self.model.dof_bodyid <= body)
+            velocity = np.linalg.lstsq(upper, asked)[0]
+            if np.abs(upper @ velocity - asked).max() < STRAIGHT:
+                return velocity
+        return None
+
+    def _moves(self, body: int) -> Array:
+        """Return the Jacobian of a body's velocity, and below it that of its angular velocity, (6, nv)."""
+        jacobian = np.zeros((6, self.model.nv))
+        mujoco.mj_jacBody(self.model, self.data, jacobian[:3], jacobian[3:], body)
+        return jacobian
+
+    def _approach(self, thrown: tuple[int, Array] | None, row: Array) -> Array:
         """Return the generalised velocity by which the geoms come nearer at 1 m/s."""
-        velocity, row = np.zeros(self.model.nv), self._row(normal, point)
-        free = self.free()
-        if free is not None:
-            dof, sign = free
-            velocity[dof : dof + 3] = -sign * normal
+        if thrown is not None:
+            velocity = thrown[1]
         else:
+            velocity = np.zeros(self.model.nv)
             mujoco.mj_solveM(self.model, self.data, velocity[None], row[None])
             response = row @ velocity
             if response < 1e-12 / max(self.model.body_mass.sum(), 1e-12):
@@ -266,17 +304,6 @@ class Pair:
             *(f"equality {self.model.equality(number).name or number}" for number in equalities),
             *(f"tendon {self.model.tendon(number).name or number}" for number in tendons),
         )
-
-    def free(self) -> tuple[int, float] | None:
-        """Return the first coordinate of the free joint that moves a geom, and that geom's side."""
-        bodies = [int(self.model.body_rootid[self.model.geom_bodyid[geom]]) for geom in (self.one, self.two)]
-        if bodies[0] == bodies[1]:
-            return None
-        for body, sign in zip(bodies, (1.0, -1.0), strict=True):
-            joint = int(self.model.body_jntadr[body])
-            if joint >= 0 and self.model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE:
-                return int(self.model.jnt_dofadr[joint]), sign
-        return None
 
     def _row(self, normal: Array, point: Array, of: Any = mujoco.mj_jac) -> Array:
         """Return the Jacobian of the speed at which both geoms part, or its rate of change, (nv,)."""

@@ -72,6 +72,8 @@ class PairBounce:
     solimp: str
     condim: int
     friction: float
+    turning: float
+    """The largest angle by which a body turns on each metre of the approach [rad/m]; 0 if thrown straight."""
     thinnest: float
     """Half of the thickness of the thinner geom, where it is thinnest; a plane has none [m]."""
     speeds: Array = field(default_factory=lambda: np.array(SPEEDS))
@@ -115,10 +117,10 @@ def bounce(
 ) -> PairBounce:
     """Return how two geoms of a model bounce off each other, by plain `mj_step` and the model's own options.
 
-    Other geoms do not touch these two. A geom on a free body approaches straight along the normal of the
-    contact, without turning. If neither geom is on a free body, the joints move as an impulse between both
-    would move them. Bodies that active equality constraints couple move along. The model's joints, springs,
-    actuators and limits act. Nothing is written.
+    Other geoms do not touch these two. A geom whose joints let it move along the normal of the contact while
+    no body turns, such as those of a free body, approaches straight, with all that hangs on those joints. If
+    neither can, the joints move as an impulse between both would move them. Bodies that active equality
+    constraints couple move along. The model's joints, springs, actuators and limits act. Nothing is written.
 
     Args:
         model: of MuJoCo, or the path of its XML.
@@ -153,6 +155,7 @@ def bounce(
         solimp=" ".join(f"{number:.12g}" for number in touch.solimp),
         condim=int(touch.dim),
         friction=float(touch.friction[0]),
+        turning=pair.turning,
         thinnest=pair.thinnest,
         restitutions=_column(free, "restitution"),
         with_gravity=_column(pulled, "restitution"),

@@ -72,7 +72,7 @@ def rest_between(pair: Pair) -> PairRest | str:
     pressing = pair.acceleration(np.zeros(model.nv))[0]
     if pressing <= 1e-6 * float(np.linalg.norm(model.opt.gravity)):
         both = "both are on free bodies, which fall alike: put the lower one on the world"
-        return both if _both_free(pair) else "nothing presses the geoms together where they touch"
+        return both if len(pair.free) > 1 else "nothing presses the geoms together where they touch"
     pair.set_apart(FALL * pressing * dt, 1.0)
     mujoco.mj_step(model, data, nstep=STEPS - LOOKED_AT)
     poses = []
@@ -107,16 +107,10 @@ def rest_between(pair: Pair) -> PairRest | str:
     )
 
 
-def _both_free(pair: Pair) -> bool:
-    model = pair.model
-    joints = [int(model.body_jntadr[model.geom_bodyid[geom]]) for geom in (pair.one, pair.two)]
-    return all(n >= 0 and model.jnt_type[n] == mujoco.mjtJoint.mjJNT_FREE for n in joints)
-
-
 def _moving_first(pair: Pair) -> tuple[int, int]:
-    """Return the geom that moves, and that on which it lies: the one on no free body, or a plane."""
-    free = pair.free()
-    one_moves = free[1] > 0 if free else pair.model.geom_rbound[pair.one] > 0
+    """Return the geom that moves, and that on which it lies: the one that is not thrown, or a plane."""
+    thrown = pair.thrown(pair.normal)
+    one_moves = thrown[0] == pair.one if thrown else pair.model.geom_rbound[pair.one] > 0
     return (pair.one, pair.two) if one_moves else (pair.two, pair.one)
 
 
@@ -151,7 +145,7 @@ def _rocking(attitudes: Array, normal: Array) -> float:
 
 def _slope(pair: Pair) -> float:
     """Return the slope on which a slip is measured; 0 without friction, or where no free body lies."""
-    held = pair.contact.dim > 1 and pair.free() and pair.touches()
+    held = pair.contact.dim > 1 and pair.free and pair.touches()
     return min(SLOPE, float(pair.contact.friction[0]) / 2) if held else 0.0
 
 

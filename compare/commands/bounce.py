@@ -2,10 +2,14 @@
 
 from dataclasses import asdict
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from cointoss.compare.commands.common import Place, ReadPlace, plain_errors, print_json, refuse
+
+if TYPE_CHECKING:
+    from cointoss.coin_mj.bounces.pair import PairBounce
 
 
 @click.command()
@@ -49,8 +53,18 @@ def bounce(model: Path, one: str, two: str, png: Path | None, as_json: bool) -> 
         friction = f' friction="{found.friction:g}"' if found.condim > 1 else ""
         click.echo(
             f'mixed       solref="{solref}" solimp="{found.solimp}" condim="{found.condim}"{friction}\n'
-            f"integrator  {found.integrator}, {1e3 * found.timestep:g} ms\n\n{bounce_table(found)}\n\n"
-            f"{rest_lines(found)}"
+            f"integrator  {found.integrator}, {1e3 * found.timestep:g} ms\n"
+            f"approach    {_approach(found)}\n\n{bounce_table(found)}\n\n{rest_lines(found)}"
         )
         if png is not None:
             click.echo(f"\npicture     {png}")
+
+
+def _approach(found: "PairBounce") -> str:
+    """Return how the geoms were thrown at each other, in words."""
+    return (
+        "as an impulse between the geoms moves the joints: "
+        f"a body turns by {found.turning:.3g} rad on each metre of the way"
+        if found.turning
+        else "straight: no body turns"
+    )

@@ -71,9 +71,8 @@ def bounce_table(found: PairBounce) -> str:
         notes.append(
             f"{GAINS} gains energy: at one phase or more, the geoms part with more energy than they came with"
         )
-    count = len(found.outcomes[0])
-    phases = f"Restitution: the mean over {count} phases of a step, in brackets the least and the largest."
-    return "\n".join([phases, *lines, *notes, *found.notes])
+    phases = f"the mean over {len(found.outcomes[0])} phases of a step, in brackets the least and the largest"
+    return "\n".join([f"Restitution: {phases}.", *lines, *notes, *found.notes])
 
 
 def _range(values: Array, outcomes: tuple[PairOutcome, ...]) -> str:

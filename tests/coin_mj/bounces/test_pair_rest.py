@@ -10,7 +10,7 @@ from cointoss.coin_mj.bounces.pair_rest import PairRest, rest_between
 from cointoss.coin_mj.bounces.recipe import recipe_of
 from cointoss.coin_mj.bounces.unlogged import unlogged
 from cointoss.compare.output.rest_lines import rest_lines
-from tests.helpers.two_geoms import DT, FLOOR, HARD, SET, ball, model
+from tests.helpers.two_geoms import ALONG_AXES, DT, FLOOR, HARD, SET, ball, model
 
 ROUGH = f'{HARD.geom} condim="3" priority="1"'
 SPRING = recipe_of(0.8, DT, 40)
@@ -36,7 +36,13 @@ def rest(*described, **options):
 
 
 @pytest.mark.parametrize(
-    ("body", "share", "points"), [(ball(ROUGH), 2 / 7, 1), (BOX.format(ROUGH), 1, 4)], ids=["ball", "box"]
+    ("body", "share", "points"),
+    [
+        (ball(ROUGH), 2 / 7, 1),
+        (BOX.format(ROUGH), 1, 4),
+        (BOX.replace("<freejoint/>", "".join(ALONG_AXES) + '<joint type="ball"/>').format(ROUGH), 1, 4),
+    ],
+    ids=["ball", "box", "box on slides"],
 )
 def test_it_lies_still_and_creeps_as_the_damping_of_friction_says(body, share, points):
     """A ball rolls down, and its friction carries 2/7 of the slope's pull; four points carry a box."""
@@ -106,12 +112,6 @@ def test_what_nothing_presses_together_is_told(bodies, why):
     assert why in str(found(bodies))
 
 
-def test_what_falls_off_is_told():
-    off = '<geom name="a" type="box" size="0.01 0.01 0.01" pos="0.05 0 0"/>' + ball(SET)
-    assert "do not touch any more" in str(found(off))
-
-
-def test_a_model_that_becomes_unstable_is_told():
 def test_a_coin_that_rises_and_falls_by_a_hundredth_of_its_depth_does_not_hop(monkeypatch):
     """MuJoCo's default contact holds it on a box, in which its middle is 0.11 mm deep by plain steps."""
     monkeypatch.setattr(pair_rest, "STEPS", 2000)
@@ -130,6 +130,12 @@ def test_what_rolls_off_the_other_on_a_slope_has_no_slip():
     assert (lying.slope, np.isnan(lying.slip)) == (0.01, True)
 
 
+def test_what_falls_off_is_told():
+    off = '<geom name="a" type="box" size="0.01 0.01 0.01" pos="0.05 0 0"/>' + ball(SET)
+    assert "do not touch any more" in str(found(off))
+
+
+def test_a_model_that_becomes_unstable_is_told():
     wild = 'solref="-1e20 0" solimp="0.9999 0.9999 0.001" condim="1" priority="1"'
     with unlogged():
         assert "unstable" in str(found(FLOOR + ball(wild)))

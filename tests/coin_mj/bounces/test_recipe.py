@@ -14,9 +14,10 @@ from cointoss.coin_mj.bounces.contact import ContactSettings, one_step_solref
 from cointoss.coin_mj.bounces.drops import SPEED, drops_of
 from cointoss.coin_mj.bounces.recipe import recipe_of
 from cointoss.models.records import ApproximationWarning
+from tests.helpers.two_geoms import rebound
 
 
-def rebound(model, lowest, *, weight=True, speed=0.0):
+def kept(model, lowest, *, weight=True, speed=0.0):
     """Return the speed after the first contact over that before, both at the floor, of a model's lone body.
 
     Args:
@@ -55,7 +56,7 @@ def test_the_model_bounces_as_it_says(restitution, spring):
     found = solref(restitution, 5e-4, spring=spring)
     model = mujoco.MjModel.from_xml_string(found.model)
     # It touches at 3 m/s, where weight takes less than at the 2 m/s of the measurement.
-    assert rebound(model, 0.01) == pytest.approx(restitution, abs=found.error_with_weight + 1e-3)
+    assert kept(model, 0.01) == pytest.approx(restitution, abs=found.error_with_weight + 1e-3)
     assert found.error < (0.02 if spring else 5.1e-4)
 
 
@@ -67,7 +68,7 @@ def test_without_weight_a_contact_of_one_step_rebounds_by_the_closed_form(restit
         solref=one_step_solref(restitution, 5e-4), timestep=5e-4, integrator="implicitfast"
     )
     model = BALL.compiled(exact, 0.51)
-    assert rebound(model, 0.01, weight=False, speed=speed) == pytest.approx(restitution, abs=1e-11)
+    assert kept(model, 0.01, weight=False, speed=speed) == pytest.approx(restitution, abs=1e-11)
 
 
 @pytest.mark.parametrize("restitution", [0.0, 0.8, 0.9995])
@@ -110,18 +111,8 @@ def test_weight_takes_from_a_rebound_out_of_a_long_contact():
 def test_a_ball_that_is_dropped_loses_to_its_weight_what_the_closed_form_says(e, height):
     """√(h'/h) is e + ((1 - e)/2 - s (1/e - e)) g dt/v, s from 0 to 1 with the phase of the touch."""
     found, dt = solref(e, 2e-3), 2e-3
-    v, rebounds = (2 * 9.81 * height) ** 0.5, []
-    model = mujoco.MjModel.from_xml_string(found.model)
-    for part in range(20):
-        data, start = mujoco.MjData(model), height + part / 20 * v * dt
-        data.qpos[2] = 0.01 + start
-        while data.qvel[2] <= 0:
-            mujoco.mj_step(model, data)
-        highest = 0.0
-        while data.qvel[2] > 0:
-            highest = data.qpos[2] - 0.01
-            mujoco.mj_step(model, data)
-        rebounds.append((highest / start) ** 0.5)
+    v, model = (2 * 9.81 * height) ** 0.5, mujoco.MjModel.from_xml_string(found.model)
+    rebounds = [rebound(model, 0.01, height + part / 20 * v * dt) for part in range(20)]
     costs, stiffness = 9.81 * dt / v, min(1e-3, 1 - e) / 2
     assert found.weight_cost == pytest.approx(1 / e - e - (1 - e) / 2)
     lowest, highest = e - found.weight_cost * costs, e + (1 - e) / 2 * costs
@@ -143,10 +134,10 @@ def test_what_is_pasted_elsewhere_holds_for_another_body(body, mass):
         <body pos="0 0 0.4"><freejoint/><geom type="{body}" size="{size}" mass="{mass}" {found.geom}/></body>
         </worldbody></mujoco>"""
     model = mujoco.MjModel.from_xml_string(text)
-    assert rebound(model, lowest) == pytest.approx(0.6, abs=found.error_with_weight)
+    assert kept(model, lowest) == pytest.approx(0.6, abs=found.error_with_weight)
     # The stiffness takes up to 5e-4; contacts at four corners share a softness of 1 - 0.9999.
     exactly = {"sphere": 5.1e-4, "box": 6e-4}[body]
-    assert rebound(model, lowest, weight=False, speed=2.0) == pytest.approx(0.6, abs=exactly)
+    assert kept(model, lowest, weight=False, speed=2.0) == pytest.approx(0.6, abs=exactly)
 
 
 def test_the_depth_is_that_of_a_spring_or_of_a_step():

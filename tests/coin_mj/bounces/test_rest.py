@@ -107,22 +107,3 @@ def test_what_is_deeper_rises_with_the_damping_over_the_stiffness(e):
     left = (BALL.height - data.qpos[2] - at_rest) / (1e-3 - at_rest)
     assert left == pytest.approx(np.exp(-1), rel=2e-3)
     assert b / k == pytest.approx((1 + e) * 2e-3 / 1e-3, rel=1e-3)
-
-
-def lowest_and_highest(contact, steps):
-    """Return the heights between which a ball is that has bounced out, over so many steps."""
-    model = BALL.compiled(contact, 2 * BALL.height)
-    data = mujoco.MjData(model)
-    mujoco.mj_step(model, data, nstep=40_000)
-    heights = []
-    for _ in range(steps // 1000):
-        mujoco.mj_step(model, data, nstep=1000)
-        heights.append(data.qpos[2])
-    return np.array([min(heights), max(heights)]) - BALL.height
-
-
-@pytest.mark.parametrize(("e", "steps"), [(0.8, None), (0.8, 40)])
-def test_a_minute_at_rest(e, steps):
-    """An hour of what is printed is in `test_printed.py`."""
-    low, high = lowest_and_highest(recipe_of(e, 2e-3, steps), 30_000 if steps is None else 10_000)
-    assert low == pytest.approx(high, abs=1e-9)
