@@ -49,9 +49,14 @@ class Pair:
         others = np.array([number not in self.geoms for number in range(model.ngeom)])
         self.model.geom_contype[others] = 0
         self.model.geom_conaffinity[others] = 0
-        for number in range(model.npair):
-            if {int(model.pair_geom1[number]), int(model.pair_geom2[number])} != self.geoms:
-                self.model.pair_margin[number] = -FARTHEST
+        ends = zip(model.pair_geom1, model.pair_geom2, strict=True)
+        own = np.array([{int(first), int(second)} == self.geoms for first, second in ends], dtype=bool)
+        self.model.pair_margin[~own] = -FARTHEST
+        # MuJoCo adds the margins and the gaps of both geoms; those of a pair hold alone.
+        of, where = ("pair", own) if own.any() else ("geom", [one, two])
+        self.margin, self.gap = (
+            float(getattr(model, f"{of}_{name}")[where].sum()) for name in ("margin", "gap")
+        )
         self.one, self.two = one, two
         fields = [geom for geom in (one, two) if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_HFIELD]
         self.field = fields[0] if fields else None
@@ -136,7 +141,11 @@ class Pair:
         """Return a contact of both geoms where they overlap."""
         for _, contact in self._between():
             return copy.copy(contact)
-        raise self._apart("MuJoCo lets them pass (contype and conaffinity, exclude, or parent and child)")
+        raise self._apart(
+            f"their margin + gap is {self.margin + self.gap:g} m, and MuJoCo finds no contact below 0"
+            if self.margin + self.gap < 0
+            else "MuJoCo lets them pass (contype and conaffinity, exclude, or parent and child)"
+        )
 
     def _bring_to(self, distance: float) -> Array:
         """Bring the geoms to a distance [m]; return the velocity that brings them nearer at 1 m/s, (nv,)."""

@@ -72,6 +72,10 @@ class PairBounce:
     solimp: str
     condim: int
     friction: float
+    margin: float
+    """The distance from which the contact pushes [m]: the margin since MuJoCo 3.9, before it margin - gap."""
+    gap: float
+    """The distance beyond the margin over which MuJoCo since 3.9 lists the contact without a push [m]."""
     turning: float
     """The largest angle by which a body turns on each metre of the approach [rad/m]; 0 if thrown straight."""
     thinnest: float
@@ -155,6 +159,8 @@ def bounce(
         solimp=" ".join(f"{number:.12g}" for number in touch.solimp),
         condim=int(touch.dim),
         friction=float(touch.friction[0]),
+        margin=float(touch.includemargin),
+        gap=pair.gap,
         turning=pair.turning,
         thinnest=pair.thinnest,
         restitutions=_column(free, "restitution"),

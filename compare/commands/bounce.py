@@ -53,7 +53,7 @@ def bounce(model: Path, one: str, two: str, png: Path | None, as_json: bool) -> 
         friction = f' friction="{found.friction:g}"' if found.condim > 1 else ""
         click.echo(
             f'mixed       solref="{solref}" solimp="{found.solimp}" condim="{found.condim}"{friction}\n'
-            f"integrator  {found.integrator}, {1e3 * found.timestep:g} ms\n"
+            f"integrator  {found.integrator}, {1e3 * found.timestep:g} ms\n{_margin(found)}"
             f"approach    {_approach(found)}\n\n{bounce_table(found)}\n\n{rest_lines(found)}"
         )
         if png is not None:
@@ -67,4 +67,14 @@ def _approach(found: "PairBounce") -> str:
         f"a body turns by {found.turning:.3g} rad on each metre of the way"
         if found.turning
         else "straight: no body turns"
+    )
+
+
+def _margin(found: "PairBounce") -> str:
+    """Return the line of the distance from which the contact pushes, as MuJoCo reads it; none for 0."""
+    return (
+        f"margin      the contact pushes from {1e3 * found.margin:g} mm on: margin, since MuJoCo 3.9, "
+        f"not margin - gap; gap, {1e3 * found.gap:g} mm more, only lists it\n"
+        if found.margin or found.gap
+        else ""
     )

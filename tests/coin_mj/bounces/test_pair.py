@@ -194,6 +194,17 @@ def test_geoms_that_are_deep_in_each_other_after_a_step_meet_at_a_turned_normal(
     assert "8 of 8 meet at a turned normal" in bounce_table(bounce(model(bodies), "a", "b"))
 
 
+def test_a_contact_pushes_from_the_margins_on_and_not_from_the_gaps():
+    """As MuJoCo does since 3.9."""
+    built = model(FLOOR.replace("/>", ' margin="0.002"/>') + ball(SET + ' margin="0.01" gap="0.005"'))
+    found, data = bounce(built, "a", "b"), mujoco.MjData(built)
+    assert (found.margin, found.gap) == pytest.approx((0.012, 0.005))
+    for distance in (0.0169, 0.0119):
+        data.qpos[2] = 0.1 + distance
+        mujoco.mj_forward(built, data)
+        assert (data.ncon, data.nefc) == (1, distance < found.margin)
+
+
 def test_the_energy_kept_is_that_of_both_bodies():
     """A ball on one like it leaves with (1 - e)/2, the other with (1 + e)/2."""
     two = '<body><freejoint/><geom name="a" size="0.1"/></body>' + ball(SET)
