@@ -22,9 +22,9 @@ def bounce(model: Path, one: str, two: str, png: Path | None, as_json: bool) -> 
     """Print how two geoms of your own MuJoCo model bounce off each other.
 
     GEOM is the name or the number of a geom. They come together at six speeds and eight phases of a step,
-    stepped by plain mj_step with the options of the model, without gravity and with it. Then one comes to
-    rest on the other. Other geoms touch nothing meanwhile. The model is read by MuJoCo's own loader and is
-    not changed.
+    stepped by plain mj_step with the options of the model, without gravity and with it: straight, where the
+    joints let one move along the normal while no body turns. Then one comes to rest on the other. Other geoms
+    touch nothing meanwhile. The model is read by MuJoCo's own loader and is not changed.
     """
     with plain_errors(str(model)):
         from cointoss.compare.film.back_end import require_mujoco
