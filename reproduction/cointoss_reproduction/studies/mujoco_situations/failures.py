@@ -37,10 +37,10 @@ def falls_through(contact: ContactSettings, thickness: float | None) -> int:
 def leg(contact: ContactSettings) -> PairBounce:
     """Return how a hopper's leg bounces: a weight on a slide, a thigh and a shin on hinges.
 
-    The slide leans by 0.001, so that the leg is not thrown straight but as an impulse at the foot moves it.
+    The slide leans by 0.0003, so that the leg is not thrown straight but as an impulse at the foot moves it.
     """
     body = (
-        '<body pos="0 0 1"><joint type="slide" axis="0.001 0 1"/><geom size="0.1" mass="3"/>'
+        '<body pos="0 0 1"><joint type="slide" axis="0.0003 0 1"/><geom size="0.1" mass="3"/>'
         '<body euler="0 30 0"><joint axis="0 1 0"/>'
         '<geom type="capsule" fromto="0 0 0 0 0 -0.4" size="0.04" mass="1"/>'
         '<body pos="0 0 -0.4" euler="0 -60 0"><joint axis="0 1 0"/>'
