@@ -8,7 +8,7 @@ const FAINT = 0.35; // of the path that is still to come
 const NEAR = 7.5, BOUNCES = 11; // radii to the coin in the close view: where it lies, and where it bounces
 const LOW = 5; // radii: below such a height the close view hardly follows the coin up and down
 const DOWN = [0.42, 0.75]; // how far the close view looks down: near the floor, and how much more high above it [rad]
-const MOST = 0.16; // the coin is at most so far above the middle of the close view, less where it is narrow, below its label [rad]
+const MOST = 0.16; // the coin is at most so far above the middle of the close view, so that all of it is seen [rad]
 
 export function makeScene(canvas) {
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
@@ -157,7 +157,7 @@ function closeView({ coin, r, still }, aspect) {
   const far = r * (NEAR + (BOUNCES - NEAR) * Math.min(still / (LOW * r), 1)) * Math.max(1, 0.65 / aspect);
   const along = far * Math.cos(up), above = lift + far * Math.sin(up);
   const [toCoin, toFloor] = [above - z, above].map((fall) => Math.atan2(fall, along));
-  return { target: new THREE.Vector3(x, y, lift), far, up, down: Math.min((toCoin + toFloor) / 2, toCoin + MOST * Math.min(1, aspect * aspect)) };
+  return { target: new THREE.Vector3(x, y, lift), far, up, down: Math.min((toCoin + toFloor) / 2, toCoin + MOST) };
 }
 
 // How high the coin will still be, at each sample of a path.
