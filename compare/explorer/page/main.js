@@ -2,6 +2,7 @@
 
 import { anywhere, grid, isStatic, loadMap, tile, toss } from "./source.js";
 import { indexOf, shown, valueAt } from "./axes.js";
+import { element, legendOf } from "./elements.js";
 import { makeMap } from "./map.js";
 import { clamp } from "./map_view.js";
 import { LABELS } from "./motion.js";
@@ -61,12 +62,7 @@ function describe() {
   const entries = Object.entries(map.outcomes).filter(([code]) => present.has(Number(code))).map(([, one]) => [one.label, one.color]);
   if (present.has(-1)) entries.push(["not tossed", "var(--untossed)"]);
   if (map.arrays.untrusted) entries.push(["untrusted: the engine's own errors may have decided it", "repeating-linear-gradient(135deg, #fff 0 2px, var(--soft) 2px 6px)"]);
-  byId("legend").replaceChildren(...entries.map(([label, color]) => {
-    const item = document.createElement("li"), patch = document.createElement("i");
-    patch.style.background = color;
-    item.append(patch, label);
-    return item;
-  }));
+  byId("legend").replaceChildren(...legendOf(entries));
 }
 
 const fieldText = (axis) => `${axis.word} (${axis.field})`;
@@ -116,9 +112,8 @@ function tellFaces(there) {
     ...(color && map.after !== null ? [[`Face at touch ${map.after + 1}, the map's colour:`, color]] : []),
     [map.after === null && color ? "Final face, the map's colour:" : "Final face:", ends.join(", ") || "…"]];
   byId("faces").replaceChildren(...rows.map((row) => {
-    const made = document.createElement("div"), [term, told] = ["dt", "dd"].map((tag) => document.createElement(tag));
-    [term.textContent, told.textContent] = row;
-    made.append(term, told);
+    const made = element("div");
+    made.append(element("dt", "", row[0]), element("dd", "", row[1]));
     return made;
   }));
 }

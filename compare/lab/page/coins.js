@@ -1,5 +1,7 @@
 // Coins to begin with, each with its picture to scale.
 
+import { shape } from "./elements.js";
+
 // The former Polish 1 zloty (Strzalko et al. 2008, section 5.1), the US nickel, the euro, a thin coin, and the coin
 // of the nickel's width and metal that falls on its edge about as often as on either face where it turns about a
 // diameter and the floor's restitution is 0.8.
@@ -11,21 +13,13 @@ export const COINS = {
   "three-way": { radius: 0.010605, thickness: 0.0177, mass: 0.0454 },
 };
 
-const SVG = "http://www.w3.org/2000/svg", SCALE = 1500, FLAT = 0.35;
+const SCALE = 1500, FLAT = 0.35;
 
 // The coin as it lies, seen from above at a slant.
 export function coinPicture({ radius, thickness }) {
-  const svg = document.createElementNS(SVG, "svg"), wide = radius * SCALE, tall = thickness * SCALE * 0.94, foot = FLAT * wide;
-  svg.setAttribute("viewBox", "-20 -16 40 32");
-  svg.setAttribute("aria-hidden", "true");
+  const svg = shape("svg", { viewBox: "-20 -16 40 32", "aria-hidden": true }), wide = radius * SCALE, tall = thickness * SCALE * 0.94, foot = FLAT * wide;
   const top = -tall / 2, low = tall / 2;
   const side = `M${-wide} ${top}V${low}A${wide} ${foot} 0 0 0 ${wide} ${low}V${top}Z`;
-  svg.append(part("path", { d: side, fill: "#8b929c" }), part("ellipse", { cx: 0, cy: top, rx: wide, ry: foot, fill: "#f5ab1f", stroke: "#7a5200" }));
+  svg.append(shape("path", { d: side, fill: "#8b929c" }), shape("ellipse", { cx: 0, cy: top, rx: wide, ry: foot, fill: "#f5ab1f", stroke: "#7a5200" }));
   return svg;
-}
-
-function part(name, attributes) {
-  const made = document.createElementNS(SVG, name);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
-  return made;
 }

@@ -3,7 +3,8 @@
 import { COINS, coinPicture } from "./coins.js";
 import { changed } from "./engine.js";
 import { THINNEST, WIDEST } from "./hundred.js";
-import { element, HINTS, LABELS } from "./words.js";
+import { element } from "./elements.js";
+import { HINTS, LABELS } from "./words.js";
 
 const TURN = 180 / Math.PI;
 const TOUCHES = 12; // that are offered
@@ -89,8 +90,7 @@ export function makeControls(boxes, fields, change) {
   presets.setAttribute("role", "group");
   presets.setAttribute("aria-label", "Coins");
   for (const [name, coin] of Object.entries(COINS)) {
-    const button = element("button");
-    button.type = "button";
+    const button = Object.assign(element("button"), { type: "button" });
     button.append(coinPicture(coin), element("span", "", name));
     button.addEventListener("click", () => preset(coin));
     shows.push(() => button.setAttribute("aria-pressed", String(Object.entries(coin).every(([key, each]) => value(`coin.${key}`) === each))));

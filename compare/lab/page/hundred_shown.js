@@ -2,9 +2,9 @@
 
 import { makeCrowd } from "./crowd.js";
 import { COINS, ends, isHeads, partingTouch, spread, tossHundred } from "./hundred.js";
+import { counted } from "./outcome.js";
 import { placeIn } from "./sampled.js";
 import { drawStrip } from "./strip.js";
-import { counted } from "./words.js";
 
 // `parts` are elements; `workers` toss, and `told` is called with a problem.
 export function makeHundred(parts, workers, told) {

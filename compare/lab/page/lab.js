@@ -2,7 +2,9 @@
 
 import { changed, unpacked } from "./engine.js";
 import { startWorkers } from "./workers.js";
-import { counted, element, LABELS, shownAs } from "./words.js";
+import { element, legendOf } from "./elements.js";
+import { counted } from "./outcome.js";
+import { LABELS, shownAs } from "./words.js";
 import { makeControls } from "./controls.js";
 import { makeLiveMap } from "./live_map.js";
 import { makeStage } from "./stage.js";
@@ -16,7 +18,8 @@ import { makeHundred } from "./hundred_shown.js";
 import { makeThrows } from "./throws.js";
 import { glide } from "./glide.js";
 import { measure } from "./measure.js";
-import { copied, command, saveCsv, savePng, saveToml } from "./save.js";
+import { copied, saveCsv, savePng, saveToml } from "./save.js";
+import { command } from "./toml.js";
 
 const SAMPLES = 800; // of the path that is played
 const FOLLOWED = 3; // seconds for which a coin is shown, whatever was proved before
@@ -279,12 +282,7 @@ function legend() {
   if (state.trust) entries.push([`${doubtText()}: rounding errors may have decided the face`, "repeating-linear-gradient(135deg, #fff 0 2px, var(--soft) 2px 6px)"]);
   if (byId("legend").dataset.shows === String(entries)) return;
   byId("legend").dataset.shows = String(entries);
-  byId("legend").replaceChildren(...entries.map(([label, color]) => {
-    const item = element("li"), patch = element("i");
-    patch.style.background = color;
-    item.append(patch, label);
-    return item;
-  }));
+  byId("legend").replaceChildren(...legendOf(entries));
 }
 
 async function measured() {
@@ -293,7 +291,7 @@ async function measured() {
   try {
     await measure(bytes, workers, (what, value) => {
       const row = element("tr");
-      row.append(element("td", "", what), element("td", "", value));
+      row.append(...[what, value].map((text) => element("td", "", text)));
       byId("measurements").append(row);
     });
   } catch (problem) {

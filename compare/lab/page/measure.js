@@ -1,7 +1,7 @@
 // Measurements of the browser: tosses per second, and how fast a map comes.
 
 import { load } from "./engine.js";
-import { counted } from "./words.js";
+import { counted } from "./outcome.js";
 
 const LONG = 700; // milliseconds of each kind of toss
 const SLICE = 50;

@@ -3,8 +3,6 @@
 import { valueAt } from "./axes.js";
 import { toml } from "./toml.js";
 
-export { command } from "./toml.js";
-
 export function saveToml(state, fields) {
   save("coin.toml", new Blob([toml(state.scenario, fields)], { type: "text/plain" }));
 }

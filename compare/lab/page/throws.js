@@ -1,14 +1,15 @@
 // The coin that is thrown by hand, and the challenge: three heads in a row.
 
 import { handOf, kellersCurve, longestRow, ROW, turnsOf } from "./challenge.js";
+import { shape } from "./elements.js";
 import { changed } from "./engine.js";
 import { makeFlick } from "./flick.js";
-import { counted } from "./words.js";
+import { counted } from "./outcome.js";
 
 const SPEED = "release.velocity.z", SPIN = "release.angular_velocity.eta";
 const MOST = 0.3; // the largest scatter of a hand in the lab
 const HEADS = "#f5ab1f", TAILS = "#0d5ca8";
-const SVG = "http://www.w3.org/2000/svg", WIDE = 320, HIGH = 120, LEFT = 44, FOOT = 26, TURNS = 1;
+const WIDE = 320, HIGH = 120, LEFT = 44, FOOT = 26, TURNS = 1;
 
 // `parts` are elements. `lab` has change(more), again(), isCaught() and state().
 export function makeThrows({ handle, box, told, curve, again }, lab) {
@@ -50,12 +51,12 @@ export function makeThrows({ handle, box, told, curve, again }, lab) {
   function draw(hand, share) {
     const x = (turns) => LEFT + (Math.min(turns, TURNS) / TURNS) * (WIDE - LEFT - 10), y = (part) => 8 + (1 - part) * (HIGH - FOOT - 8);
     const points = Array.from({ length: 101 }, (_, i) => (i * TURNS) / 100).map((turns) => `${x(turns).toFixed(1)},${y(kellersCurve(turns)).toFixed(1)}`);
-    const text = (words, at, place, anchor) => part("text", { x: at, y: place, "text-anchor": anchor }, words);
+    const text = (words, at, place, anchor) => shape("text", { x: at, y: place, "text-anchor": anchor }, words);
     const texts = [text("100 %", LEFT - 4, y(1) + 4, "end"), text("50 %", LEFT - 4, y(0.5) + 4, "end"),
       text("scatter of the turns", (LEFT + WIDE) / 2, HIGH - 2, "middle"), text("0", LEFT, HIGH - 12, "middle"), text(String(TURNS), x(TURNS), HIGH - 12, "middle")];
-    const axis = part("path", { d: `M${LEFT} 4V${y(0)}H${WIDE - 10}M${LEFT} ${y(0.5)}H${WIDE - 10}`, class: "axis" });
-    curve.replaceChildren(axis, part("polyline", { points: points.join(" "), class: "line" }), ...texts,
-      ...(hand ? [part("circle", { cx: x(hand.turns), cy: y(share), r: 5 })] : []));
+    const axis = shape("path", { d: `M${LEFT} 4V${y(0)}H${WIDE - 10}M${LEFT} ${y(0.5)}H${WIDE - 10}`, class: "axis" });
+    curve.replaceChildren(axis, shape("polyline", { points: points.join(" "), class: "line" }), ...texts,
+      ...(hand ? [shape("circle", { cx: x(hand.turns), cy: y(share), r: 5 })] : []));
   }
 
   return {
@@ -64,11 +65,4 @@ export function makeThrows({ handle, box, told, curve, again }, lab) {
     // Where the throws lie on a map of spin and speed.
     marks: () => (lab.isCaught() ? throws.map(({ spin, speed, outcome }) => ({ values: { [SPIN]: spin, [SPEED]: speed }, color: outcome === "heads" ? HEADS : TAILS })) : []),
   };
-}
-
-function part(name, attributes, text = "") {
-  const made = document.createElementNS(SVG, name);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
-  made.textContent = text;
-  return made;
 }

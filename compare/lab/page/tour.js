@@ -1,5 +1,7 @@
 // The guided tour: eight stops, each a state of the lab with a few sentences on what it shows.
 
+import { element } from "./elements.js";
+
 const COIN = { "coin.mass": 0.002, "coin.radius": 0.0125, "coin.thickness": 0.002 };
 const ASIDE = { "coin.center_of_mass.xi": -0.001, "coin.center_of_mass.eta": -0.001, "coin.center_of_mass.zeta": -0.0002 };
 const AIR = { "air.normal": 0.8, "air.tangential": 0.2 };
@@ -51,11 +53,10 @@ export const stopNamed = (text) => (/^[1-6]$/.test(text) ? NUMBERED[Number(text)
 export function makeTour({ list, box, back, next }, link, go) {
   let stands = null, at = -1;
   const links = STOPS.map(({ title, state }, i) => {
-    const item = document.createElement("li"), to = document.createElement("a");
+    const item = element("li"), to = element("a", "", String(i + 1));
     to.href = link(state);
     to.title = title;
     to.setAttribute("aria-label", `${i + 1}. ${title}`);
-    to.textContent = String(i + 1);
     item.append(to);
     list.append(item);
     return to;
@@ -78,19 +79,12 @@ export function makeTour({ list, box, back, next }, link, go) {
     back.disabled = at <= 0;
     next.disabled = at === STOPS.length - 1;
     box.hidden = stop === null;
-    box.replaceChildren(...(stop ? [bold(`${at + 1}. ${stop.title}. `), stop.text] : []));
+    box.replaceChildren(...(stop ? [element("b", "", `${at + 1}. ${stop.title}. `), stop.text] : []));
     if (!isOther) return;
-    const return_ = document.createElement("a");
+    const return_ = element("a", "", "Back to this stop");
     return_.href = link(stop.state);
-    return_.textContent = "Back to this stop";
     box.append(" You have changed something. ", return_, ".");
   };
-}
-
-function bold(text) {
-  const made = document.createElement("b");
-  made.textContent = text;
-  return made;
 }
 
 // What the sentences of a stop speak of.

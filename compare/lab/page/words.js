@@ -1,6 +1,4 @@
-// Numbers and counts in words, and what the lab calls the fields that it shows.
-
-export const counted = (number, thing, things = `${thing}s`) => `${number.toLocaleString("en")} ${number === 1 ? thing : things}`;
+// Numbers in words, and what the lab calls the fields that it shows.
 
 // A value in full where ten digits suffice, else with ten digits.
 export const shownAs = (value) => String(Number(value.toPrecision(10)));
@@ -22,10 +20,3 @@ export const HINTS = {
   "floor.friction": "the floor's grip, as a part of its push",
   "release.angular_velocity.eta": "η is the diameter about which the coin turns over",
 };
-
-export function element(tag, kind = "", text = "") {
-  const made = document.createElement(tag);
-  if (kind) made.className = kind;
-  if (text) made.textContent = text;
-  return made;
-}

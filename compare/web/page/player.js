@@ -1,5 +1,6 @@
 // The clock of the tosses that are played: play, pause, the time's slider, and the speed.
 
+import { element } from "./elements.js";
 import { makeTimeline, proofText } from "./timeline.js";
 
 const still = matchMedia("(prefers-reduced-motion: reduce)");
@@ -74,10 +75,8 @@ export function makePlayer(onTime) {
 function showMarks(box, { end, pivot, bend, proofs, placeOf }) {
   box.hidden = pivot === end && !proofs.length;
   const mark = (kind, place, text) => {
-    const made = document.createElement("span");
-    made.className = kind;
+    const made = element("span", kind, text);
     made.style.setProperty("--place", String(place / end));
-    made.textContent = text;
     return made;
   };
   box.replaceChildren(

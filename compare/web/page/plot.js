@@ -1,22 +1,15 @@
 // A plot over time as SVG: the values at the pointer, zoom by dragging, and a line at the time that is played.
 
+import { element, shape } from "./elements.js";
 import { placeIn, valueAt } from "./sampled.js";
 import { makeTimeline, proofText } from "./timeline.js";
 import { logTicks, ticks } from "./ticks.js";
 
-const SVG = "http://www.w3.org/2000/svg";
 const LEFT = 66, RIGHT = 14, TOP = 26, BOTTOM = 48;
 const SHORTEST = 1e-6; // of the whole time
 const CLEAR_MARKS = 40; // more vertical lines than these fade
 const MOST_DOTS = 300;
-const APART = 45; // between two times at the axis [px]
-
-function element(tag, attributes = {}, text = "") {
-  const made = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  made.textContent = text;
-  return made;
-}
+const APART = 45, HIGH = 22; // between two times at the axis, and two values of a logarithmic one [px]
 
 export function numberText(value) {
   if (value === null || !Number.isFinite(value)) return "–";
@@ -57,9 +50,8 @@ export function makeSpan(tosses) {
 // dots of { kind, time, values }, marks (times), and bars of { time, text } and optionally kind.
 export function makePlot(box, about, span) {
   const { title, unit = "", lines, height = 290, levels = [], dots = [], marks = [], bars = [] } = about;
-  const svg = element("svg", { role: "img", tabindex: "0", height, "aria-label": label(about) });
-  const readout = document.createElement("p"), drawn = element("g"), marked = element("g");
-  readout.className = "values";
+  const svg = shape("svg", { role: "img", tabindex: "0", height, "aria-label": label(about) });
+  const readout = element("p", "values"), drawn = shape("g"), marked = shape("g");
   svg.append(drawn, marked);
   box.classList.add("plot");
   box.replaceChildren(readout, svg);
@@ -93,8 +85,8 @@ export function makePlot(box, about, span) {
   function squeezed(foot) {
     const from = Math.max(xOf(axis.bend), LEFT), to = wide - RIGHT;
     if (from >= to) return [];
-    const made = [element("rect", { class: "squeezed", x: from, y: TOP, width: to - from, height: foot - TOP })];
-    if (from > LEFT) made.push(element("path", { class: "cut", d: `M${from - 5} ${foot + 6}l5 -12m3 12l5 -12` }));
+    const made = [shape("rect", { class: "squeezed", x: from, y: TOP, width: to - from, height: foot - TOP })];
+    if (from > LEFT) made.push(shape("path", { class: "cut", d: `M${from - 5} ${foot + 6}l5 -12m3 12l5 -12` }));
     return made;
   }
 
@@ -123,47 +115,47 @@ export function makePlot(box, about, span) {
     svg.setAttribute("width", wide);
     const right = wide - RIGHT, foot = height - BOTTOM, parts = lines.map(inSight), made = [], named = [];
     scale(parts);
-    const frame = element("svg", { x: LEFT, y: TOP, width: right - LEFT, height: foot - TOP, viewBox: `${LEFT} ${TOP} ${right - LEFT} ${foot - TOP}` });
-    const rows = about.at ?? (about.log ? logTicks(low, high) : ticks(low, high, 5).values).map((value) => [value, numberText(value)]);
+    const frame = shape("svg", { x: LEFT, y: TOP, width: right - LEFT, height: foot - TOP, viewBox: `${LEFT} ${TOP} ${right - LEFT} ${foot - TOP}` });
+    const rows = about.at ?? (about.log ? logTicks(low, high, Math.min((height - TOP - BOTTOM) / HIGH, 7)) : ticks(low, high, 5).values).map((value) => [value, numberText(value)]);
     for (const [value, text] of rows) {
-      made.push(element("line", { class: "grid", x1: LEFT, x2: right, y1: y(value), y2: y(value) }));
-      made.push(element("text", { x: LEFT - 7, y: y(value) + 5, "text-anchor": "end" }, text));
+      made.push(shape("line", { class: "grid", x1: LEFT, x2: right, y1: y(value), y2: y(value) }));
+      made.push(shape("text", { x: LEFT - 7, y: y(value) + 5, "text-anchor": "end" }, text));
     }
     made.push(...squeezed(foot));
     for (const time of times()) {
-      made.push(element("text", { x: x(time), y: foot + 20, "text-anchor": "middle" }, String(time)));
+      made.push(shape("text", { x: x(time), y: foot + 20, "text-anchor": "middle" }, String(time)));
     }
-    made.push(element("text", { x: right, y: height - 5, "text-anchor": "end" }, span.high > axis.bend ? "t [s], shaded: on a scale of its own" : "t [s]"));
+    made.push(shape("text", { x: right, y: height - 5, "text-anchor": "end" }, span.high > axis.bend ? "t [s], shaded: on a scale of its own" : "t [s]"));
     const near = marks.filter(visible);
     if (near.length) {
       const all = near.map((time) => `M${x(time).toFixed(1)} ${TOP}V${foot}`).join("");
-      frame.append(element("path", { class: "marks", d: all, opacity: Math.min(1, CLEAR_MARKS / near.length) }));
+      frame.append(shape("path", { class: "marks", d: all, opacity: Math.min(1, CLEAR_MARKS / near.length) }));
     }
     for (const { value, text } of levels) {
-      frame.append(element("line", { class: "level", x1: LEFT, x2: right, y1: y(value), y2: y(value) }));
-      named.push(element("text", { x: LEFT + 5, y: y(value) - 5 }, text));
+      frame.append(shape("line", { class: "level", x1: LEFT, x2: right, y1: y(value), y2: y(value) }));
+      named.push(shape("text", { x: LEFT + 5, y: y(value) - 5 }, text));
     }
     lines.forEach(({ kind }, i) => {
       const { time, values } = parts[i];
       const points = time.map((each, k) => `${x(each).toFixed(1)},${y(values[k]).toFixed(1)}`);
-      frame.append(element("polyline", { class: `line ${kind}`, points: points.join(" ") }));
+      frame.append(shape("polyline", { class: `line ${kind}`, points: points.join(" ") }));
     });
     for (const { kind, time, values } of dots) {
       const shown = time.map((each, k) => [each, values[k]]).filter(([each]) => visible(each));
       if (shown.length > MOST_DOTS) continue;
-      for (const [each, value] of shown) frame.append(element("circle", { class: kind, cx: x(each), cy: y(value), r: 2.8 }));
+      for (const [each, value] of shown) frame.append(shape("circle", { class: kind, cx: x(each), cy: y(value), r: 2.8 }));
     }
     for (const { time, text, kind = "" } of bars.filter((bar) => visible(bar.time))) {
-      frame.append(element("line", { class: `bar ${kind}`, x1: x(time), x2: x(time), y1: TOP, y2: foot }));
-      made.push(element("text", { class: "bar", x: Math.min(Math.max(x(time), LEFT + 30), right - 30), y: TOP - 6, "text-anchor": "middle" }, text));
+      frame.append(shape("line", { class: `bar ${kind}`, x1: x(time), x2: x(time), y1: TOP, y2: foot }));
+      made.push(shape("text", { class: "bar", x: Math.min(Math.max(x(time), LEFT + 30), right - 30), y: TOP - 6, "text-anchor": "middle" }, text));
     }
     for (const { engine, time } of axis.proofs.filter((proof) => visible(proof.time))) {
-      frame.append(element("line", { class: `proof ${engine}`, x1: x(time), x2: x(time), y1: TOP, y2: foot }));
+      frame.append(shape("line", { class: `proof ${engine}`, x1: x(time), x2: x(time), y1: TOP, y2: foot }));
     }
     const proofs = axis.proofs.map(({ time }) => time).filter(visible).map(x);
     if (proofs.length) {
       const isRight = proofs.at(-1) > (LEFT + right) / 2, at = isRight ? proofs[0] - 7 : proofs.at(-1) + 7;
-      named.push(element("text", { x: at, y: TOP + 17, "text-anchor": isRight ? "end" : "start" }, proofText(axis.proofs)));
+      named.push(shape("text", { x: at, y: TOP + 17, "text-anchor": isRight ? "end" : "start" }, proofText(axis.proofs)));
     }
     frame.append(...named);
     drawn.replaceChildren(...made, frame);
@@ -172,17 +164,17 @@ export function makePlot(box, about, span) {
 
   function mark() {
     const made = [], foot = height - BOTTOM;
-    const upright = (kind, time) => made.push(element("line", { class: kind, x1: x(time), x2: x(time), y1: TOP, y2: foot }));
+    const upright = (kind, time) => made.push(shape("line", { class: kind, x1: x(time), x2: x(time), y1: TOP, y2: foot }));
     if (drag && drag.to !== drag.from) {
       const [from, to] = [drag.from, drag.to].sort((a, b) => a - b);
-      made.push(element("rect", { class: "chosen", x: from, y: TOP, width: to - from, height: foot - TOP }));
+      made.push(shape("rect", { class: "chosen", x: from, y: TOP, width: to - from, height: foot - TOP }));
     }
     if (span.played !== null && visible(span.played)) upright("now", span.played);
     if (span.pointed !== null) {
       upright("pointed", span.pointed);
       for (const { kind, time, values } of lines) {
         const value = valueAt(time, values, span.pointed);
-        if (value !== null && value <= high) made.push(element("circle", { class: kind, cx: x(span.pointed), cy: y(value), r: 4 }));
+        if (value !== null && value <= high) made.push(shape("circle", { class: kind, cx: x(span.pointed), cy: y(value), r: 4 }));
       }
     }
     marked.replaceChildren(...made);
@@ -192,18 +184,14 @@ export function makePlot(box, about, span) {
   // The lines by name, with their values where the pointer is.
   function tell() {
     const at = span.pointed, parts = lines.map(({ name, kind, time, values }) => {
-      const part = document.createElement("span");
-      part.className = `of ${kind}`;
-      part.append(element("svg", { width: 22, height: 8, "aria-hidden": "true" }), name);
-      part.firstChild.append(element("path", { class: `line ${kind}`, d: "M0 4H22" }));
+      const part = element("span", `of ${kind}`);
+      part.append(shape("svg", { width: 22, height: 8, "aria-hidden": "true" }), name);
+      part.firstChild.append(shape("path", { class: `line ${kind}`, d: "M0 4H22" }));
       if (at !== null) part.append(` ${numberText(valueAt(time, values, at))}`);
       return part;
     });
-    const heading = document.createElement("b");
-    heading.textContent = unit ? `${title} [${unit}]` : title;
-    const when = document.createElement("span");
-    when.textContent = at === null ? "" : `at ${Number(at.toPrecision(6))} s`;
-    readout.replaceChildren(heading, ...parts, when);
+    const heading = element("b", "", unit ? `${title} [${unit}]` : title);
+    readout.replaceChildren(heading, ...parts, element("span", "", at === null ? "" : `at ${Number(at.toPrecision(6))} s`));
   }
 
   const placed = (event) => Math.min(Math.max(event.clientX - svg.getBoundingClientRect().left, LEFT), wide - RIGHT);

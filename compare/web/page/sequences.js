@@ -1,5 +1,6 @@
 // The faces up at the touches of both tosses, each up to its horizon, and those of the toss before.
 
+import { element } from "./elements.js";
 import { nameOf } from "./motion.js";
 
 const ROUNDED = 1e-6; // times of touches have seven digits
@@ -91,10 +92,3 @@ export function horizonText(tosses, before, after) {
 }
 
 const sharedText = (shared, both) => (shared ? `${both} show the same faces up to touch ${shared}.` : `${both} differ from the first touch on.`);
-
-function element(tag, kind = "", text = "") {
-  const made = document.createElement(tag);
-  if (kind) made.className = kind;
-  made.textContent = text;
-  return made;
-}

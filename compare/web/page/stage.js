@@ -1,5 +1,6 @@
 // One coin, or several side by side, in 3D, with their clock and what one can choose.
 
+import { element } from "./elements.js";
 import { LABELS } from "./motion.js";
 import { makePlayer } from "./player.js";
 import { makeScene } from "./scene.js";
@@ -33,12 +34,9 @@ export function makeStage(box, { hint = "", without, labels = LABELS, shown = "T
   box.innerHTML = MARKUP;
   const byId = (id) => document.getElementById(id);
   byId("coins").setAttribute("aria-label", shown);
-  const states = Object.entries(labels).map(([engine, label], i, all) => {
-    const panel = document.createElement("div"), name = document.createElement("b"), state = document.createElement("span");
-    panel.className = `panel ${engine}`;
-    panel.style.setProperty("--place", String(i / all.length));
+  const states = Object.entries(labels).map(([engine, label], _, all) => {
+    const panel = element("div", `panel ${engine}`), name = element("b", "", label), state = element("span");
     panel.style.setProperty("--part", String(1 / all.length));
-    name.textContent = label;
     state.id = `state-${engine}`;
     panel.append(name, " ", state);
     byId("hint").before(panel);
