@@ -181,9 +181,10 @@ function boxOf(tosses, r) {
   return { middle, wide, high: tall, size: Math.max(wide, tall) };
 }
 
-// The diameter η of the coin, about which it turns over, and its letter.
+// The diameter η about which the coin turns over, and its letter: beside the coin, for over a T it would make an H.
 function turningAxis(r, half) {
-  const rod = new THREE.Mesh(new THREE.CylinderGeometry(0.025 * r, 0.025 * r, 2.5 * r, 8), new THREE.MeshBasicMaterial({ color: TRAIL }));
+  const rod = (side) => new THREE.CylinderGeometry(0.025 * r, 0.025 * r, 0.25 * r, 8).translate(0, 1.125 * side * r, 0);
+  const rods = [-1, 1].map((side) => new THREE.Mesh(rod(side), new THREE.MeshBasicMaterial({ color: TRAIL })));
   const image = Object.assign(document.createElement("canvas"), { width: 64, height: 64 }), pen = image.getContext("2d");
   pen.font = "bold 46px serif";
   pen.textAlign = "center";
@@ -196,7 +197,7 @@ function turningAxis(r, half) {
   const letter = new THREE.Sprite(new THREE.SpriteMaterial({ map: new THREE.CanvasTexture(image) }));
   letter.scale.setScalar(0.5 * r);
   letter.position.set(0, 1.45 * r, half);
-  return [rod, letter];
+  return [...rods, letter];
 }
 
 function faceMaterial(color, ink, letter) {
