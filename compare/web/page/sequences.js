@@ -4,6 +4,7 @@ import { element } from "./elements.js";
 import { nameOf } from "./motion.js";
 
 const ROUNDED = 1e-6; // times of touches have seven digits
+const MOST = 18; // faces that are shown of a toss, but more where its horizon lies behind them
 const CELL = 27, GAP = 7; // width of a face, and between two, as in shared.css [px]
 
 export function commonPrefix(a, b) {
@@ -15,7 +16,7 @@ export function commonPrefix(a, b) {
 export function showSequences(box, tosses, before, after) {
   const rows = tosses.filter((toss) => toss?.path).map((toss) => row(nameOf(toss), toss.engine, toss, after));
   if (before) rows.push(row("before", "", before, null));
-  const longest = Math.max(0, ...tosses.filter((toss) => toss?.path).map((toss) => toss.sequence.length));
+  const longest = Math.max(0, ...tosses.filter((toss) => toss?.path).map((toss) => facesOf(toss).length));
   const numbers = element("div", "row numbers");
   numbers.setAttribute("aria-hidden", "true");
   numbers.append(element("b"), ...Array.from({ length: longest }, (_, i) => element("span", "", String(i + 1))));
@@ -34,16 +35,17 @@ function wrap(box) {
     cell.style.gridRow = String(Math.floor(at / wide) * rows.length + i + 1);
     cell.style.gridColumn = k ? `${(at % wide) + 2} / span ${cell.tagName === "EM" ? Math.min(5, wide - (at % wide)) : 1}` : "1";
   }));
-  const bar = box.querySelector(".horizon");
-  if (bar) box.scrollTop = Math.max(0, bar.offsetTop + bar.offsetHeight + GAP - box.clientHeight);
 }
 
 const watched = new ResizeObserver((seen) => seen.forEach(({ target }) => wrap(target)));
 
+const facesOf = ({ sequence, trusted, count }) => sequence.slice(0, Math.max(MOST, trusted < count ? trusted + 1 : 0));
+
 function row(label, kind, toss, after) {
-  const found = element("div", "row"), { sequence, trusted, count } = toss;
+  const found = element("div", "row"), { trusted, count } = toss, sequence = facesOf(toss);
+  const more = count > sequence.length ? `… ${count} faces` : "";
   found.setAttribute("role", "img");
-  found.setAttribute("aria-label", `${label}: ${[...sequence].join(" ")}; horizon of trust after touch ${Math.min(trusted, count)} of ${count}`);
+  found.setAttribute("aria-label", `${label}: ${[...sequence, ...(more && [more])].join(" ")}; horizon of trust after touch ${Math.min(trusted, count)} of ${count}`);
   found.append(element("b", `${kind}${trusted === 0 && count ? " horizon" : ""}`, label));
   [...sequence].forEach((face, i) => {
     // The bar stands in the gap, so that columns stay below each other.
@@ -53,7 +55,7 @@ function row(label, kind, toss, after) {
     if (kind) cell.dataset.engine = toss.engine;
     found.append(cell);
   });
-  if (count > sequence.length) found.append(element("em", "", `and ${count - sequence.length} more`));
+  if (more) found.append(element("em", "", more));
   return found;
 }
 

@@ -218,16 +218,19 @@ def test_untrusted_pixels_are_hatched(page, tmp_path):
 def test_each_sequence_has_its_own_horizon(page, server):
     page.open(server.url)
     page.wait_for(TOSSED)
-    toss = {"engine": "analytic", "sequence": "HHTTH", "trusted": 2, "count": 9, "path": {}}
+    toss = {"engine": "analytic", "sequence": 40 * "HHTTH", "trusted": 2, "count": 280, "path": {}}
     page.value(
         "import('./sequences.js').then(({ showSequences }) =>"
         f" showSequences(document.getElementById('sequences'), [{json.dumps(toss)}], null, null))"
     )
-    assert sequences(page) == {"analytic": ("HHTTH", 3)}
+    assert sequences(page) == {"analytic": (3 * "HHTTH" + "HHT", 16)}
     assert page.value("document.querySelector('#sequences .horizon').dataset.touch") == "1"
-    assert "and 4 more" in page.text("sequences")
+    assert "… 280 faces" in page.text("sequences")
     told = page.value("document.querySelector('#sequences .row').getAttribute('aria-label')")
-    assert told == "analytic: H H T T H; horizon of trust after touch 2 of 9"
+    assert (
+        told
+        == f"analytic: {' '.join(3 * 'HHTTH' + 'HHT')} … 280 faces; horizon of trust after touch 2 of 280"
+    )
 
 
 def test_a_toss_is_played_until_it_is_paused(page, server):
