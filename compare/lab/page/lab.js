@@ -216,7 +216,8 @@ function showTosses(fresh) {
   byId("outcome").textContent = throws.isInTheAir() ? "The coin is in the air." : outcomeText(one);
   document.querySelector(".coin").classList.toggle("crowded", hundred.isShown());
   const played = hundred.longest() ?? null;
-  stage.show(played ? [played] : shown, (played ? [played] : shown).map((each) => (throws.isInTheAir() ? "" : each.outcome)), fresh);
+  stage.show(played ? [played] : shown, (played ? [played] : shown).map((each) => (throws.isInTheAir() ? "" : each.outcome)), fresh,
+    throws.isInTheAir() || played ? undefined : one.times[state.after]); // the touch that the map shows
   byId("energy").hidden = hundred.isShown();
 }
 

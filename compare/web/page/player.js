@@ -53,15 +53,15 @@ export function makePlayer(onTime) {
   }
 
   return {
-    // Other tosses; from the start where they are `fresh`.
-    load(tosses, fresh) {
+    // Other tosses; where they are `fresh` from the start, or at a moment where motion is unwanted.
+    load(tosses, fresh, moment) {
       line = makeTimeline(tosses);
       end = line.isEmpty ? 0 : line.end;
       slider.max = String(end);
       slider.disabled = button.disabled = end === 0;
       showMarks(marks, line);
       if (fresh) {
-        time = still.matches ? end : 0;
+        time = still.matches ? (moment ?? end) : 0;
         if (!still.matches && end > 0) play();
       }
       told();

@@ -76,8 +76,9 @@ export function makeStage(box, { hint = "", without, labels = LABELS, shown = "T
   return {
     clear,
     seek: player.seek,
-    // Tosses, null for one that is missing, and what each panel says; `fresh` plays them from the start.
-    show(tosses, told, fresh) {
+    // Tosses, null for one that is missing, and what each panel says; `fresh` plays them from the start, or shows
+    // the moment `still`, by default the end, where motion is unwanted.
+    show(tosses, told, fresh, still) {
       clear();
       scene?.show(tosses);
       states.forEach((state, i) => {
@@ -85,7 +86,7 @@ export function makeStage(box, { hint = "", without, labels = LABELS, shown = "T
         state.parentElement.hidden = i >= tosses.length;
       });
       sound.load(tosses);
-      player.load(tosses, fresh);
+      player.load(tosses, fresh, still);
     },
   };
 }
