@@ -1,7 +1,7 @@
 // A coin that is thrown by hand: drag it and flick it, or hold a key down, for its speed and its spin.
 
 const LAST = 120; // milliseconds of the drag that count
-const TAP = 8; // pixels: less is no throw
+const TAP = 8; // pixels: less is a click
 const HOLD = 1200; // milliseconds in which a key that is held reaches the strongest throw
 // The least and the most [m/s], [rad/s]: the weakest throw turns once before it is caught.
 export const SPEEDS = [1, 3], SPINS = [32, 100];
@@ -13,8 +13,11 @@ export function thrown(right, up) {
   return { speed: within(1.2 * up, SPEEDS), spin: within(18 * Math.hypot(right, up) + 14 * Math.abs(right), SPINS) };
 }
 
-// Calls `onThrow` with { speed, spin }, and `onTap` where the coin is only touched.
-export function makeFlick(handle, onThrow, onTap) {
+const strength = (span) => Math.min(Math.max(span / HOLD, 0), 1);
+const pushed = (span) => 0.8 + 1.7 * strength(span);
+
+// Calls `onThrow` with { speed, spin }: a click is the throw of a key that is held as long.
+export function makeFlick(handle, onThrow) {
   let trace = null, held = null;
 
   handle.addEventListener("pointerdown", (event) => {
@@ -32,7 +35,7 @@ export function makeFlick(handle, onThrow, onTap) {
     drop();
     if (!first || event.type === "pointercancel") return;
     const far = Math.hypot(event.clientX - path[0].clientX, event.clientY - path[0].clientY), took = Math.max(event.timeStamp - first.timeStamp, 8);
-    if (far < TAP) onTap();
+    if (far < TAP) onThrow(thrown(0, pushed(event.timeStamp - path[0].timeStamp)));
     else onThrow(thrown((event.clientX - first.clientX) / took, (first.clientY - event.clientY) / took));
   };
   for (const end of ["pointerup", "pointercancel"]) handle.addEventListener(end, let_go);
@@ -48,16 +51,15 @@ export function makeFlick(handle, onThrow, onTap) {
     if (event.key === "Escape") drop();
     if (event.key !== " " && event.key !== "Enter") return;
     event.preventDefault();
-    if (event.repeat) return handle.style.setProperty("--strength", String(strength(event.timeStamp)));
+    if (event.repeat) return handle.style.setProperty("--strength", String(strength(event.timeStamp - held)));
     held = event.timeStamp;
     handle.classList.add("held");
   });
   handle.addEventListener("keyup", (event) => {
     if (held === null || (event.key !== " " && event.key !== "Enter")) return;
-    const strong = strength(event.timeStamp);
+    const span = event.timeStamp - held;
     drop();
-    onThrow(thrown(0, 0.8 + 1.7 * strong));
+    onThrow(thrown(0, pushed(span)));
   });
   handle.addEventListener("blur", drop);
-  const strength = (now) => Math.min(Math.max((now - held) / HOLD, 0), 1);
 }

@@ -71,7 +71,7 @@ async function begin() {
   controls = makeControls({ map: box("map"), release: box("release"), coin: box("coin"), floor: box("floor"), hand: box("hand"), hair: box("hair") }, fields, change);
   showStop = makeTour({ list: byId("tour"), box: byId("stop"), back: byId("back"), next: byId("next") }, (stop) => address(stop, fields), visit);
   throws = makeThrows({ handle: byId("flick"), box: byId("challenge"), told: byId("thrown"), curve: byId("curve"), again: byId("again") },
-    { change: (more) => change(more, true), again: () => toss(true), isCaught: () => "ending.caught" in state.scenario, state: settled });
+    { change: (more) => change(more, true), isCaught: () => "ending.caught" in state.scenario, state: settled });
   listen();
   restore();
   document.body.dataset.ready = "true";

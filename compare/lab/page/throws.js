@@ -11,7 +11,7 @@ const MOST = 0.3; // the largest scatter of a hand in the lab
 const HEADS = "#f5ab1f", TAILS = "#0d5ca8";
 const WIDE = 320, HIGH = 120, LEFT = 44, FOOT = 26, TURNS = 1;
 
-// `parts` are elements. `lab` has change(more), again(), isCaught() and state().
+// `parts` are elements. `lab` has change(more), isCaught() and state().
 export function makeThrows({ handle, box, told, curve, again }, lab) {
   let throws = [], waiting = null;
 
@@ -19,7 +19,7 @@ export function makeThrows({ handle, box, told, curve, again }, lab) {
     const { scenario } = lab.state();
     waiting = thrown;
     lab.change({ scenario: changed(scenario, { [SPEED]: thrown.speed, [SPIN]: thrown.spin }), before: null });
-  }, () => lab.again());
+  });
   again.addEventListener("click", () => {
     throws = [];
     lab.change({ hand: null });
