@@ -155,6 +155,15 @@ def test_a_hundred_coins_part_where_the_stop_says(kept, stops):
     assert different == [str(len(set(spins)))]
 
 
+def test_a_coin_of_the_hundred_lies_once_its_face_is_certain(kept):
+    path = {"time": [0, 1], "position": [0, 0, 1, 3, 4, 0.01], "quaternion": [1, 0, 0, 0, 0.48, 0.6, 0.64, 0]}
+    toss = {"outcome": "tails", "coin": {"thickness": 0.002, "center": [0, 0, 1e-4]}, "path": path}
+    told = f"tossHundred(() => ({json.dumps(toss)}), {{}}, 0).then(([one]) => one.path)"
+    laid = kept.value(f"import('hundred.js').then(({{ tossHundred }}) => {told})")
+    due = [3, 4, 0.0009, *np.array([0, 0.6, 0.64, 0]) / np.hypot(0.6, 0.64)]
+    assert laid["position"][-3:] + laid["quaternion"][-4:] == pytest.approx(due)
+
+
 PARTED = {6: "up to touch 5, and part at touch 6.", 7: "and part at touch 7.", None: "at every touch."}
 
 

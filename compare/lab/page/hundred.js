@@ -2,6 +2,7 @@
 
 export const COINS = 100, SAMPLES = 300; // samples of each path
 export const THINNEST = 1e-15, WIDEST = 1e-3;
+const LIES = 0.1; // seconds in which a coin whose face is certain is laid on it
 const SPIN = "release.angular_velocity.eta", HEIGHT = "release.position.z";
 
 // What differs among the coins: the spin, or the height of a coin that does not spin.
@@ -16,7 +17,17 @@ export function spread(scenario, hair) {
 // Tosses all coins; `toss` returns the toss of a scenario, with a number of samples.
 export function tossHundred(toss, scenario, hair) {
   const field = variedField(scenario);
-  return Promise.all([...spread(scenario, hair)].map((value) => toss({ ...scenario, [field]: value }, SAMPLES)));
+  return Promise.all([...spread(scenario, hair)].map(async (value) => laid(await toss({ ...scenario, [field]: value }, SAMPLES), scenario)));
+}
+
+// A toss whose path goes on to where the coin lies on its face; to follow a hundred that far takes seconds.
+function laid(toss, scenario) {
+  const { path, coin, outcome } = toss, up = { heads: 1, tails: -1 }[outcome], [x, y] = path.position.slice(-3), end = path.time.at(-1) + LIES;
+  if (!up || "ending.caught" in scenario) return toss;
+  // The nearest attitude in which the normal is upright.
+  const [e0, e1, e2, e3] = path.quaternion.slice(-4), flat = up > 0 ? [e0, 0, 0, e3] : [0, e1, e2, 0], size = Math.hypot(...flat);
+  const position = [...path.position, x, y, coin.thickness / 2 + up * coin.center[2]], quaternion = [...path.quaternion, ...flat.map((part) => part / size)];
+  return { ...toss, end_time: end, path: { ...path, time: [...path.time, end], position, quaternion } };
 }
 
 // The face at a touch, the last one of a toss that ended before; null where there was none.

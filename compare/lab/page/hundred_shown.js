@@ -34,7 +34,7 @@ export function makeHundred(parts, workers, told) {
     const at = partingTouch(tosses), { heads, tails } = ends(tosses), different = new Set(spread(scenario, hair)).size;
     const when = at === null ? "All show the same face at every touch." : at === 1 ? "They part at the first touch." : `All show the same face up to touch ${at - 1}, and part at touch ${at}.`;
     const doubles = different < COINS ? ` Doubles end here: the hundred have only ${different} different numbers.` : "";
-    return `A row for each coin, a column for each touch. ${when} In the end: ${heads} heads, ${tails} tails.${doubles}`;
+    return `A row for each coin, a column for each touch. ${when} In the end: ${heads} heads, ${tails} tails; a coin lies once its face is certain.${doubles}`;
   }
 
   function draw(time) {
