@@ -132,6 +132,8 @@ def test_the_share_of_a_hand_is_that_of_the_package(kept, stops):
         # Within four standard errors.
         assert values.mean() == pytest.approx(mean, rel=4 * 0.02 / 2000**0.5)
         assert values.std() == pytest.approx(0.02 * mean, rel=4 / (2 * 2000) ** 0.5)
+    reach = f"import('hand.js').then(({{ ellipse }}) => ellipse({json.dumps(stop)}, {stop['hand']})[0])"
+    assert kept.value(reach) == pytest.approx([1.02 * 27, 0.4])
     # About half in the end, and nearly all at the first touch.
     ended = share(analytic.toss_rows(rows_of(scenario_of(stop), 2000, fields)).outcome == 1)
     assert told == [tuple(f"{100 * part:.1f}" for part in (ended.value, ended.low, ended.high))]
@@ -194,8 +196,9 @@ def test_the_stops_of_the_tour_say_what_is_so(stops):
     # Six times nearer each stripe is several of some 200 columns wide.
     near = 50 + 40 / 2**6 * np.linspace(-0.5, 0.5, 201)
     assert 10 <= changes(row_of(scenarios["bounces"], near, 1)) <= 40
-    by_hand = {SPIN: 45 * np.linspace(0.98, 1.02, 41), HEIGHT: 0.4 * np.linspace(1.02, 0.98, 41)}
-    assert len(set(faces_after(scenarios["touch"], 41, by_hand, 0))) == 1
+    spun, high = np.random.default_rng(0).normal([[45], [0.4]], [[0.02 * 45], [0.02 * 0.4]], (2, 20_000))
+    by_hand = {SPIN: spun, HEIGHT: high}
+    assert np.mean(faces_after(scenarios["touch"], 20_000, by_hand, 0) == 1) > 0.999
 
     # The finer one looks, the more thin stripes are seen.
     for count in (641, 8001):

@@ -125,7 +125,7 @@ export function makeControls(boxes, fields, change) {
   }
   tick(boxes.map, "hatch tosses whose face rounding errors may have decided", () => state.trust, (trust) => change({ trust })).id = "trust";
   tick(boxes.hand, "a hand that scatters: 2,000 tosses", () => state.hand !== null, (on) => change({ hand: on ? 0.02 : null })).id = "hand";
-  const scatter = slider(boxes.hand, "of height, speed and spin", "%", 0.1, 20, () => 100 * (state.hand ?? 0.02), (percent) => change({ hand: percent / 100 }));
+  const scatter = slider(boxes.hand, "standard deviation of height, speed and spin", "%", 0.1, 20, () => 100 * (state.hand ?? 0.02), (percent) => change({ hand: percent / 100 }));
   shows.push(() => (scatter.disabled = state.hand === null));
   tick(boxes.hand, "a hundred coins, released a hair apart", () => state.hair !== null, (on) => change({ hair: on ? 1e-6 : null })).id = "hair";
   const hair = slider(boxes.hair, "the hair, as a part of the spin", "", Math.log10(THINNEST), Math.log10(WIDEST), () => Math.log10(state.hair ?? 1e-6),

@@ -20,7 +20,7 @@ export function wilson(met, count) {
   return { share, low: Math.max(middle - half, 0), high: Math.min(middle + half, 1), count };
 }
 
-// Releases of a hand, values by field; the same for the same seed.
+// Releases of a hand, values by field; the same for the same seed. `scatter` is the relative standard deviation of each.
 export function releases(scenario, scatter, count, seed = 0) {
   const normal = normals(seed), found = {};
   const factors = Array.from({ length: count }, () => GROUPS.map(() => 1 + scatter * normal()));
@@ -31,9 +31,9 @@ export function releases(scenario, scatter, count, seed = 0) {
   return found;
 }
 
-// Points of the ellipse of `size` standard deviations about a release, over the fields of a map.
-export function ellipse({ x, y, scenario }, scatter, size = 2) {
-  const reach = (field) => (groupOf(field) < 0 || isHeld(scenario, groupOf(field)) ? 0 : size * scatter * scenario[field]);
+// Points of the ellipse of one standard deviation about a release, over the fields of a map.
+export function ellipse({ x, y, scenario }, scatter) {
+  const reach = (field) => (groupOf(field) < 0 || isHeld(scenario, groupOf(field)) ? 0 : scatter * scenario[field]);
   const isOne = groupOf(x.field) === groupOf(y.field);
   return Array.from({ length: 97 }, (_, i) => {
     const angle = (i * Math.PI) / 48;

@@ -248,7 +248,7 @@ async function count() {
     await countHeads(workers, state, ({ share, low, high, count, isWhole }) => {
       const when = state.after === null ? "" : ` at touch ${state.after + 1}`;
       byId("share").textContent = `Of ${counted(count, "toss", "tosses")} by this hand ${percent(share)} % show heads${when} ` +
-        `[${percent(low)}, ${percent(high)}; 99 % interval]. The ellipse: two standard deviations.`;
+        `[${percent(low)}, ${percent(high)}; 99 % interval]. Dashed: one standard deviation.`;
       byId("bar").firstElementChild.style.width = `${percent(share)}%`;
       byId("share").dataset.whole = String(isWhole);
     }, controller.signal);

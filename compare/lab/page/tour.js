@@ -18,7 +18,7 @@ const TOLD = [
     "So heads and tails lie in bands between hyperbolas, and the same throw always gives the same face. Throw it: can you land three heads in a row?",
     ["release.angular_velocity.eta", 10, 100], ["release.velocity.z", 0.5, 3], null, { ...COIN, "coin.thickness": 0, ...FLOOR, ...THROWN }],
   ["touch", "One touch", "Now it falls onto a floor. At the first touch the face changes 3 to 5 times along a row of the map. " +
-    "The stripes are wide: who repeats spin and height within 2 % still repeats the face.", SPIN, HEIGHT, 0, { ...COIN, ...FLOOR, ...FALL }],
+    "The stripes are wide: a hand whose height and spin scatter by 2 %, one standard deviation, keeps the face in more than 999 of 1,000 tosses.", SPIN, HEIGHT, 0, { ...COIN, ...FLOOR, ...FALL }],
   ["bounces", "A bounce", "At the second touch, after a single bounce, the face changes hundreds of times along a row, more often than the map can draw. " +
     "A bounce turns a small difference into a large one. The stripes are still there, only thinner: press + six times, and see them apart.",
     SPIN, HEIGHT, 1, { ...COIN, ...FLOOR, ...FALL, "release.angular_velocity.eta": 50 }],
@@ -32,9 +32,9 @@ const TOLD = [
     "Untick the air under Floor and air, and see the stripes move.", SPIN, HEIGHT, 2, { ...COIN, ...AIR, ...FLOOR, ...FALL }],
   ["imperfect", "An imperfect coin", "The mass centre of this coin lies 1.4 mm aside: the pink pin. At the first touch one toss in thirty shows another face " +
     "than that of the perfect coin, at the third touch, shown here, nearly a third of them.", SPIN, HEIGHT, 2, { ...COIN, ...ASIDE, ...AIR, ...FLOOR, ...FALL }],
-  ["hand", "A hand", "A hand repeats height and spin within 2 %: the dashed ellipse. In the end it holds tosses of both faces side by side, so heads come in about half of its tosses. " +
-    "Nothing here is random but the hand. Choose face at touch 1 under Map: there nearly all of its tosses still show heads.",
-    ["release.angular_velocity.eta", 23.5, 30.5], ["release.position.z", 0.35, 0.45], null, { ...COIN, ...AIR, ...FLOOR, ...FALL, "release.angular_velocity.eta": 27 }, { hand: 0.02 }],
+  ["hand", "A hand", "The height and spin of this hand scatter by 2 %, one standard deviation: the dashed ellipse. In the end it holds tosses of both faces side by side, " +
+    "so heads come in about half of its tosses. Choose face at touch 1 under Map: there nearly all of its tosses still show heads. Nothing here is random but the hand: so the answer is no, and yes.",
+    ["release.angular_velocity.eta", 25.25, 28.75], ["release.position.z", 0.375, 0.425], null, { ...COIN, ...AIR, ...FLOOR, ...FALL, "release.angular_velocity.eta": 27 }, { hand: 0.02 }],
 ];
 
 // The stops that an address of an earlier release names by their numbers.
