@@ -19,6 +19,14 @@ from tests.helpers.lab import ADDRESSED, COUNTED, HEIGHT, SAVED, SPIN, TOSSED, W
 
 RELEASES = sorted(folder for folder in (Path(__file__).parents[1] / "releases").iterdir() if folder.is_dir())
 PAPER = "getComputedStyle(document.body).backgroundColor"
+TEXTS = """
+const { clearRect, fillText } = CanvasRenderingContext2D.prototype;
+Object.assign(CanvasRenderingContext2D.prototype, {
+  clearRect(...box) { window.texts = []; return clearRect.apply(this, box); },
+  fillText(...text) { window.texts?.push(text[0]); return fillText.apply(this, text); },
+});
+"""
+"""A script that keeps what is written on the map."""
 WHOLE_COIN = (
     "#coin.mass=0.002&coin.radius=0.0125&coin.thickness=0.002&floor.contact=smooth"
     "&release.position.x=0&release.position.y=0&release.position.z=0.4"
@@ -223,6 +231,7 @@ def test_an_address_that_is_no_state_is_told_in_a_line(kept, lab_path, address, 
 
 
 def test_one_zooms_to_where_doubles_end(page, lab_path):
+    page.call("Page.addScriptToEvaluateOnNewDocument", source=TEXTS)
     page.open(lab_path.as_uri(), width=420)
     page.value("document.getElementById('map').focus()")
     for _ in range(60):
@@ -237,8 +246,13 @@ def test_one_zooms_to_where_doubles_end(page, lab_path):
     assert field == SPIN
     # As many pixels as doubles.
     assert 100 < (float(high) - float(low)) / np.spacing(float(high)) < 2000
+    # Of one colour, and the values at the axes are plain numbers.
+    page.wait_for(
+        "/^All that is seen is (heads|tails)/.test(document.getElementById('boundary').textContent)"
+    )
+    assert 0 < np.ptp([float(text) for text in page.value("texts") if text.startswith("0.4")]) < 1e-12
     page.press("0")
-    page.wait_for("document.getElementById('ends').hidden")
+    page.wait_for("document.getElementById('ends').textContent === ''")
     assert page.complaints() == []
 
 

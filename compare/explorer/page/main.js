@@ -38,6 +38,7 @@ async function begin() {
     canvas: byId("map"), map, grid, anywhere, tile: isStatic || !whole ? null : tile,
     onHover: (place) => (byId("readout").textContent = placeText(place)),
     onChoose: choose,
+    onNearest: (text) => (byId("boundary").textContent = text),
     onProblem: (message) => (byId("readout").textContent = message),
   });
   byId("zoom-in").addEventListener("click", () => view.zoom(0.5));

@@ -2,6 +2,7 @@
 
 import { valueAt } from "./axes.js";
 import { clamp, drawCursor, drawHatch, makeView } from "./map_view.js";
+import { nearestOther, nearestText } from "./nearest.js";
 import { colorsOf, mask, picture } from "./pixels.js";
 
 const SIDE = 32; // of a tile, in its own pixels
@@ -9,8 +10,9 @@ const FINEST = 30;
 const COARSE = 9; // a pixel larger than this on the screen is cut finer
 const KEPT = 400; // tiles
 const AROUND = 10; // a click this near to a dot chooses the dot [px]
+const LOOKS = 24; // places along both sides of a window at which is looked whether it has one colour
 
-export function makeMap({ canvas, map, grid, anywhere, tile, onHover, onChoose, onProblem }) {
+export function makeMap({ canvas, map, grid, anywhere, tile, onHover, onChoose, onNearest, onProblem }) {
   const { x, y } = map.axes, nx = x.count, ny = y.count;
   const codes = Int8Array.from(bytes(map.arrays.outcome));
   const stride = map.stride, columns = Math.ceil(nx / stride), rows = Math.ceil(ny / stride);
@@ -49,7 +51,10 @@ export function makeMap({ canvas, map, grid, anywhere, tile, onHover, onChoose, 
   // The nearest pixel, of the finer map where it is shown, or that both engines have tossed.
   function snapped(u, v) {
     const dot = grid && { u: nearest(grid.columns, u), v: nearest(grid.rows, v) };
-    if (dot && (!anywhere || isNear(dot, u, v))) return dot;
+    return dot && (!anywhere || isNear(dot, u, v)) ? dot : cellAt(u, v);
+  }
+
+  function cellAt(u, v) {
     const cells = 2 ** level();
     const cell = (at, count) => clamp((Math.floor((at + 0.5) * cells) + 0.5) / cells - 0.5, 0, count - 1);
     const coarse = (at, count) => clamp(Math.round(at / stride) * stride, 0, count - 1);
@@ -62,10 +67,24 @@ export function makeMap({ canvas, map, grid, anywhere, tile, onHover, onChoose, 
   }
 
   function place(u, v, exactly = false) {
-    const at = exactly && anywhere ? { u, v } : snapped(u, v), column = Math.round(at.u / stride), row = Math.round(at.v / stride);
-    const isPixel = Number.isInteger(at.u / stride) && Number.isInteger(at.v / stride);
-    const index = row * columns + column, found = isPixel ? codes[index] : tileCode(at, level());
-    return { ...at, x: valueAt(x, at.u), y: valueAt(y, at.v), code: found, index: isPixel ? index : null, step: 2 ** -level() * stride };
+    const at = exactly && anywhere ? { u, v } : snapped(u, v), index = indexAt(at);
+    return { ...at, x: valueAt(x, at.u), y: valueAt(y, at.v), code: codeAt(at), index, step: 2 ** -level() * stride };
+  }
+
+  const indexAt = ({ u, v }) => (Number.isInteger(u / stride) && Number.isInteger(v / stride) ? (v / stride) * columns + u / stride : null);
+  const codeAt = (at) => (indexAt(at) === null ? tileCode(at, level()) : codes[indexAt(at)]);
+
+  // What is told of a window of one colour: where the map's own pixels have another; nothing of other windows.
+  function lookAround({ left, right, bottom, top }) {
+    const seen = new Set(), middle = [left + right, bottom + top].map((sum) => Math.round(sum / 2 / stride));
+    for (let at = 0; at < LOOKS ** 2; at++) {
+      const [a, b] = [at % LOOKS, Math.floor(at / LOOKS)].map((each) => (each + 0.5) / LOOKS);
+      seen.add(codeAt(cellAt(left + a * (right - left), bottom + b * (top - bottom))));
+    }
+    const [code, ...others] = seen;
+    if (others.length || code === null || code < 0) return "";
+    const way = nearestOther(codes, columns, middle, code)?.map((pixels, i) => (pixels * stride * ([x, y][i].stop - [x, y][i].start)) / ([nx, ny][i] - 1));
+    return nearestText(map.outcomes[code].label, way, [x, y]);
   }
 
   function tileCode(at, level) {
@@ -86,6 +105,7 @@ export function makeMap({ canvas, map, grid, anywhere, tile, onHover, onChoose, 
     for (let each = 1; each <= wanted; each++) drawTiles(pen, at, each, each === wanted);
     if (grid) drawGrid(pen, at);
     if (chosen) drawCursor(pen, at, chosen, { u: 0.5 / 2 ** wanted, v: 0.5 / 2 ** wanted });
+    onNearest(lookAround(at.window));
   }
 
   function visible(level, { left, right, bottom, top }) {

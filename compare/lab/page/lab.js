@@ -25,6 +25,7 @@ const SAMPLES = 800; // of the path that is played
 const FOLLOWED = 3; // seconds for which a coin is shown, whatever was proved before
 const REST = 120; // milliseconds for which a slider has rested when its coin is tossed: before, the map alone follows
 const PAUSE = 250; // milliseconds until the address follows, which browsers allow some times a second
+const ENDS = "Double precision ends here: neighbouring tosses differ in the last bit of a number, and no toss lies between them.";
 const NAMES = { analytic: "this toss", before: "the toss before" };
 const byId = (id) => document.getElementById(id);
 const data = JSON.parse(byId("data").textContent), { outcomes } = data;
@@ -58,7 +59,8 @@ async function begin() {
       place: (place) => (byId("readout").textContent = placeText(place)),
       choose: ({ x, y }) => choose(x, y),
       moved: (windows) => state && change(windows),
-      end: (isEnd) => ends(isEnd),
+      end: (isEnd) => (byId("ends").textContent = isEnd ? ENDS : ""),
+      nearest: (text) => (byId("boundary").textContent = text),
       problem: say,
       progress(part, isCoarse) {
         byId("map").setAttribute("aria-busy", String(part < 1));
@@ -270,11 +272,6 @@ function placeText({ x, y, code, trusted }) {
   if (code !== -1) parts.push(code === -2 ? "no scenario" : outcomes[code].label);
   if (trusted === 0) parts.push(doubtText());
   return parts.join("; ");
-}
-
-function ends(isEnd) {
-  byId("ends").hidden = !isEnd;
-  byId("ends").textContent = isEnd ? "Double precision ends here: neighbouring tosses differ in the last bit of a number, and no toss lies between them." : "";
 }
 
 // What is on the map.

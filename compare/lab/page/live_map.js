@@ -1,17 +1,20 @@
 // The map of the lab: tossed again whenever its scenario or its window changes, coarse pixels first.
 
 import { indexOf, valueAt } from "./axes.js";
-import { drawCursor, drawHatch, makeView, style } from "./map_view.js";
+import { drawCursor, drawHatch, makeView } from "./map_view.js";
+import { nearestOther, nearestText } from "./nearest.js";
 import { makePicture } from "./picture.js";
+import { style } from "./pixels.js";
 import { ellipse } from "./hand.js";
 
 const PIXEL = 2; // of the map, in those of the screen
 const ULP = 2 ** -52;
 const WIDEST = 8; // times the whole map: the widest window
 const FRAME = 80; // [ms] between two pictures of one map
+const AROUND = 41; // pixels along both sides of a map around the one that is seen
 
 // `fields` has the word and the unit of each field, `outcomes` { color } by code. `told` has callbacks: place
-// and choose, with { x, y, code, trusted }; moved, with both windows; end; progress, with the part that is tossed and
+// and choose, with { x, y, code, trusted }; moved, with both windows; end; nearest, with a text; progress, with the part that is tossed and
 // whether coarse pixels cover the map; problem, with a message; and optionally depth, with a text.
 // `marks` returns the dots on the map, each with { values } by field and a color.
 export function makeLiveMap({ canvas, workers, fields, outcomes, marks, told }) {
@@ -116,13 +119,28 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, marks, told }) 
     const mine = Object.assign(makePicture({ x, y, outcomes, trust }), { key, window: view.window(), isEnded: false, controller: new AbortController() });
     job = mine;
     told.progress(0, false);
+    told.nearest("");
     try {
       await workers.map(scenario, x, y, { after, trust }, (part) => job === mine && take(part), mine.controller.signal);
+      if (mine.codes.every((code) => code === mine.codes[0] && code >= 0)) await lookAround(mine, state);
     } catch (error) {
       if (error.name !== "AbortError") told.problem(error.message);
     }
     mine.isEnded = true;
     if (job === mine && next !== null) ask();
+  }
+
+  // Tosses maps around one of a single colour, each twice as wide as the one before, until they show another.
+  async function lookAround({ x, y, codes: [code], window: { left, right, bottom, top }, controller: { signal } }, { scenario, after, home }) {
+    const middle = [(left + right) / 2, (bottom + top) / 2], half = [(right - left) / 2, (top - bottom) / 2], center = (AROUND - 1) / 2;
+    const codes = new Int8Array(AROUND ** 2), most = (WIDEST * (home.x.to - home.x.from)) / half[0];
+    let way = null;
+    for (let times = 2; !way && times <= most; times *= 2) {
+      const [across, up] = [x, y].map(({ field }, i) => ({ field, start: middle[i] - times * half[i], stop: middle[i] + times * half[i], count: AROUND }));
+      await workers.map(scenario, across, up, { after }, ({ pixels, codes: found }) => pixels.forEach((pixel, i) => (codes[pixel] = found[i])), signal);
+      way = nearestOther(codes, AROUND, [center, center], code)?.map((pixels, i) => (pixels / center) * times * half[i]);
+    }
+    told.nearest(nearestText(outcomes[code].label, way, [worded(x), worded(y)]));
   }
 
   function take(part) {

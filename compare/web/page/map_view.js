@@ -1,15 +1,16 @@
 // A map on a canvas: its window and axes; zoom by wheel, pinch and keys; panning; the cursor and the hatch.
 
-import { title, indexOf, shown } from "./axes.js";
+import { title, indexOf } from "./axes.js";
+import { style } from "./pixels.js";
 import { ticks } from "./ticks.js";
 
 const LEFT = 74, BOTTOM = 52, TOP = 10, RIGHT = 14;
 const HATCH = 7; // between two lines over untrusted pixels
 const GLIDE = 200; // [ms] that a zoom takes where one likes motion
-const FINE = 1e-6; // values closer than this, relative, are labelled by their difference from one of them
+const APART = { x: 90, y: 55 }; // between two values at an axis, at least [px]
+const LONG = 9; // signs: longer values have smaller digits
 
 export const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
-export const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 // A window is { left, right, bottom, top } in the coordinates u, v of the pixels. `about` has: the canvas; axes(),
 // of { x, y } as in axes.js; whole(), the window of all; hold(window), which keeps one on the map; limits(), the
@@ -22,8 +23,9 @@ export function makeView(about) {
   const touches = new Map();
 
   const frame = () => {
-    const { width, height } = canvas.getBoundingClientRect();
-    return { left: LEFT, top: TOP, width: Math.max(width - LEFT - RIGHT, 40), height: Math.max(height - TOP - BOTTOM, 40) };
+    const size = canvas.getBoundingClientRect(), height = Math.max(size.height - TOP - BOTTOM, 40);
+    const left = Math.max(LEFT, 30 + widest(labels(axes().y, window_.bottom, window_.top, height / APART.y)));
+    return { left, top: TOP, width: Math.max(size.width - left - RIGHT, 40), height };
   };
 
   function placing() {
@@ -173,50 +175,48 @@ export function makeView(about) {
 
 function drawAxes(pen, { box, window, across, down }, { x, y }) {
   const family = getComputedStyle(document.body).fontFamily;
-  const along = labels(x, window.left, window.right, box.width / 90), up = labels(y, window.bottom, window.top, box.height / 55);
+  const marks = (apart) => labels(x, window.left, window.right, box.width / apart), up = labels(y, window.bottom, window.top, box.height / APART.y);
+  const along = marks(Math.max(APART.x, widest(marks(APART.x)) + 12));
   pen.strokeStyle = style("--soft");
   pen.lineWidth = 1;
   pen.strokeRect(box.left - 0.5, box.top - 0.5, box.width + 1, box.height + 1);
   pen.fillStyle = style("--ink");
-  pen.font = `15px ${family}`;
+  pen.font = `${digits(along)}px ${family}`;
   pen.textAlign = "center";
   pen.textBaseline = "top";
-  for (const { value, text } of along.marks) {
+  for (const { value, text } of along) {
     const at = across(indexOf(x, value));
     pen.strokeRect(at, box.top + box.height, 0, 6);
     pen.fillText(text, at, box.top + box.height + 9);
   }
   pen.font = `600 15px ${family}`;
-  pen.fillText(along.title, box.left + box.width / 2, box.top + box.height + 31, box.width + LEFT);
-  pen.font = `15px ${family}`;
+  pen.fillText(title(x), box.left + box.width / 2, box.top + box.height + 31, box.width + LEFT);
+  pen.font = `${digits(up)}px ${family}`;
   pen.textAlign = "right";
   pen.textBaseline = "middle";
-  for (const { value, text } of up.marks) {
+  for (const { value, text } of up) {
     const at = down(indexOf(y, value));
     pen.strokeRect(box.left - 6, at, 6, 0);
-    pen.fillText(text, box.left - 9, at, LEFT - 30);
+    pen.fillText(text, box.left - 9, at, box.left - 30);
   }
   pen.save();
   pen.translate(11, box.top + box.height / 2);
   pen.rotate(-Math.PI / 2);
   pen.textAlign = "center";
   pen.font = `600 15px ${family}`;
-  pen.fillText(up.title, 0, 0, box.height + BOTTOM);
+  pen.fillText(title(y), 0, 0, box.height + BOTTOM);
   pen.restore();
 }
 
-// An axis's ticks with their texts, and its title. Where they would need many digits they are differences.
+// An axis's ticks with their texts: plain numbers, with as many digits as it takes.
 function labels(axis, low, high, most) {
   const [start, stop] = [low, high].map((at) => axis.start + at * ((axis.stop - axis.start) / (axis.count - 1)));
-  const size = Math.max(Math.abs(start), Math.abs(stop));
-  if (Math.abs(stop - start) > FINE * size) {
-    const { values, step } = ticks(start, stop, most);
-    return { title: title(axis), marks: values.map((value) => ({ value, text: shown(value, step) })) };
-  }
-  const middle = (start + stop) / 2, { values, step } = ticks(start - middle, stop - middle, most);
-  const text = (value) => (value > 0 ? "+" : "") + (Math.abs(value) < step / 2 ? "0" : value.toExponential(step < 1 ? 1 : 0).replace(".0e", "e"));
-  return { title: title({ ...axis, word: `${axis.word} − ${middle}` }), marks: values.map((value) => ({ value: middle + value, text: text(value) })) };
+  return ticks(start, stop, most).values.map((value) => ({ value, text: String(value) }));
 }
+
+const longest = (marks) => Math.max(0, ...marks.map(({ text }) => text.length));
+const digits = (marks) => (longest(marks) > LONG ? 12 : 15);
+const widest = (marks) => 0.6 * digits(marks) * longest(marks);
 
 // A tint and lines over the pixels of a mask that is stretched over a place, [left, top, width, height].
 export function drawHatch(pen, { box }, image, place) {

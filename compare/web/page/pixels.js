@@ -1,6 +1,6 @@
 // Pixels as pictures, the first row below: outcomes in their colours, and masks.
 
-const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+export const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 // The colours of outcomes by their codes, of -1 for what is not tossed; `outcomes` has { color } by code.
 export function colorsOf(outcomes) {

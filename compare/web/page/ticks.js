@@ -4,11 +4,11 @@
 export function ticks(start, stop, most) {
   const low = Math.min(start, stop), high = Math.max(start, stop);
   const raw = (high - low) / Math.max(most, 1);
-  const power = 10 ** Math.floor(Math.log10(raw));
+  const digit = Math.floor(Math.log10(raw)), power = 10 ** digit;
   const step = power * [1, 2, 5, 10].find((part) => part * power >= raw);
   const found = [];
   for (let k = Math.ceil(low / step); k * step <= high && found.length < 50; k++) {
-    found.push(Number((k * step).toPrecision(15)));
+    found.push(Number((k * step).toFixed(Math.max(-digit, 0))));
   }
   return { values: found, step };
 }

@@ -16,6 +16,7 @@ from tests.helpers.coins_shown import BLUE, GOLD, NO_WEBGL, UNNAMED, box, faces,
 from tests.helpers.command_line import cointoss
 from tests.helpers.explored import FIELDS, SCENARIO, serving, small_map
 
+BOUNDARY = "document.getElementById('boundary').textContent"
 TOSSED = (
     "document.querySelectorAll('#outcome p').length === 2"
     " && !/tossing/i.test(document.getElementById('outcome').textContent)"
@@ -178,6 +179,18 @@ def test_the_mouse_hovers_and_zooms_into_a_finer_map(page, server):
     assert 0 < steps[0] < 40 / 23 / 2
     assert 0 < steps[1] < 0.4 / 17 / 2
     assert steps[0] / (40 / 23) == pytest.approx(steps[1] / (0.4 / 17))
+    assert page.text("boundary") == ""
+    for _ in range(12):
+        page.press("+")
+    page.wait_for(f"/^All that is seen is (heads|tails)[.] .* the middle: /.test({BOUNDARY})")
+    assert page.value(
+        "import('./nearest.js').then(({ nearestOther, nearestText }) => nearestText('heads',"
+        " nearestOther([2, 1, 1, 1, 2, 1, 1, 1, 1, 1, 1, -1], 4, [2, 1], 1).map((pixels) => pixels / 3),"
+        " [{ word: 'spin', unit: 'rad/s' }, { word: 'friction', unit: '' }]))"
+    ) == (
+        "All that is seen is heads. The nearest other colour lies to the left of the middle: "
+        "roughly −0.67 rad/s in spin."
+    )
     assert page.complaints() == []
 
 
