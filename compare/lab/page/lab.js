@@ -21,6 +21,7 @@ import { measure } from "./measure.js";
 import { copied, saveCsv, savePng, saveToml } from "./save.js";
 import { command } from "./toml.js";
 
+const PLOT = 150; // pixels: the height of the energies
 const SAMPLES = 800; // of the path that is played
 const FOLLOWED = 3; // seconds for which a coin is shown, whatever was proved before
 const REST = 120; // milliseconds for which a slider has rested when its coin is tossed: before, the map alone follows
@@ -214,7 +215,7 @@ function showTosses(fresh) {
   showSequences(byId("sequences"), [one], before, state.after);
   byId("horizon").textContent = one.count ? horizonText([one, null], before, state.after) : "";
   byId("sequences").hidden = one.count === 0;
-  moveEnergy = showEnergy(byId("energy"), shown);
+  moveEnergy = showEnergy(byId("energy"), shown, PLOT);
   byId("outcome").textContent = throws.isInTheAir() ? "The coin is in the air." : outcomeText(one);
   document.querySelector(".coin").classList.toggle("crowded", hundred.isShown());
   const played = hundred.longest() ?? null;

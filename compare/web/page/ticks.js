@@ -13,10 +13,10 @@ export function ticks(start, stop, most) {
   return { values: found, step };
 }
 
-// Numbers for a logarithmic axis: powers of ten, with 2 and 5 between where these are few.
-export function logTicks(low, high, most = 7) {
+// At most so many numbers for a logarithmic axis: powers of ten, with 2 and 5 between where these are few.
+export function logTicks(low, high, most) {
   const decades = Math.log10(high / low), found = [];
-  const parts = decades > 2.5 ? [1] : [1, 2, 5], every = Math.max(1, Math.ceil(decades / most));
+  const parts = 3 * decades > most ? [1] : [1, 2, 5], every = Math.max(1, Math.ceil(decades / most));
   for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); power++) {
     if (power % every === 0) for (const part of parts) found.push(Number((part * 10 ** power).toPrecision(3)));
   }
