@@ -12,7 +12,12 @@ from cointoss.compare.metrics.estimates import share
 from cointoss.models.batch import rows_of
 from tests.helpers.coins_shown import box
 from tests.helpers.command_line import cointoss as command
-from tests.helpers.lab import COUNTED, HEIGHT, SPIN, WHOLE, go
+from tests.helpers.lab import COUNTED, HEIGHT, SPIN, TOSSED, WHOLE, go
+
+SCROLLING = """
+[...document.querySelectorAll("body *")].filter((one) => one.scrollHeight > one.clientHeight
+  && ["auto", "scroll"].includes(getComputedStyle(one).overflowY)).map((one) => one.id)
+"""
 
 
 def scenario_of(stop):
@@ -91,12 +96,22 @@ def test_the_page_begins_with_the_tour_and_moves_slowly_between_its_stops(page, 
     assert command("lab", "--out", target).exit_code == 0
     page.open(target.as_uri(), width=1280, height=800, moving=True)
     assert page.text("stop").startswith("1. Caught. Not if you catch it.")
-    assert page.value("document.querySelector('h1').textContent") == "Is a coin toss random?"
-    # Coin, map and controls are seen without scrolling.
-    for id_ in ("flick", "map", "shows", "play"):
+    assert page.value(
+        "[...document.querySelectorAll('h1, main > :last-child h2')].map((one) => one.textContent)"
+    ) == [
+        "Is a coin toss random?",
+        "So is a coin toss random? No, and yes.",
+    ]
+    # Coin, map, controls and energy are seen without scrolling, the coin below its label.
+    page.wait_for(TOSSED)
+    for id_ in ("flick", "map", "shows", "play", "energy"):
         left, top, width, height = box(page, id_)
         assert 0 <= left <= left + width <= 1280
         assert 0 <= top <= top + height <= 800, id_
+    assert (
+        page.value("document.querySelector('.panel').getBoundingClientRect().bottom") <= box(page, "coins")[1]
+    )
+    assert page.value(SCROLLING) == []
     page.value("location.hash = " + json.dumps(link(page, "air")))
     page.wait_for(WHOLE)
     page.value(
