@@ -18,6 +18,7 @@ from tests.helpers.command_line import cointoss as command
 from tests.helpers.lab import ADDRESSED, COUNTED, HEIGHT, SAVED, SPIN, TOSSED, WHOLE, saved
 
 RELEASES = sorted(folder for folder in (Path(__file__).parents[1] / "releases").iterdir() if folder.is_dir())
+OFFLINE = {"offline": True, "latency": 0, "downloadThroughput": -1, "uploadThroughput": -1}
 PAPER = "getComputedStyle(document.body).backgroundColor"
 TEXTS = """
 const { clearRect, fillText } = CanvasRenderingContext2D.prototype;
@@ -31,11 +32,6 @@ WHOLE_COIN = (
     "#coin.mass=0.002&coin.radius=0.0125&coin.thickness=0.002&floor.contact=smooth"
     "&release.position.x=0&release.position.y=0&release.position.z=0.4"
 )
-
-
-def offline(page):
-    nothing = {"latency": 0, "downloadThroughput": -1, "uploadThroughput": -1}
-    page.call("Network.emulateNetworkConditions", offline=True, **nothing)
 
 
 def place_of(page, u, v):
@@ -65,7 +61,7 @@ def sequences(page):
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("width", [1280, 420])
 def test_the_page_shows_a_coin_and_its_map_with_the_network_off(page, lab_path, width, scheme):
-    offline(page)
+    page.call("Network.emulateNetworkConditions", **OFFLINE)
     page.open(lab_path.as_uri(), width=width, height=1900, scheme=scheme)
     page.wait_for(TOSSED)
     page.wait_for(WHOLE)
@@ -273,13 +269,6 @@ def test_beyond_a_field_s_bounds_the_map_is_grey(page, lab_path):
     # About the coin at 0.3, from -0.3 to 1.5; 0 to 1 is tossed.
     assert part() == pytest.approx(0.8 / 1.8, abs=0.05)
     assert page.text("problem") == ""
-
-
-def test_an_address_of_a_stop_alone_is_that_stop(kept, lab_path):
-    kept.open(f"{lab_path.as_uri()}#tour=hand", width=420)
-    assert kept.text("stop").startswith("8. A hand.")
-    assert kept.text("problem") == ""
-    kept.wait_for(COUNTED)
 
 
 def test_two_fingers_zoom(page, lab_path):
