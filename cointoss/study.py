@@ -50,7 +50,7 @@ if TYPE_CHECKING:
     from cointoss.compare.basins.picture import MapAxis as MapAxis
     from cointoss.compare.basins.picture import draw_panel as draw_panel
     from cointoss.compare.basins.stripes import crossings as crossings
-    from cointoss.compare.commands.common import Place as Place
+    from cointoss.compare.commands.common import WrittenPlace as WrittenPlace
     from cointoss.compare.commands.common import device_option as device_option
     from cointoss.compare.commands.common import plain_errors as plain_errors
     from cointoss.compare.commands.common import refuse as refuse
@@ -98,6 +98,7 @@ if TYPE_CHECKING:
     from cointoss.compare.metrics.trajectories import attitude_angle as attitude_angle
     from cointoss.compare.metrics.trajectories import distance as distance
     from cointoss.compare.metrics.trajectories import parting_time as parting_time
+    from cointoss.compare.output.accepted import Written as Written
     from cointoss.compare.output.files import remove as remove
     from cointoss.compare.output.files import require_folder as require_folder
     from cointoss.compare.output.files import write_text as write_text

@@ -6,17 +6,18 @@ from typing import TYPE_CHECKING
 
 import click
 
-from cointoss.compare.commands.common import Place, ReadPlace, plain_errors, print_json, refuse
+from cointoss.compare.commands.common import ReadPlace, WrittenPlace, plain_errors, print_json, refuse
+from cointoss.compare.output.accepted import Written
 
 if TYPE_CHECKING:
     from cointoss.coin_mj.bounces.pair import PairBounce
 
 
 @click.command()
-@click.argument("model", metavar="MODEL.xml", type=ReadPlace("no such file; accepted: an XML file of MuJoCo"))
+@click.argument("model", metavar="MODEL.xml", is_eager=True, type=ReadPlace("an XML file of MuJoCo"))
 @click.argument("one", metavar="GEOM")
 @click.argument("two", metavar="GEOM")
-@click.option("--png", type=Place(), help="Draw the restitution over the speed.")
+@click.option("--png", type=WrittenPlace(Written((".png",))), help="Draw the restitution over the speed.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
 def bounce(model: Path, one: str, two: str, png: Path | None, as_json: bool) -> None:
     """Print how two geoms of your own MuJoCo model bounce off each other.
@@ -28,9 +29,8 @@ def bounce(model: Path, one: str, two: str, png: Path | None, as_json: bool) -> 
     """
     with plain_errors(str(model)):
         from cointoss.compare.film.back_end import require_mujoco
-        from cointoss.compare.output.files import require_file, write_bytes
+        from cointoss.compare.output.files import write_bytes
 
-        require_file(png, ".png", str(model))
         require_mujoco()
         from cointoss import coin_mj
         from cointoss.models.errors import FieldError

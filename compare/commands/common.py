@@ -1,5 +1,6 @@
 """What several commands share: options, kinds of values, and failures of one line."""
 
+import stat
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Mapping
@@ -10,6 +11,7 @@ from typing import Any, NoReturn
 
 import click
 
+from cointoss.compare.output.accepted import Written
 from cointoss.compare.output.language import in_options
 from cointoss.compare.output.plain import json_text
 from cointoss.models.devices import Device, DeviceError, DeviceWarning
@@ -46,23 +48,56 @@ class Place(click.Path):
 
 
 class ReadPlace(Place):
-    """The path of what a command reads; one where there is nothing is refused before anything is imported."""
+    """The path of what a command reads; one where there is no such thing is refused at once.
 
-    def __init__(self, missing: str) -> None:
-        """Keep what is said of a path where there is nothing."""
+    A parameter of this type is eager: its path is known where that of what is written is checked.
+    """
+
+    def __init__(self, accepted: str, kind: str = "file") -> None:
+        """Keep what is accepted, and whether it is a file or a folder."""
         super().__init__()
-        self._missing = missing
+        self._accepted, self._kind = accepted, kind
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the path, or refuse one where there is nothing."""
+        """Return the path, or refuse one where there is no such thing."""
         path = super().convert(value, param, ctx)
         if ctx is None or not ctx.resilient_parsing:  # as it is while a shell completes a word
             try:
-                path.stat()
+                is_such = stat.S_ISDIR(path.stat().st_mode) == (self._kind == "folder")
             except (FileNotFoundError, NotADirectoryError):
-                refuse(f"{path}: {self._missing}")
+                refuse(f"{path}: no such {self._kind}; accepted: {self._accepted}")
             except OSError as error:
                 refuse(f"{path}: can't be read ({error.strerror})")
+            if not is_such:
+                refuse(f"{path}: is no {self._kind}; accepted: {self._accepted}")
+        return path
+
+
+class WrittenPlace(Place):
+    """The path of what a command writes; a place that can't be written is refused at once."""
+
+    def __init__(self, place: Written) -> None:
+        """Keep what the place must be."""
+        super().__init__()
+        self._place = place
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the path, or refuse one that can't be written or is read."""
+        path = super().convert(value, param, ctx)
+        if ctx is not None and not ctx.resilient_parsing:
+            from cointoss.compare.output import files
+
+            read = [each for each in ctx.params.values() if isinstance(each, Path)]
+            try:
+                match self._place:
+                    case Written(kind="folder"):
+                        files.require_folder(path, ())
+                    case Written(suffixes, "map"):
+                        files.require_name(path, suffixes)
+                    case Written(suffixes, kind) if kind == "file" or not files.is_stream(path):
+                        files.require_file(path, suffixes, ctx.params.get("scenario"), *read)
+            except files.UnwritableError as error:
+                refuse(str(error))
         return path
 
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
 import click
 
@@ -9,6 +10,7 @@ from cointoss.compare.commands.common import SCENARIO_HELP
 from cointoss.compare.commands.names import scenario_argument
 from cointoss.compare.commands.options import options_of
 from cointoss.compare.commands.settings import set_option, with_scenario
+from cointoss.compare.output.accepted import Written
 from cointoss.compare.sweep.asked import Source
 
 
@@ -16,7 +18,7 @@ from cointoss.compare.sweep.asked import Source
 class Report:
     """The report that is asked for."""
 
-    out: Path | None = None
+    out: Annotated[Path | None, Written(kind="folder")] = None
     """Folder of the report, made if missing; by default NAME-report, as in fig24a-report."""
     engine: tuple[str, ...] = ()
     """Engine to compare with the analytic one, by default mujoco; may be given several times."""

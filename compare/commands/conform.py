@@ -6,22 +6,23 @@ from typing import Annotated
 
 import click
 
-from cointoss.compare.commands.common import plain_errors, print_json, refuse
+from cointoss.compare.commands.common import ChoiceType, plain_errors, print_json
 from cointoss.compare.commands.options import options_of
-from cointoss.compare.output.accepted import Within
+from cointoss.compare.conform.tables import case_names
+from cointoss.compare.output.accepted import Form, Within, Written
 
 
 @dataclass(frozen=True, kw_only=True)
 class Suite:
     """What is run, and where it goes."""
 
-    case: tuple[str, ...] = ()
+    case: Annotated[tuple[str, ...], ChoiceType(case_names()), Form("CASE")] = ()
     """Run this case alone; may be given several times."""
     full: bool = False
     """Simulate an hour in place of a minute, and 10,000 tosses in place of 200."""
     time_limit: Annotated[int, Within(1, 86400)] = 60
     """The longest time for one answer of the engine, in seconds."""
-    out: Path | None = None
+    out: Annotated[Path | None, Written((".html",))] = None
     """Write the card to this .html file."""
     json: bool = False
     """Print JSON, in full precision."""
@@ -39,15 +40,8 @@ def conform(engine: str, asked: Suite) -> None:
     """
     with plain_errors(engine):
         from cointoss.compare.conform import suite
-        from cointoss.compare.conform.case import cases
-        from cointoss.compare.output.files import require_file, write_text
-        from cointoss.models.errors import meant
+        from cointoss.compare.output.files import write_text
 
-        require_file(asked.out, ".html", engine)
-        known = [case.name for case in cases()]
-        for name in asked.case:
-            if name not in known:
-                refuse(f"--case {name}: {meant(name, known)}accepted: {', '.join(known)}")
         card = suite.conform(engine, cases=asked.case, full=asked.full, time_limit=asked.time_limit)
         if asked.out is not None:
             write_text(asked.out, card.page())

@@ -9,7 +9,7 @@ import click
 from cointoss.compare.commands.common import ReadPlace, plain_errors
 from cointoss.compare.commands.options import options_of, without
 from cointoss.compare.commands.served import ServedPage, serve
-from cointoss.compare.output.accepted import Form
+from cointoss.compare.output.accepted import Form, Written
 from cointoss.models.devices import Device
 
 
@@ -19,13 +19,16 @@ class Page(ServedPage):
 
     device: Device = Device.CPU
     """Device that computes a finer map: the CPU, an NVIDIA card, or the card where it is faster."""
-    static: Annotated[Path | None, Form("FILE.html")] = None
+    static: Annotated[Path | None, Written((".html",)), Form("FILE.html")] = None
     """Write one page with some pixels tossed, at most 10 MB, that needs no server; and end."""
 
 
 @click.command()
 @click.argument(
-    "map_path", metavar="MAP.zarr", type=ReadPlace("no such folder; accepted: a map that cointoss basin made")
+    "map_path",
+    metavar="MAP.zarr",
+    is_eager=True,
+    type=ReadPlace("a map that cointoss basin made", "folder"),
 )
 @options_of(Page, without("static", "device", "port", "no_browser"))
 def explore(map_path: Path, asked: Page) -> None:
@@ -37,9 +40,7 @@ def explore(map_path: Path, asked: Page) -> None:
     with plain_errors(str(map_path)):
         if asked.static is not None:
             from cointoss.compare.explorer.static import write_static
-            from cointoss.compare.output.files import require_file
 
-            require_file(asked.static, ".html", str(map_path))
             write_static(map_path, asked.static)
             click.echo(asked.static)
             return

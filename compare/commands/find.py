@@ -11,7 +11,8 @@ from cointoss.compare.commands.common import SCENARIO_HELP, print_json, say
 from cointoss.compare.commands.names import scenario_argument, varied, varying
 from cointoss.compare.commands.options import options_of
 from cointoss.compare.commands.settings import set_option, with_scenario
-from cointoss.compare.output.accepted import Form, Within
+from cointoss.compare.find.sequence import sequence_of
+from cointoss.compare.output.accepted import Form, Within, Written
 from cointoss.compare.sweep.asked import Source
 from cointoss.models.devices import Device
 
@@ -22,7 +23,7 @@ class SoughtToss:
 
     vary: Annotated[tuple[str, ...], Form("FIELD=START:STOP")]
     """Field to search, and the range of its values; may be given several times."""
-    sequence: Annotated[str, Form("FACES")] = ""
+    sequence: Annotated[str, Form("FACES", sequence_of)] = ""
     """Faces up at the first touches, such as HTTH."""
     outcome: Literal["heads", "tails", "edge", "perpetual", "transient", "undecided"] | None = None
     """How the coin is to end."""
@@ -32,7 +33,7 @@ class SoughtToss:
     """Seed of the points tossed."""
     device: Device = Device.CPU
     """Device that computes outcomes; the CPU finds the faces."""
-    out: Annotated[Path | None, Form("FILE.toml")] = None
+    out: Annotated[Path | None, Written((".toml",)), Form("FILE.toml")] = None
     """Write the scenario of the toss to this file; by default it is printed."""
     json: bool = False
     """Print JSON, in full precision."""
@@ -59,11 +60,10 @@ def find(source: Source, asked: SoughtToss) -> None:
     can toss, with the margins in its comments. The exit status is 1 where no toss shows it.
     """
     from cointoss.compare.find.fields import spans
-    from cointoss.compare.output.files import require_file, write_text
+    from cointoss.compare.output.files import write_text
 
     if not (asked.sequence or asked.outcome):
         raise click.UsageError("--sequence, --outcome: none; accepted: one of them, or both")
-    require_file(asked.out, ".toml", source.name)
     spans(varied(asked.vary), source.scenario)
     from cointoss.compare.find import find as finding
 

@@ -17,7 +17,7 @@ from cointoss.compare.commands.common import (
 from cointoss.compare.commands.names import fitted, optional_scenario_argument, varied
 from cointoss.compare.commands.options import options_of
 from cointoss.compare.commands.settings import set_option, with_scenario
-from cointoss.compare.output.accepted import Form, Within
+from cointoss.compare.output.accepted import Form, Within, Written
 from cointoss.compare.output.language import option_of
 from cointoss.compare.sweep.asked import Source
 from cointoss.models.devices import Device
@@ -42,7 +42,7 @@ class SoughtValues:
     """Standard deviation of tilts and attitudes, such as '2 deg'."""
     starts: Annotated[int, Within(1, 1 << 20)] = 2048
     """Starting points, spread evenly over the ranges; take more for more or wider ranges."""
-    hand: Path | None = None
+    hand: Annotated[Path | None, ReadPlace("a hand's file in TOML")] = None
     """For counts: file of the hand that tosses the scenario's coin; its psi is not used."""
     tosses: Annotated[int, Within(1, 10_000_000)] = 1000
     """For counts: tosses of the coin at each of 31 psi."""
@@ -50,9 +50,9 @@ class SoughtValues:
     """Seed of the starts, or of the tosses."""
     device: Device = Device.CPU
     """Device that computes the tosses; the CPU fits a single toss, so auto is the CPU there."""
-    out: Path | None = None
+    out: Annotated[Path | None, Written((".toml",))] = None
     """Also write the scenario with the values found, or for counts the hand, to this .toml file."""
-    png: Path | None = None
+    png: Annotated[Path | None, Written((".png",))] = None
     """Also draw the fit to this .png file; not for counts."""
     json: bool = False
     """Print JSON, in full precision."""
@@ -69,7 +69,7 @@ _OF_COUNTS = ("hand", "tosses")
     "Counts have a row for each person, and columns same and flips, or heads_to_heads, heads_to_tails, "
     "tails_to_tails and tails_to_heads. " + SCENARIO_HELP
 )
-@click.argument("observed", metavar="OBSERVED.csv", type=ReadPlace("no such file; accepted: a CSV file"))
+@click.argument("observed", metavar="OBSERVED.csv", is_eager=True, type=ReadPlace("a CSV file"))
 @optional_scenario_argument
 @set_option
 @options_of(SoughtValues, completed={"vary": fitted})
@@ -93,11 +93,7 @@ def fit(observed: Path, source: Source | None, asked: SoughtValues) -> None:
     """
     from cointoss.compare.fitting.flips import Flips
     from cointoss.compare.fitting.table import read_seen
-    from cointoss.compare.output.files import require_file
 
-    scenario, read = "" if source is None else source.name, [observed, *filter(None, [asked.hand])]
-    require_file(asked.out, ".toml", scenario, *read)
-    require_file(asked.png, ".png", scenario, *read)
     sd = {"time": asked.sd_time, "height": asked.sd_height, "attitude": asked.sd_attitude}
     given = {name: text for name, text in sd.items() if text is not None}
     options = {f"sd.{name}": (f"--sd-{name}", text) for name, text in given.items()}

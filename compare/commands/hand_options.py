@@ -9,7 +9,7 @@ from cointoss.compare.commands.common import (
     ChoiceType,
     CountType,
     Given,
-    Place,
+    ReadPlace,
     naming_options,
     quantity,
     refuse,
@@ -23,7 +23,8 @@ _OPTIONS = (
     click.option(
         "--hand",
         "hand_file",
-        type=Place(),
+        type=ReadPlace("a hand's file in TOML"),
+        is_eager=True,
         metavar="FILE.toml",
         help="A hand's file, with the names of these options: height, speed, spin, psi, psi_scatter, "
         "scatter, up, spun, caught. An option overrides the value in the file.",

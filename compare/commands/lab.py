@@ -12,7 +12,7 @@ from cointoss.compare.commands.names import spared_scenario_argument
 from cointoss.compare.commands.options import only_with, options_of, without
 from cointoss.compare.commands.served import ServedPage, serve
 from cointoss.compare.commands.settings import set_option, with_scenario
-from cointoss.compare.output.accepted import Form
+from cointoss.compare.output.accepted import Form, Written
 from cointoss.compare.sweep.asked import Source
 from cointoss.models.devices import Device
 
@@ -21,7 +21,7 @@ from cointoss.models.devices import Device
 class LabPage(ServedPage):
     """Where the page goes, and what tosses its map."""
 
-    out: Annotated[Path | None, Form("FILE.html")] = None
+    out: Annotated[Path | None, Written((".html",)), Form("FILE.html")] = None
     """Write the page, at most 2 MB, instead of opening it."""
     device: Device | None = None
     """Serve the page to this machine until Ctrl-C, and compute its map here: on the CPU, an NVIDIA card, or
@@ -50,9 +50,8 @@ def lab(source: Source, asked: LabPage) -> None:
     import webbrowser
 
     from cointoss.compare.lab.lab import lab_page
-    from cointoss.compare.output.files import require_file, write_text
+    from cointoss.compare.output.files import write_text
 
-    require_file(asked.out, ".html", source.name)
     page = lab_page(source.scenario, is_tour=is_tour)
     target = asked.out or Path(tempfile.mkdtemp(prefix="cointoss-")) / "lab.html"
     write_text(target, page)

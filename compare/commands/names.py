@@ -56,7 +56,7 @@ def fitted() -> list[str]:
     return ["clock=", *(axis for axis in axes() if not axis.startswith(("ending.", "release.quaternion.")))]
 
 
-_named = completing(_scenarios, files=True)
+_named: dict[str, Any] = {"is_eager": True, **completing(_scenarios, files=True)}
 scenario_argument = click.argument("scenario", **_named)
 named_scenario_argument = click.argument("name", required=False, metavar="[NAME]", **completing(_scenarios))
 optional_scenario_argument = click.argument("scenario", required=False, **_named)

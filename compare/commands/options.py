@@ -20,9 +20,16 @@ from typing import (
 
 import click
 
-from cointoss.compare.commands.common import ChoiceType, CountType, Place, TextType
+from cointoss.compare.commands.common import (
+    ChoiceType,
+    CountType,
+    Place,
+    ReadPlace,
+    TextType,
+    WrittenPlace,
+)
 from cointoss.compare.commands.names import completing
-from cointoss.compare.output.accepted import Form, Within
+from cointoss.compare.output.accepted import Form, Within, Written
 from cointoss.compare.output.language import option_of
 from cointoss.models.meanings import meanings
 
@@ -80,9 +87,10 @@ def options_of(
     """Return what gives a command an option for each field of a record, and the record as argument `asked`.
 
     A field's type is `bool` for a flag, a `Literal`, a `StrEnum`, `Path` or `str`; an `int` is annotated with
-    its bounds, `Annotated[int, Within(1, 9)]`, a text of a form with a `Form`, and a value of another kind
-    with a type of click. A tuple of any length may be given several times. A field without a default is
-    required; the text below a field is its help. Those of a record that it extends come last.
+    its bounds, `Annotated[int, Within(1, 9)]`, a text of a form with a `Form`, a path that is written with a
+    `Written`, and a value of another kind with a type of click. A tuple of any length may be given several
+    times. A field without a default is required; the text below a field is its help. Those of a record that
+    it extends come last.
 
     Args:
         record: a frozen dataclass.
@@ -154,8 +162,10 @@ def _option(one: _Field, names: Callable[[], Iterable[str]] | None) -> Callable[
     if one.kind is bool:
         more |= {"is_flag": True}
     else:
+        kind = _type(one)
         metavar = next((mark.shown for mark in one.marks if isinstance(mark, Form)), None)
-        more |= {"type": _type(one), "metavar": metavar, "multiple": one.is_many}
+        more |= {"type": kind, "metavar": metavar, "multiple": one.is_many}
+        more |= {"is_eager": isinstance(kind, ReadPlace)}
     if _is_worded(one.kind):
         more |= {"callback": lambda _ctx, _parameter, word: None if word is None else one.kind(word)}
     if one.default is MISSING:
@@ -197,6 +207,8 @@ def _type(one: _Field) -> click.ParamType:
                 return mark
             case Within(least, most):
                 return CountType(least, most)
+            case Written():
+                return WrittenPlace(mark)
             case Form(shown, read) if read is not None:
                 return TextType(shown, read)
             case _:

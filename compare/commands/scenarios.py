@@ -5,8 +5,9 @@ from pathlib import Path
 
 import click
 
-from cointoss.compare.commands.common import Place, refuse
+from cointoss.compare.commands.common import WrittenPlace, refuse
 from cointoss.compare.commands.names import named_scenario_argument
+from cointoss.compare.output.accepted import Written
 
 
 @click.command()
@@ -14,7 +15,7 @@ from cointoss.compare.commands.names import named_scenario_argument
 @click.option(
     "--copy",
     "copied",
-    type=Place(),
+    type=WrittenPlace(Written((".toml",))),
     metavar="FILE.toml",
     help="Write the file of NAME to a new file, to be changed.",
 )
@@ -45,10 +46,9 @@ def scenarios(name: str | None, copied: Path | None) -> None:
         return
     if os.path.lexists(copied):
         refuse(f"{copied}: exists; accepted: a new name")
-    from cointoss.compare.output.files import UnwritableError, require_file, write_text
+    from cointoss.compare.output.files import UnwritableError, write_text
 
     try:
-        require_file(copied, ".toml", name)
         write_text(copied, named_text(name))
     except UnwritableError as error:
         refuse(str(error))

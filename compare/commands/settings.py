@@ -57,15 +57,9 @@ def described(source: str, settings: Sequence[str] = (), text: str | None = None
     from cointoss.models.unused import warn_of_unused_fields
 
     text = scenario_text(source) if text is None else text
+    pairs = _pairs(settings) if settings else []  # before what reads a scenario, which takes an engine
     scenario = parse(text, source)
-    if settings:
-        from cointoss.compare.sweep.axes import named
-        from cointoss.compare.sweep.batch import KNOWN
-        from cointoss.models.parts import Air
-
-        typed = [setting.partition("=") for setting in settings]
-        known = (*KNOWN, *(f"air.{name}" for name in Air.instead))
-        pairs = [word for name, _, value in typed for word in (named(name.strip(), known), _value(value))]
+    if pairs:
         try:
             scenario = scenario.replace(*pairs)
         except ScenarioError as error:
@@ -74,6 +68,17 @@ def described(source: str, settings: Sequence[str] = (), text: str | None = None
     warn_of_unused_fields(scenario.floor, scenario.air)
     warn_of_unlikely_units(scenario.gravity, scenario.coin, scenario.release, scenario.ending)
     return scenario, text
+
+
+def _pairs(settings: Sequence[str]) -> list[Any]:
+    """Return the whole name of each field that is set, and after it its value."""
+    from cointoss.compare.sweep.axes import named
+    from cointoss.compare.sweep.batch import KNOWN
+    from cointoss.models.parts import Air
+
+    typed = [setting.partition("=") for setting in settings]
+    known = (*KNOWN, *(f"air.{name}" for name in Air.instead))
+    return [word for name, _, value in typed for word in (named(name.strip(), known), _value(value))]
 
 
 def with_scenario(command: Callable[..., None]) -> Callable[..., None]:

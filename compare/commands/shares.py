@@ -15,7 +15,7 @@ from cointoss.compare.commands.common import (
     SCENARIO_HELP,
     CountType,
     Given,
-    Place,
+    WrittenPlace,
     device_option,
     engine_option,
     naming_options,
@@ -26,6 +26,7 @@ from cointoss.compare.commands.common import (
 from cointoss.compare.commands.hand_options import chosen_hand, hand_options
 from cointoss.compare.commands.names import ranges_option, scenario_argument, varied
 from cointoss.compare.commands.settings import set_option, with_scenario
+from cointoss.compare.output.accepted import Written
 from cointoss.compare.sweep.asked import Source
 from cointoss.models.devices import Device
 
@@ -68,7 +69,7 @@ WHOLE = 1000
 @click.option("--scheduler", metavar="ADDRESS", help="Address of a Dask scheduler on whose workers to toss.")
 @click.option(
     "--out",
-    type=Place(),
+    type=WrittenPlace(Written((".csv", *PICTURES))),
     multiple=True,
     metavar="FILE",
     help="Write the table (.csv) or the picture (.png, .svg, .pdf); may be given again.",
@@ -117,11 +118,9 @@ def shares(
     with stage("getting ready"):
         from cointoss.compare.engines import Engine
         from cointoss.compare.film.back_end import require_mujoco
-        from cointoss.compare.output.files import require_file
         from cointoss.compare.shares import plan as plans
         from cointoss.models.processor import Processor
 
-    read = [given["hand_file"]] if given["hand_file"] is not None else []
     hand, _ = chosen_hand(given, source.scenario)
     engines = tuple(Engine) if both else (Engine(engine),)
     with naming_options({"to": ("--to", to)}):
@@ -136,8 +135,6 @@ def shares(
             to=to and to.value,
             processor=Processor(device),
         )
-    for path in out:
-        require_file(path, (".csv", *PICTURES), source.name, *read)
     if any(path.suffix.lower() in PICTURES for path in out):
         from cointoss.compare.shares.picture import require_drawable
 

@@ -46,8 +46,8 @@ class Wanted:
     """Print a whole model instead: the body over a plane."""
     with_: Annotated[str | None, Form("SOLREF")] = None
     """solref of the other geom, mixed with that of --of; by default that of --of has priority."""
-    integrator: str | None = None
-    """With --of: the integrator: Euler (MuJoCo's default), implicitfast, implicit, RK4 or discrete."""
+    integrator: Literal["Euler", "RK4", "implicit", "implicitfast", "discrete"] | None = None
+    """With --of: the integrator; by default MuJoCo's, Euler."""
     solimp: Annotated[str | None, Form("SOLIMP")] = None
     """With --of: solimp of the same geom; by default "0.9 0.95 0.001"."""
     json: bool = False

@@ -10,7 +10,7 @@ from cointoss.compare.commands.common import SCENARIO_HELP, print_json
 from cointoss.compare.commands.names import scenario_argument
 from cointoss.compare.commands.options import only_with, options_of, without
 from cointoss.compare.commands.settings import set_option, with_scenario
-from cointoss.compare.output.accepted import Within
+from cointoss.compare.output.accepted import Within, Written
 from cointoss.compare.sweep.asked import Source
 
 MARGINS = (
@@ -36,7 +36,7 @@ class Answer:
     """Print every impact and contact; without it, of more than 20 impacts the first 8 and the last 2."""
     json: bool = False
     """Print JSON, in full precision."""
-    trajectory: Path | None = None
+    trajectory: Annotated[Path | None, Written((".csv",), "text")] = None
     """Also write the path to this .csv file."""
     margin: bool = False
     """Also find the smallest changes of the release that change the outcome."""
@@ -60,10 +60,8 @@ def toss(source: Source, asked: Answer) -> None:
         from cointoss.compare.engines import Engine
         from cointoss.compare.film.back_end import require_mujoco
         from cointoss.compare.output import answer
-        from cointoss.compare.output.files import is_stream, require_file, write_text
+        from cointoss.compare.output.files import write_text
 
-        if asked.trajectory is not None and not is_stream(asked.trajectory):
-            require_file(asked.trajectory, ".csv", source.name)
         require_mujoco(asked.engine)
         package = Engine(asked.engine).package
     coin = source.scenario

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Literal
 
 import click
 
@@ -10,6 +10,8 @@ from cointoss.compare.commands.common import SCENARIO_HELP, refuse
 from cointoss.compare.commands.names import scenario_argument
 from cointoss.compare.commands.options import options_of
 from cointoss.compare.commands.settings import set_option, with_scenario
+from cointoss.compare.film.encodings import ENCODINGS
+from cointoss.compare.output.accepted import Written
 from cointoss.compare.sweep.asked import Source
 
 
@@ -17,13 +19,13 @@ from cointoss.compare.sweep.asked import Source
 class Film:
     """The film that is asked for."""
 
-    out: Path
+    out: Annotated[Path, Written(tuple(ENCODINGS))]
     """The file to write: .mp4, .webm or .gif."""
     engine: Literal["analytic", "mujoco", "both"] = "mujoco"
     """The engine that tosses; both: side by side."""
     camera: Literal["overview", "close-up", "top"] = "close-up"
     """Where the camera is; close-up follows the coin."""
-    poster: Path | None = None
+    poster: Annotated[Path | None, Written((".png",))] = None
     """Also write one frame to this .png file."""
 
 
@@ -37,14 +39,9 @@ def video(source: Source, asked: Film) -> None:
 
     The film slows down around the impacts.
     """
-    from cointoss.compare.film.encodings import ENCODINGS
-    from cointoss.compare.output.files import require_file, written_whole
-    from cointoss.models.stages import stage
-
-    require_file(asked.out, tuple(ENCODINGS), source.name)
-    require_file(asked.poster, ".png", source.name)
-
     from cointoss.compare.film.back_end import drawing_problem
+    from cointoss.compare.output.files import written_whole
+    from cointoss.models.stages import stage
 
     problem = drawing_problem()
     if problem is not None:

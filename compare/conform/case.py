@@ -1,11 +1,10 @@
 """The cases of the suite, as cases.toml has them."""
 
-import tomllib
 from dataclasses import dataclass
 from functools import cache
-from importlib import resources
 from typing import Any
 
+from cointoss.compare.conform.tables import tables
 from cointoss.models.scenario import Scenario
 
 
@@ -50,12 +49,11 @@ class Case:
 @cache
 def cases() -> tuple[Case, ...]:
     """Return all cases, in the order of the file."""
-    text = (resources.files("cointoss.compare.conform") / "cases.toml").read_text(encoding="utf-8")
-    tables = tomllib.loads(text)
-    return tuple(_case(tables["scenario"], table) for table in tables["case"])
+    return tuple(_case(tables()["scenario"], table) for table in tables()["case"])
 
 
 def _case(base: dict[str, Any], table: dict[str, Any]) -> Case:
-    changed = [part for pair in table.pop("change").items() for part in pair]
+    changed = [part for pair in table["change"].items() for part in pair]
+    table = {name: value for name, value in table.items() if name != "change"}
     table |= {name: tuple(table[name]) for name in ("right", "full_right") if name in table}
     return Case(**table, scenario=Scenario.checked(base).replace(*changed))

@@ -2,7 +2,8 @@
 
 from typing import NamedTuple
 
-from cointoss.compare.film.slow_motion import LONGEST
+LONGEST = 30.0
+"""A longer film is sped up to this length, if no other is asked for [s]."""
 
 
 class Format(NamedTuple):

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from cointoss.compare.film.encodings import LONGEST
 from cointoss.compare.film.filmed import Filmed
 from cointoss.models.barriers import barrier
 from cointoss.models.certificate import energies
@@ -17,8 +18,6 @@ SLOW_FOR = 0.02
 """How long before and after an impact the film is slowed down [s]."""
 WEAK = 0.1
 """The film is not slowed down for an impulse below this part of its toss's largest."""
-LONGEST = 30.0
-"""A longer film is sped up to this length, if no other is asked for [s]."""
 _AROUND = SLOW_FOR * np.linspace(-1, 1, 41)
 
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from cointoss import analytic
 from cointoss.compare.find.faces import faces_shown
 from cointoss.compare.find.fields import spans
+from cointoss.compare.find.sequence import sequence_of
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.window import Window
 from cointoss.models.processor import Processor
@@ -38,8 +39,10 @@ class Target:
             SweepError: naming what is wrong and what is accepted.
             UnsupportedError: for the device "cuda" and no outcome.
         """
-        if not isinstance(self.sequence, str) or set(self.sequence) - {"H", "T"}:
-            raise SweepError(f"sequence: {self.sequence!r}, accepted: letters H and T, such as HTTH")
+        try:
+            sequence_of(self.sequence)
+        except ValueError as error:
+            raise SweepError(f"sequence: {self.sequence!r}, accepted: {error}") from None
         if not self.sequence and self.outcome is None:
             raise SweepError("sequence, outcome: none; accepted: one of them, or both")
         if self.outcome is None:

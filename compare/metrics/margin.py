@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss import analytic
+from cointoss.compare.metrics.quantity_names import LETTERS, NAMES, latin_name
 from cointoss.models.batch import PLACE, refused, rows_of
 from cointoss.models.entries import turn_each, write_attitudes
 from cointoss.models.records import Array
@@ -161,10 +162,10 @@ def with_quaternions(rows: Array) -> Array:
 QUANTITIES = (
     _moved("height", "mm", 1e3, "release.position.z"),
     *(_moved(f"velocity {axis}", "mm/s", 1e3, f"release.velocity.{axis}") for axis in "xyz"),
-    *(_turned(f"attitude about {axis}", i) for i, axis in enumerate("ξηζ")),
+    *(_turned(f"attitude about {greek}", i) for i, greek in enumerate(LETTERS.values())),
     *(
-        _moved(f"spin about {axis}", "rad/s", 1.0, f"release.angular_velocity.{name}")
-        for axis, name in zip("ξηζ", ("xi", "eta", "zeta"), strict=True)
+        _moved(f"spin about {greek}", "rad/s", 1.0, f"release.angular_velocity.{latin}")
+        for latin, greek in LETTERS.items()
     ),
 )
 """Horizontal position is left out: it changes nothing."""
@@ -174,16 +175,9 @@ def quantity_of(name: str) -> ReleaseQuantity:
     """Return the quantity of a name, its axis in Greek or Latin letters.
 
     Raises:
-        ValueError: naming what is accepted.
+        ValueError: saying what is accepted.
     """
-    known = {_latin(quantity.name): quantity for quantity in QUANTITIES}
-    if _latin(name) not in known:
-        raise ValueError(f"{name}: accepted: {', '.join(known)}")
-    return known[_latin(name)]
-
-
-def _latin(name: str) -> str:
-    return name.replace("ξ", "xi").replace("η", "eta").replace("ζ", "zeta")
+    return dict(zip(NAMES, QUANTITIES, strict=True))[latin_name(name)]
 
 
 def is_planar(scenario: Scenario) -> bool:

@@ -17,21 +17,12 @@ class UnwritableError(OSError):
     """A place that can't be written; the message names it and says why."""
 
 
-def require_file(path: Path | None, suffix: str | tuple[str, ...], source: str, *read: str | Path) -> None:
-    """Check that a file can be written at `path`, in a folder that exists, and that nothing else is lost.
-
-    Args:
-        path: where to write; a link stands for what it points to. None where nothing is written.
-        suffix: what its name must end in, or several of which it must be one.
-        source: the scenario, which must be another file.
-        read: what else is read, which must be others, too.
+def require_name(path: Path, suffixes: tuple[str, ...]) -> None:
+    """Check that a path ends as it must, and that its folder exists.
 
     Raises:
-        UnwritableError: naming the file and why.
+        UnwritableError: naming the path and why.
     """
-    if path is None:
-        return
-    suffixes = (suffix,) if isinstance(suffix, str) else suffix
     if path.suffix.lower() not in suffixes:
         raise UnwritableError(
             f"{path}: another kind of file; accepted: a name that ends in {' or '.join(suffixes)}"
@@ -39,8 +30,24 @@ def require_file(path: Path | None, suffix: str | tuple[str, ...], source: str, 
     with naming(path):
         if not path.parent.is_dir():
             raise UnwritableError(
-                f"{path}: no folder {path.parent}; accepted: a file in a folder that exists"
+                f"{path}: no folder {path.parent}; accepted: a name in a folder that exists"
             )
+
+
+def require_file(path: Path, suffixes: tuple[str, ...], source: str | None, *read: Path) -> None:
+    """Check that a file can be written at `path`, in a folder that exists, and that nothing else is lost.
+
+    Args:
+        path: where to write; a link stands for what it points to.
+        suffixes: of which its name must end in one.
+        source: the scenario, if there is one, which must be another file.
+        read: what else is read, which must be others, too.
+
+    Raises:
+        UnwritableError: naming the file and why.
+    """
+    require_name(path, suffixes)
+    with naming(path):
         target = _target(path)
         if target.exists():
             require_replaceable(target, source, *read)
@@ -74,7 +81,7 @@ def require_folder(folder: Path, names: tuple[str, ...], source: str | None = No
     return in_the_way
 
 
-def require_replaceable(path: Path, source: str | None = None, *read: str | Path) -> None:
+def require_replaceable(path: Path, source: str | None = None, *read: Path) -> None:
     """Check that what is at `path` is a file that may be replaced.
 
     Args:

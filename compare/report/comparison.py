@@ -168,7 +168,6 @@ def compared(
     """
     chosen = settings or {}
     asked = [engine for engine in engines if engine != Engine.ANALYTIC]
-    measure = toss(scenario, settings=chosen.get(Engine.ANALYTIC))
     with ExitStack() as stack:
         others = [
             each if each == Engine.MUJOCO else stack.enter_context(simulator_of(each)) for each in asked
@@ -180,6 +179,7 @@ def compared(
             )
         if not chosen.keys() <= set(names):
             raise ValueError(f"settings: of {', '.join(chosen)}, accepted: of {', '.join(names)}")
+        measure = toss(scenario, settings=chosen.get(Engine.ANALYTIC))
         tosses, absent = [measure], {}
         for each, called in zip(others, names[1:], strict=True):
             try:

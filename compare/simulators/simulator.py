@@ -15,6 +15,7 @@ from cointoss.compare.simulators.answering import Answering, Called, EngineError
 from cointoss.compare.simulators.checking import checked_states
 from cointoss.compare.simulators.observed import ObservedToss
 from cointoss.models.cores import cores_used
+from cointoss.models.errors import meant
 from cointoss.models.records import Array, Ending, States, Toss, UnsupportedError
 from cointoss.models.scenario import Scenario
 
@@ -136,8 +137,9 @@ def simulator_of(given: Any, limit: float = LIMIT) -> Simulator:
     offered = {point.name: point.value for point in entry_points(group="cointoss.engines")}
     path = offered.get(path, path)
     if ":" not in path:
+        known = [*Engine, *sorted(offered)]
         raise EngineError(
-            f"engine: {given}, accepted: {', '.join([*Engine, *sorted(offered)])}, or package.module:name"
+            f"engine: {given}, {meant(given, known)}accepted: {', '.join(known)}, or package.module:name"
         )
     return Simulator(Served(path, limit, python or sys.executable))
 

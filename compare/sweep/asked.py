@@ -5,7 +5,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 from cointoss.compare.basins.picture_style import PictureStyle
-from cointoss.compare.output.accepted import Form, Within
+from cointoss.compare.metrics.quantity_names import latin_name
+from cointoss.compare.output.accepted import Form, Within, Written
 from cointoss.models.devices import Device
 
 if TYPE_CHECKING:
@@ -37,7 +38,7 @@ class Job(PictureStyle):
     """Field that varies along x, and its N values."""
     y: Annotated[str, Form("FIELD=START:STOP:N")]
     """Field that varies along y, and its N values."""
-    out: Annotated[Path, Form("MAP.zarr")]
+    out: Annotated[Path, Written((".zarr",), "map"), Form("MAP.zarr")]
     """The Zarr store to write."""
     engine: Literal["analytic", "mujoco"] = "analytic"
     """Engine that computes the tosses."""
@@ -47,7 +48,7 @@ class Job(PictureStyle):
     """How MuJoCo realises the restitution."""
     after: Annotated[int | None, Within(0, 999_999)] = None
     """Map the face at the touch after this number of impacts; 0: at the first touch."""
-    margin: Annotated[str | None, Form("QUANTITY")] = None
+    margin: Annotated[str | None, Form("QUANTITY", latin_name)] = None
     """Also map the smallest change of this quantity of the release that changes a pixel's outcome:
     height, velocity x (y, z), attitude about xi (eta, zeta) or spin about xi (eta, zeta)."""
     trust: bool = False
@@ -60,9 +61,9 @@ class Job(PictureStyle):
     """Device that computes the tosses: the CPU, an NVIDIA card, or the card where it is faster."""
     scheduler: Annotated[str | None, Form("ADDRESS")] = None
     """Address of a Dask scheduler, whose workers compute the tosses."""
-    png: Path | None = None
+    png: Annotated[Path | None, Written((".png",))] = None
     """Also draw the map to this .png file."""
-    report: Path | None = None
+    report: Annotated[Path | None, Written(kind="folder")] = None
     """Folder of a report as by `cointoss compare`, with both maps; requires --compare."""
     no_video: bool = False
     """Draw no video, which takes longest."""

@@ -86,7 +86,7 @@ class Sweep:
         try:
             return quantity_of(self.margin or "")
         except ValueError as error:
-            raise SweepError(f"margin {error}") from None
+            raise SweepError(f"margin {self.margin}: accepted: {error}") from None
 
     @property
     def title(self) -> str:

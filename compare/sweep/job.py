@@ -8,7 +8,7 @@ from pathlib import Path
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.film.back_end import drawing_problem, require_mujoco
-from cointoss.compare.output.files import UnwritableError, require_file, write_bytes
+from cointoss.compare.output.files import UnwritableError, write_bytes
 from cointoss.compare.report.contents import NOT_ASKED, require_folder
 from cointoss.compare.sweep import describe, run, store
 from cointoss.compare.sweep.asked import Job, Source
@@ -76,7 +76,6 @@ def make(job: Job, source: Source, command: str, say: Say) -> Iterator[str]:
     x, y = parse_axis(job.x, source.scenario), parse_axis(job.y, source.scenario)
     for path in engines:
         store.require_place(path, resume=job.resume, overwrite=job.overwrite)
-    require_file(job.png, ".png", source.name)
     no_video = None
     if job.report is not None:
         require_folder(job.report, source.name)

@@ -11,7 +11,8 @@ from typing import Any
 import click
 
 from cointoss.study import (
-    Place,
+    Written,
+    WrittenPlace,
     completing,
     device_option,
     drawing_problem,
@@ -37,7 +38,7 @@ def _names() -> list[str]:
 @click.argument("names", nargs=-1, metavar="[NAME ...]", **completing(_names))
 @click.option(
     "--out",
-    type=Place(),
+    type=WrittenPlace(Written(kind="folder")),
     help="Folder of the results, each in its reproduction/NAME/; made if missing.",
 )
 @click.option("--quick", is_flag=True, help="Compute the smaller version of each that has one.")

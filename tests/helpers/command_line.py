@@ -12,6 +12,23 @@ from cointoss.compare.cli import main
 HERE = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2]), "PYTHONDONTWRITEBYTECODE": "1"}
 
 
+HEAVY = {
+    "numba",
+    "mujoco",
+    "numpy",
+    "scipy",
+    "pint",
+    "pydantic",
+    "matplotlib",
+    "xarray",
+    "zarr",
+    "distributed",
+    "cointoss.analytic",
+    "cointoss.coin_mj",
+}
+"""Modules whose import takes long; without them no engine is looked for."""
+
+
 def cointoss(*arguments: object) -> Result:
     """Return the answer of `cointoss` to those arguments."""
     return CliRunner().invoke(main, [str(part) for part in arguments], catch_exceptions=False)

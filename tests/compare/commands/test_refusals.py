@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.helpers.command_line import cointoss, refused
+from tests.helpers.command_line import HEAVY, cointoss, python, refused
 
 TABLE = tomllib.loads((Path(__file__).parents[1] / "refusals.toml").read_text(encoding="utf-8"))
 
@@ -39,7 +39,7 @@ def held(folder):
     return {path: path.is_file() and path.read_bytes() for path in folder.rglob("*")}
 
 
-@pytest.mark.parametrize("row", TABLE["refused"], ids=lambda row: row["line"])
+@pytest.mark.parametrize("row", TABLE["refused"] + TABLE["at_once"], ids=lambda row: row["line"])
 def test_a_line_is_refused_in_one_line_with_what_is_accepted(row, folder, monkeypatch):
     monkeypatch.chdir(folder)
     before, (first, *words) = held(folder), shlex.split(row["line"])
@@ -50,3 +50,15 @@ def test_a_line_is_refused_in_one_line_with_what_is_accepted(row, folder, monkey
     pattern = ".*".join(re.escape(part) for part in f"cointoss: {row['says']}\n".split("…"))
     assert re.fullmatch(pattern, told := refused(*words)), told
     assert held(folder) == before
+
+
+def test_what_a_look_refuses_is_refused_before_what_takes_long_is_imported(folder):
+    script = (
+        "import shlex, sys\nfrom click.testing import CliRunner\nfrom cointoss.compare.cli import main\n"
+        "for line in sys.argv[1:]:\n"
+        "    assert CliRunner().invoke(main, shlex.split(line)).exit_code == 2, line\n"
+        "print(*sys.modules)"
+    )
+    done = python("-c", script, *(row["line"] for row in TABLE["at_once"]), folder=folder)
+    assert done.returncode == 0, done.stderr
+    assert not HEAVY & {*done.stdout.split()}

@@ -260,7 +260,7 @@ def test_the_command_prints_a_card_and_ends_with_1_where_a_case_is_missed(tmp_pa
     ("words", "told"),
     [
         (["conform", "nowhere"], "engine: nowhere, accepted: analytic, mujoco, or package.module:name"),
-        (["conform", "analytic", "--case", "none"], "--case none: accepted: parabola, "),
+        (["conform", "analytic", "--case", "none"], "none; accepted: parabola, "),
         (["conform", "analytic", "--out", "card.txt"], "card.txt"),
         (["conform", "/no/python -m a:b"], "/no/python: can't be run"),
     ],

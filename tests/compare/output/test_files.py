@@ -140,9 +140,9 @@ def test_only_files_that_may_be_replaced_are_accepted(tmp_path):
         (300 * "a" + ".csv", "name too long"),
     ):
         with pytest.raises(UnwritableError, match=reason):
-            require_file(tmp_path / name, ".csv", "fig24a")
-    require_file(tmp_path / "NEW.CSV", ".csv", "fig24a")
-    require_file(tmp_path / (251 * "a" + ".csv"), ".csv", "fig24a")
+            require_file(tmp_path / name, (".csv",), "fig24a")
+    require_file(tmp_path / "NEW.CSV", (".csv",), "fig24a")
+    require_file(tmp_path / (251 * "a" + ".csv"), (".csv",), "fig24a")
     assert (tmp_path / "kept.csv").read_text() == "mine"
 
 
