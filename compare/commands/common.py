@@ -41,10 +41,16 @@ class Place(click.Path):
         super().__init__(path_type=Path)
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the path, or refuse what is empty."""
+        """Return the path, or refuse what is empty, or where the place is not as it must be."""
         if value == "":
             self.fail("an empty name; accepted: a path", param, ctx)
-        return super().convert(value, param, ctx)
+        path: Any = super().convert(value, param, ctx)
+        if ctx is not None and not ctx.resilient_parsing:  # as it is while a shell completes a word
+            self.check(path, ctx)
+        return path
+
+    def check(self, path: Path, ctx: click.Context) -> None:
+        """Refuse a place that is not as it must be."""
 
 
 class ReadPlace(Place):
@@ -58,19 +64,16 @@ class ReadPlace(Place):
         super().__init__()
         self._accepted, self._kind = accepted, kind
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the path, or refuse one where there is no such thing."""
-        path = super().convert(value, param, ctx)
-        if ctx is None or not ctx.resilient_parsing:  # as it is while a shell completes a word
-            try:
-                is_such = stat.S_ISDIR(path.stat().st_mode) == (self._kind == "folder")
-            except (FileNotFoundError, NotADirectoryError):
-                refuse(f"{path}: no such {self._kind}; accepted: {self._accepted}")
-            except OSError as error:
-                refuse(f"{path}: can't be read ({error.strerror})")
-            if not is_such:
-                refuse(f"{path}: is no {self._kind}; accepted: {self._accepted}")
-        return path
+    def check(self, path: Path, ctx: click.Context) -> None:  # noqa: ARG002
+        """Refuse a place where there is no such thing."""
+        try:
+            is_such = stat.S_ISDIR(path.stat().st_mode) == (self._kind == "folder")
+        except (FileNotFoundError, NotADirectoryError):
+            refuse(f"{path}: no such {self._kind}; accepted: {self._accepted}")
+        except OSError as error:
+            refuse(f"{path}: can't be read ({error.strerror})")
+        if not is_such:
+            refuse(f"{path}: is no {self._kind}; accepted: {self._accepted}")
 
 
 class WrittenPlace(Place):
@@ -81,24 +84,21 @@ class WrittenPlace(Place):
         super().__init__()
         self._place = place
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the path, or refuse one that can't be written or is read."""
-        path = super().convert(value, param, ctx)
-        if ctx is not None and not ctx.resilient_parsing:
-            from cointoss.compare.output import files
+    def check(self, path: Path, ctx: click.Context) -> None:
+        """Refuse a place that can't be written, or that is read."""
+        from cointoss.compare.output import files
 
-            read = [each for each in ctx.params.values() if isinstance(each, Path)]
-            try:
-                match self._place:
-                    case Written(kind="folder"):
-                        files.require_folder(path, ())
-                    case Written(suffixes, "map"):
-                        files.require_name(path, suffixes)
-                    case Written(suffixes, kind) if kind == "file" or not files.is_stream(path):
-                        files.require_file(path, suffixes, ctx.params.get("scenario"), *read)
-            except files.UnwritableError as error:
-                refuse(str(error))
-        return path
+        read = [each for each in ctx.params.values() if isinstance(each, Path)]
+        try:
+            match self._place:
+                case Written(kind="folder"):
+                    files.require_folder(path, ())
+                case Written(suffixes, "map"):
+                    files.require_name(path, suffixes)
+                case Written(suffixes, kind) if kind == "file" or not files.is_stream(path):
+                    files.require_file(path, suffixes, ctx.params.get("scenario"), *read)
+        except files.UnwritableError as error:
+            refuse(str(error))
 
 
 class CountType(click.IntRange):

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import MISSING, fields
 from enum import StrEnum
 from functools import wraps
-from pathlib import Path
 from typing import (
     Annotated,
     Any,
@@ -23,7 +22,6 @@ import click
 from cointoss.compare.commands.common import (
     ChoiceType,
     CountType,
-    Place,
     ReadPlace,
     TextType,
     WrittenPlace,
@@ -86,11 +84,11 @@ def options_of(
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Return what gives a command an option for each field of a record, and the record as argument `asked`.
 
-    A field's type is `bool` for a flag, a `Literal`, a `StrEnum`, `Path` or `str`; an `int` is annotated with
-    its bounds, `Annotated[int, Within(1, 9)]`, a text of a form with a `Form`, a path that is written with a
-    `Written`, and a value of another kind with a type of click. A tuple of any length may be given several
-    times. A field without a default is required; the text below a field is its help. Those of a record that
-    it extends come last.
+    A field's type is `bool` for a flag, a `Literal`, a `StrEnum` or `str`; an `int` is annotated with its
+    bounds, `Annotated[int, Within(1, 9)]`, a text of a form with a `Form`, a path that is written with a
+    `Written`, and a value of another kind, a path that is read too, with a type of click. A tuple of any
+    length may be given several times. A field without a default is required; the text below a field is its
+    help. Those of a record that it extends come last.
 
     Args:
         record: a frozen dataclass.
@@ -164,8 +162,12 @@ def _option(one: _Field, names: Callable[[], Iterable[str]] | None) -> Callable[
     else:
         kind = _type(one)
         metavar = next((mark.shown for mark in one.marks if isinstance(mark, Form)), None)
-        more |= {"type": kind, "metavar": metavar, "multiple": one.is_many}
-        more |= {"is_eager": isinstance(kind, ReadPlace)}
+        more |= {
+            "type": kind,
+            "metavar": metavar,
+            "multiple": one.is_many,
+            "is_eager": isinstance(kind, ReadPlace),
+        }
     if _is_worded(one.kind):
         more |= {"callback": lambda _ctx, _parameter, word: None if word is None else one.kind(word)}
     if one.default is MISSING:
@@ -217,7 +219,7 @@ def _type(one: _Field) -> click.ParamType:
         return ChoiceType(get_args(one.kind))
     if _is_worded(one.kind):
         return ChoiceType([str(member) for member in one.kind])
-    return {Path: Place(), str: click.STRING}[one.kind]
+    return {str: click.STRING}[one.kind]
 
 
 def _is_given(condition: str, given: Typed) -> bool:

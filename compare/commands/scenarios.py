@@ -46,10 +46,7 @@ def scenarios(name: str | None, copied: Path | None) -> None:
         return
     if os.path.lexists(copied):
         refuse(f"{copied}: exists; accepted: a new name")
-    from cointoss.compare.output.files import UnwritableError, write_text
+    from cointoss.compare.output.files import write_text
 
-    try:
-        write_text(copied, named_text(name))
-    except UnwritableError as error:
-        refuse(str(error))
+    write_text(copied, named_text(name))
     click.echo(copied)

@@ -11,7 +11,7 @@ from click.testing import CliRunner
 
 from cointoss.compare.commands.common import Given, quantity
 from cointoss.compare.commands.options import one_of, only_with, options_of, without, words_of
-from cointoss.compare.output.accepted import Form, Within
+from cointoss.compare.output.accepted import Form, Within, Written
 from cointoss.compare.output.language import in_options
 
 
@@ -51,7 +51,7 @@ class Wish(Look):
     """The engine."""
     count: Annotated[int | None, Within(1, 9)] = None
     """How many."""
-    out: Annotated[tuple[Path, ...], Form("FILE")] = ()
+    out: Annotated[tuple[Path, ...], Written(("",)), Form("FILE")] = ()
     """Files."""
     with_: Annotated[Given | None, quantity("m")] = None
     """A length."""
