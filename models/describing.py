@@ -52,7 +52,8 @@ def _line(detail: ErrorDetails, model: type[BaseModel]) -> str:
             return f"{field} = {value}: unknown key; {_known(detail, model)}"
         case _, FieldError() as cause:
             given = detail["input"] if isinstance(detail["input"], dict) else {}
-            return f"{field} = {shown(given.get(cause.field, cause.value))}: accepted: {cause.accepted}"
+            wrong = f"{field} = {shown(given.get(cause.field, cause.value))}"
+            return f"{cause.asked}{wrong}: accepted: {cause.accepted}"
         case _:
             return f"{field} = {value}: accepted: {_accepted(detail, model)}"
 

@@ -12,10 +12,13 @@ class ScenarioError(ValueError):
 class FieldError(ValueError):
     """A value that only its neighbours show to be wrong: it names its field itself."""
 
-    def __init__(self, field: str, value: Any, accepted: str) -> None:
-        """Keep the field's dotted path below the part that refuses it, its value, and what is accepted."""
-        super().__init__(f"{field} = {shown(value)}: accepted: {accepted}")
-        self.field, self.value, self.accepted = field, value, accepted
+    def __init__(self, field: str, value: Any, accepted: str, asked: str = "") -> None:
+        """Keep the field's dotted path below the part that refuses it, its value, and what is accepted.
+
+        Before it stands what is asked, of numbers that were probably meant in another unit.
+        """
+        super().__init__(f"{asked}{field} = {shown(value)}: accepted: {accepted}")
+        self.field, self.value, self.accepted, self.asked = field, value, accepted, asked
 
 
 def require_type(name: str, value: object, kind: type, accepted: str) -> None:

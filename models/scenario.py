@@ -74,7 +74,8 @@ class Scenario(Part):
             refuse(FoundFault(Fault(int(found[0])), float(found[1])), self)
         except FieldError as error:  # a coin of 12 m is in the floor
             doubted = unlikely_units(self.gravity, self.coin, self.release, self.ending).values()
-            raise FieldError(error.field, error.value, "; ".join([error.accepted, *doubted])) from None
+            asked = "".join(f"{line}; " for line in doubted)
+            raise FieldError(error.field, error.value, error.accepted, asked) from None
         return self
 
     def replace(self, field: str, value: Any, /, *more: Any) -> "Scenario":

@@ -17,8 +17,8 @@ SURFACE_DENSITIES = 0.02, 1e3
 """Masses per area of a coin of thickness 0 that are not questioned [kg/m²]."""
 LARGE = 0.1
 """A radius, thickness or mass below it is not questioned [m, kg]."""
-HIGHEST = 100.0
-"""A release or a catch above it is questioned [m]."""
+HIGHEST, IN_MM = 10.0, 100.0
+"""A release or a catch above the first is questioned; above the second it was rather meant in mm [m]."""
 _ROUNDED = 1 + 1e-9
 """A moment at its bound, a ring's, may exceed it by rounding."""
 _MASS, _RADIUS, _THICKNESS = "coin.mass", "coin.radius", "coin.thickness"
@@ -55,9 +55,10 @@ def unlikely_units(
         **other,
     }
     found = {
-        name: f"{name} = {numbers[name]:g} m: is it mm? write {_quoted(numbers[name], 'mm')}"
-        for name in _HEIGHTS
-        if numbers.get(name, 0.0) > HIGHEST
+        name: f"{name} = {height:g} m: is it {unit}? write {_quoted(height, unit)}"
+        for name, height in numbers.items()
+        for unit in (["mm"] if height > IN_MM else ["cm"])
+        if name in _HEIGHTS and height > HIGHEST
     }
     if coin.inertia is not None and (larger := _larger_than_a_body_has(coin)):
         found["coin.inertia"] = larger

@@ -43,6 +43,10 @@ def test_a_field_that_nothing_uses_is_named_in_one_line_by_every_command(tmp_pat
             "basin fig24a --x thickness=1:30:2 --y gravity=9:9:2 --out a.zarr",
             "coin.thickness = 30 m: is it",
         ),
+        (
+            "basin fig24a --x height=20:60:3 --y gravity=9:9:2 --out a.zarr",
+            "release.position.z = 60 m: is it cm?",
+        ),
         ("shares table --vary hand.height=1:300:2 --vary gravity=9:9:2", "hand.height = 300 m: is it mm?"),
     ],
 )

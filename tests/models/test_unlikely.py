@@ -31,6 +31,8 @@ def questioned(case, **other):
         ({"coin_mass": 2.0, "coin_thickness": 0.0}, ["coin.mass"]),
         ({"ending_caught": 300.0}, ["ending.caught"]),
         ({"hand_height": 1000.0}, ["hand.height"]),
+        ({"release_position.z": 20.0}, ["release.position.z"]),
+        ({"release_position.z": 9.0}, []),
         # A steel wheel, a coin of 3 cm on its edge, a foil, and what no scenario accepts.
         ({"coin_radius": 0.6, "coin_thickness": 0.05, "coin_mass": 450.0}, []),
         ({"coin_thickness": 0.03}, []),
@@ -91,5 +93,5 @@ def test_whoever_makes_a_scenario_is_asked(tmp_path):
 
 
 def test_where_the_number_makes_no_scenario_the_refusal_asks():
-    with pytest.raises(ScenarioError, match=r'is it mm\? write "12 mm"; as given, .* 0\.00221 kg/m³$'):
+    with pytest.raises(ScenarioError, match=r"^coin\.radius = 12 m: is it mm\? .* kg/m³; release\.pos"):
         load("fig24a").replace("coin.radius", 12)
