@@ -20,7 +20,7 @@ from pydantic import (
 
 from cointoss.models.attitude import Quaternion, normalized
 from cointoss.models.describing import accepted, describe
-from cointoss.models.errors import FieldError, ScenarioError
+from cointoss.models.errors import FieldError, ScenarioError, shown
 from cointoss.models.faults import (
     ACCEPTED,
     Fault,
@@ -86,11 +86,12 @@ class Part(BaseModel):
         """Refuse to change a part, also what was computed of it.
 
         Raises:
-            AttributeError, ValidationError: always.
+            AttributeError: always, naming the way to a changed scenario.
         """
-        if isinstance(getattr(type(self), name, None), cached_property):
-            raise AttributeError(f"{name}: of a part that is frozen; Scenario.replace changes fields")
-        super().__setattr__(name, value)
+        raise AttributeError(
+            f"{type(self).__name__}.{name} = {shown(value)}: is frozen; accepted: a scenario with another "
+            'value, as of scenario.replace("coin.mass", 0.01)'
+        )
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
         """Return a copy.

@@ -17,7 +17,7 @@ def named(kind: type[Word]) -> Callable[[Any], Any]:
 
     def member(value: Any) -> Any:
         for item in kind:
-            if isinstance(value, str | kind) and value == item:
+            if isinstance(value, str | kind) and str(value) == str(item):
                 return item
         raise ValueError("one of " + ", ".join(f'"{item}"' for item in kind))
 

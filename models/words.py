@@ -1,7 +1,10 @@
 """Enums whose members are words to a person, and small integers in arrays and compiled code."""
 
+import warnings
 from enum import IntEnum
 from typing import Any
+
+from cointoss.models.errors import meant
 
 
 class Word(IntEnum):
@@ -11,14 +14,16 @@ class Word(IntEnum):
     code and in arrays of codes; `array == Outcome.HEADS` holds of the word and of the code.
     `Outcome("heads")` and `Outcome(1)` make it of either.
     As a key and in a set it stands for its integer, not for its word, which `str(toss.outcome)` is.
+    A comparison with a text that is nearly a word of the list, such as "Heads", is False with a warning.
     """
 
     @classmethod
     def _missing_(cls, value: object) -> "Word":
         for member in cls:
-            if isinstance(value, str) and member == value:
+            if isinstance(value, str) and value == str(member):
                 return member
-        raise ValueError(f"{cls.__name__}: {value!r}, accepted: {', '.join(map(str, cls))}")
+        near = meant(str(value).lower(), map(str, cls))
+        raise ValueError(f"{cls.__name__}: {value!r}, {near}accepted: {', '.join(map(str, cls))}")
 
     @classmethod
     def by_value(cls) -> dict[int, str]:
@@ -46,11 +51,20 @@ class Word(IntEnum):
 
     def __eq__(self, other: Any) -> Any:
         """Return whether the other is this word, or equals its integer; of an array, for each."""
-        return (str(self) if _is_text(other) else int(self)) == other
+        return self._equals(other)
 
     def __ne__(self, other: Any) -> Any:
         """Return the opposite of `==`."""
-        return (str(self) if _is_text(other) else int(self)) != other
+        found = self._equals(other)
+        return not found if isinstance(found, bool) else ~found
+
+    def _equals(self, other: Any) -> Any:
+        """Return what `==` does; warn of a text that is no word of the list, but nearly one."""
+        found = (str(self) if _is_text(other) else int(self)) == other
+        is_no_word = found is False and isinstance(other, str) and other not in map(str, type(self))
+        if is_no_word and (near := meant(other.lower(), map(str, type(self)))):
+            warnings.warn(f"{type(self).__name__} == {other!r}: {near.rstrip()}", stacklevel=3)
+        return found
 
 
 def _is_text(value: Any) -> bool:

@@ -189,13 +189,11 @@ def find_telling(
     described = scenario_of(scenario)
     require_whole("tosses", tosses, 1, MOST_TOSSES)
     require_whole("seed", seed, 0, MOST_SEED)
-    if outcome is not None and outcome not in list(Outcome):
-        raise SweepError(f"outcome: {outcome!r}, accepted: {', '.join(map(str, Outcome))}")
-    target = Target(
-        sequence=sequence,
-        outcome=None if outcome is None else Outcome(outcome),
-        processor=Processor(device),
-    )
+    try:
+        ending = None if outcome is None else Outcome(outcome)
+    except ValueError as error:
+        raise SweepError(f"outcome{str(error).removeprefix('Outcome')}") from None
+    target = Target(sequence=sequence, outcome=ending, processor=Processor(device))
     if len(sequence) > (most := min(LONGEST, described.rules.max_impacts)):
         raise SweepError(f"sequence: {len(sequence)} faces, accepted: at most {most}, as ending.max_impacts")
     window = window_of(vary, described)

@@ -191,6 +191,8 @@ class Tosses:
     ) -> Any:
         """Draw outcomes over two fields as a map, over one as shares of what else varies, else as bars.
 
+        A map of one row or one column is drawn as shares.
+
         A map is hatched where the engine's own errors may have decided.
 
         Args:
@@ -211,11 +213,12 @@ class Tosses:
         if self._is_of_shares:
             return _front("shares.picture").plot_shares(self._dataset, ax)
         dims = self._dataset["outcome"].dims
-        fields = [dim for dim in dims if field_along(self._dataset, str(dim))]
+        along = {dim: field_along(self._dataset, str(dim)) for dim in dims if self._dataset.sizes[dim] > 1}
+        fields = {dim: field for dim, field in along.items() if field}
         if len(dims) == len(fields) == 2:
             return show.plot_map(map_of(self._dataset), ax, layer, palette, boundaries=boundaries)
         if len(fields) == 1 < len(dims):
-            return _front("shares.picture").plot_shares(self.shares(*fields), ax)
+            return _front("shares.picture").plot_shares(self.shares(*fields).swap_dims(fields), ax)
         return show.plot_counts(self.counts, ax)
 
     def page(self) -> "Frame":

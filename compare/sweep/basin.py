@@ -30,8 +30,8 @@ MOST_AFTER = 999_999
 def basin(
     scenario: ScenarioSource,
     *,
-    x: str | Mapping[str, Any],
-    y: str | Mapping[str, Any],
+    x: str | tuple[Any, ...] | Mapping[str, Any],
+    y: str | tuple[Any, ...] | Mapping[str, Any],
     engine: Engine | str = "analytic",
     after: int | None = None,
     margin: str | None = None,
@@ -44,9 +44,9 @@ def basin(
 
     Args:
         scenario: a `Scenario`, the path of its file, or the name of one that comes with the package.
-        x: the field of the columns and its values: a text, such as "spin=20:60:100", or a dict of one field,
-            such as {"spin": (20, 60, 100)}, with a range or an array that is evenly spaced; both ends of a
-            range are included, in SI or with a unit.
+        x: the field of the columns and its values: a text, such as "spin=20:60:100", a tuple, such as
+            ("spin", 20, 60, 100), or a dict of one field, such as {"spin": (20, 60, 100)}, with a range or an
+            array that is evenly spaced; both ends of a range are included, in SI or with a unit.
         y: the field of the rows and its values.
         engine: "analytic" or "mujoco".
         after: show the face at the touch after this number of impacts; by default the final outcome.
@@ -103,11 +103,13 @@ def basin(
     return made.assign_attrs(sweep.how.processor.attributes)
 
 
-def _axis(name: str, given: str | Mapping[str, Any], described: Scenario) -> Axis:
+def _axis(name: str, given: str | tuple[Any, ...] | Mapping[str, Any], described: Scenario) -> Axis:
     """Return an axis of a map."""
     if isinstance(given, str):
         return parse_axis(given, described)
+    if isinstance(given, tuple) and len(given) == 4:
+        return axis_given(given[0], given[1:], described)
     if not isinstance(given, Mapping) or len(given) != 1:
-        raise SweepError(f"{name}: {given!r}, accepted: {FORM}, or a dict of one field and its range")
+        raise SweepError(f"{name}: {given!r}, accepted: {FORM}, or a tuple or a dict that says so")
     ((field, values),) = given.items()
     return axis_given(field, values, described)

@@ -27,7 +27,7 @@ TOSS = "toss"
 MOST_ROWS = 10**12
 TOGETHER = 1 << 16
 """Rows that are checked together."""
-_PARTS = ("coin", "air", "floor", "release", "ending")
+_PARTS = ("coin", "coin.inertia", "air", "floor", "release", "ending")
 KNOWN = (*NUMBERS, *(field for field in FIELDS if field not in NUMBERS), *COMPONENTS, *_PARTS)
 """All that may vary or be set: numbers, words, lists of numbers, and whole parts of a scenario."""
 _ENDS_SUFFICE = (
@@ -239,15 +239,14 @@ def _batch(described: Scenario, given: Mapping[str, Any]) -> Batch:
 
 def _components(field: str, value: Any) -> Iterator[tuple[str, Any]]:
     """Yield the components of a list of numbers that varies as a whole; another field as it is."""
-    shape = () if hasattr(value, "dims") else _shape(value)
+    shape = _shape(value)
     if field in COMPONENTS and len(shape) > 1:
         names = COMPONENTS[field]
         if shape[-1] != len(names):
             raise SweepError(f"{field}: shape {shape}, accepted: (n, {len(names)})")
+        each = value if hasattr(value, "dims") else np.asarray(value)
         for i, name in enumerate(names):
-            yield f"{field}.{name}", np.asarray(value)[..., i]
-    elif field in COMPONENTS and hasattr(value, "dims"):
-        raise SweepError(f"{field}: a DataArray, accepted: one for each of {', '.join(COMPONENTS[field])}")
+            yield f"{field}.{name}", each[..., i]
     else:
         yield field, value
 

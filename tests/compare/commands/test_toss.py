@@ -3,6 +3,7 @@
 import os
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from cointoss import analytic
@@ -54,6 +55,11 @@ def test_another_outcome_is_told_with_the_impact_after_which_a_change_leads_to_i
         ('position=[0, 0, "50 cm"]', "release.position", [0, 0, 0.5]),
         ("air={normal = 0.001, exponent = 0}", "air", {"normal": 0.001, "exponent": 0}),
         ("mass=2 g", "coin.mass", 0.002),
+        (
+            "inertia=[[1e-7,0,0], [0,1e-7,0], [0,0,2e-7]]",
+            "coin.inertia",
+            np.diag([1e-7, 1e-7, 2e-7]).tolist(),
+        ),
     ],
 )
 def test_a_value_is_one_of_a_scenario_file(typed, field, value):

@@ -64,7 +64,7 @@ def test_a_map_has_the_tosses_of_its_pixels_in_words(found):
 
 
 def test_a_map_is_two_axes_of_the_verb(found):
-    assert cointoss.basin("fig24a", x={ETA: (20, 60, 7)}, y={Z: np.linspace(0.2, 0.6, 5)}).equals(found)
+    assert cointoss.basin("fig24a", x=(ETA, 20, 60, 7), y={Z: np.linspace(0.2, 0.6, 5)}).equals(found)
     same = cointoss.toss_many("fig24a", {"height": ("20 cm", "60 cm", 5), ETA: "20:60:7"})
     assert np.array_equal(same.outcome.values, found.outcome.values)
     assert np.array_equal(same.impacts.values, found.impacts.values)
@@ -218,3 +218,5 @@ def test_outcomes_without_two_fields_are_bars(found):
     }
     assert heights == row.cointoss.counts
     assert set(row.cointoss.counts) <= {str(one) for one in Outcome}
+    shares = found.isel(y=[0]).cointoss.plot(Figure().add_subplot())
+    assert shares.get_xlabel().startswith("spin about")

@@ -59,6 +59,16 @@ def test_a_row_is_its_scenario_and_back(name):
             {"release.position": [0.1, 0, 0.5]},
         ),
         (
+            {
+                "release.position": xr.DataArray(
+                    [[0, 0, 40.0], [10.0, 0, 50.0]], dims=("n", "v"), attrs={"units": "cm"}
+                )
+            },
+            {"n": 2},
+            1,
+            {"release.position": [0.1, 0, 0.5]},
+        ),
+        (
             {"release.position": [0, 0, 0.4], "air": Air(normal=0.1)},
             {},
             0,
