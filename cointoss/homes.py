@@ -27,6 +27,10 @@ def brought(homes: dict[str, tuple[str, str]], name: str, module: str) -> Any:
         AttributeError: for a name that it does not offer.
     """
     if name not in homes:
-        raise AttributeError(f"{module} has no {name}; accepted: {', '.join(sorted(homes))}")
+        from cointoss.models.errors import meant
+
+        raise AttributeError(
+            f"{module} has no {name}; {meant(name, homes)}accepted: {', '.join(sorted(homes))}"
+        )
     home, name_there = homes[name]
     return getattr(import_module(home), name_there)

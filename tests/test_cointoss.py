@@ -104,7 +104,7 @@ def test_a_bare_name_in_a_checkout_gives_the_same_objects():
     assert (done.stdout, done.stderr) == ("[]\n", "")
 
 
-ACCEPTED = r"accepted: Air, .* Coin, .*, toss_many\. Did you mean: 'Coin'\?"
+ACCEPTED = r"did you mean Coin\? accepted: Air, .* Coin, .*, toss_many\. Did you mean: 'Coin'\?"
 SAID = {
     ("-m", "analytic"): "'analytic' is a package and cannot be directly executed",
     ("-m", "analytic.tosses"): "No module named analytic.tosses",
