@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import Field, field, fields
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,12 +11,32 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
+
 AXES = {
     "space": ("axis", ("x", "y", "z")),
     "body": ("body_axis", ("xi", "eta", "zeta")),
     "attitude": ("parameter", ("e0", "e1", "e2", "e3")),
 }
 """The name of the dimension of a vector's components, and the name of each component."""
+
+
+class EqualByValue:
+    """A record that equals another of its kind whose fields are equal, arrays number by number.
+
+    Fields that are left out by `compare=False` are not asked. NaN equals NaN.
+    """
+
+    def __eq__(self, other: object) -> bool:
+        """Return whether the other is of this kind, and all fields are equal."""
+        names = [item.name for item in fields(cast("Any", self)) if item.compare]
+        return type(self) is type(other) and all(
+            np.array_equal(one, two, equal_nan=True) if isinstance(one, np.ndarray) else one == two
+            for one, two in ((getattr(self, name), getattr(other, name)) for name in names)
+        )
+
+    def __hash__(self) -> int:
+        """Return the hash of what it prints, which equal records share."""
+        return hash(repr(self))
 
 
 def column(

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
 from enum import StrEnum
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -12,7 +13,7 @@ from cointoss.models import notebook
 from cointoss.models.entries import joint_of_states, lowest_points
 from cointoss.models.interruptible import interruptible
 from cointoss.models.kernel.arrays import Array
-from cointoss.models.labelled import column, dataset, freeze, table
+from cointoss.models.labelled import EqualByValue, column, dataset, freeze, table
 from cointoss.models.scenario import Scenario
 from cointoss.models.views import views
 from cointoss.models.words import Word
@@ -139,8 +140,11 @@ _REASONS = {
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Impacts:
-    """The impacts of a toss, one row each, in order of time; arrays are read-only."""
+class Impacts(EqualByValue):
+    """The impacts of a toss, one row each, in order of time; arrays are read-only.
+
+    `impacts[0]` is the first of them, `impacts[-1]` the last, and `impacts[:3]` are the first three.
+    """
 
     time: Array = column(unit="s")
     """The time of first touch, (n,) [s]."""
@@ -181,6 +185,16 @@ class Impacts:
         """Return the number of impacts."""
         return len(self.time)
 
+    def __getitem__(self, index: int | slice) -> Any:
+        """Return one impact, by its number from 0, with the fields of this record; of a slice, a record.
+
+        Raises:
+            IndexError: for a number that no impact has.
+        """
+        row = {item.name: getattr(self, item.name)[index] for item in fields(self)}
+        is_one = not isinstance(index, slice)
+        return SimpleNamespace(**row | {"face": Face(row["face"])}) if is_one else Impacts(**row)
+
     @classmethod
     def from_rows(cls, rows: NDArray[Any]) -> "Impacts":
         """Make the record from an array of `IMPACT_ROW`."""
@@ -210,7 +224,7 @@ IMPACT_ROW = np.dtype((np.record, np.dtype(_ROW, align=True)))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class States:
+class States(EqualByValue):
     """States of the coin at several times; arrays are read-only."""
 
     time: Array = column(unit="s")
@@ -344,7 +358,7 @@ class OtherOutcome:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Later:
+class Later(EqualByValue):
     """How a coin goes on after its toss is decided, see `ending.until`; arrays are read-only."""
 
     end: float = 0.0
@@ -361,8 +375,8 @@ class Later:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Toss:
-    """One toss by one engine."""
+class Toss(EqualByValue):
+    """One toss by one engine; it equals another with the same numbers, whatever computed the path."""
 
     engine: str
     scenario: Scenario
@@ -383,7 +397,7 @@ class Toss:
     """Why the next impact is not trusted; `NONE` where all are."""
     certificate: Sequence[Setting]
     """Settings used and errors measured."""
-    path: Path
+    path: Path = field(compare=False)
     later: Later = field(default_factory=Later)
     """How the coin goes on after `end_time`."""
 

@@ -17,6 +17,8 @@ def test_impacts_check_their_shapes_and_order():
     impacts = Impacts.from_rows(rows)
     assert len(impacts) == 3
     assert impacts.sequence == "HTH"
+    assert [(one.time, one.face) for one in impacts] == [(0.1, "heads"), (0.2, "tails"), (0.3, "heads")]
+    assert (impacts[-1].time, impacts[1:].sequence) == (0.3, "TH")
     rows["time"] = [0.1, 0.3, 0.2]
     with pytest.raises(ValueError, match=r"Impacts\.time"):
         Impacts.from_rows(rows)
@@ -31,6 +33,13 @@ def test_arrays_are_read_only():
         tossed.impacts.impulse[0] = 1
     with pytest.raises(ValueError, match="read-only"):
         tossed.sample([0.0]).position[0] = 1
+
+
+def test_records_with_the_same_numbers_are_equal():
+    one, two = analytic.toss(scenario()), analytic.toss(scenario())
+    assert (one, hash(one), one.sample([0.1])) == (two, hash(two), two.sample([0.1]))
+    assert one != replace(one, impacts=one.impacts[:1])
+    assert one.impacts != 3
 
 
 @pytest.mark.parametrize("time", [-0.1, 1e3, float("nan")])
