@@ -448,8 +448,8 @@ class Toss(EqualByValue):
         if self.outcome_certain is None:
             reserved = f"{told} {self.ending.proviso}".rstrip()
             return f"{reserved}; this engine does not find out how certain that is"
-        how = "can't" if self.is_sure else "may"
-        return f"{told} {self.ending.proviso or 'as computed'}; the engine's own errors {how} change that"
+        but, how = ("that is the only doubt: ", "can't") if self.is_sure else ("", "may")
+        return f"{told} {self.ending.proviso or 'as computed'}; {but}the engine's own errors {how} change it"
 
     @property
     def trust_reason(self) -> str:

@@ -51,8 +51,11 @@ class Answer:
     only_with("contact", "engine=mujoco"),
     only_with("flight_steps", "engine=mujoco"),
 )
+@click.option(
+    "-v", "--verbose", is_flag=True, help="Also print the errors that the engine measured of itself."
+)
 @with_scenario
-def toss(source: Source, asked: Answer) -> None:
+def toss(source: Source, asked: Answer, verbose: bool) -> None:
     """Toss one coin and print its impacts."""
     from cointoss.models.stages import stage
 
@@ -105,5 +108,5 @@ def toss(source: Source, asked: Answer) -> None:
         )
     else:
         why = [f"proved    none, for {unproved}"] if unproved else []
-        lines = [answer.as_lines(result, whole=asked.all), *([MARGINS] if extra else [])]
+        lines = [answer.as_lines(result, whole=asked.all, checked=verbose), *([MARGINS] if extra else [])]
         click.echo("\n".join([*lines, *(one.line for one in extra), *why]))

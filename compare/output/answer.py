@@ -1,6 +1,6 @@
 """A toss as an answer: JSON, CSV, and lines to read."""
 
-from dataclasses import fields
+from dataclasses import asdict, fields
 from typing import Any
 
 import numpy as np
@@ -61,6 +61,7 @@ def as_json(toss: Toss) -> dict[str, Any]:
             {**_impact(toss.impacts, i), "flags": sorted(flags)} for i, flags in enumerate(toss.flags)
         ],
         "contacts": [{"start": start, "end": end} for start, end in toss.contacts.tolist()],
+        "certificate": [asdict(setting) for setting in toss.certificate],
     }
 
 
@@ -118,12 +119,13 @@ def contact_line(toss: Toss) -> str:
     return f"{len(contacts)} times, {total:.6f} s in all, the last {last}"
 
 
-def as_lines(toss: Toss, *, whole: bool = False) -> str:
+def as_lines(toss: Toss, *, whole: bool = False, checked: bool = False) -> str:
     """Return a toss as text for a person.
 
     Args:
         toss: by either engine.
         whole: whether every impact and contact has its line, and the sequence all its symbols.
+        checked: whether it says which errors the engine measured of itself.
     """
     impacts, shown = toss.impacts, with_bar(toss.sequence, toss.trusted_impacts)
     lines = [
@@ -136,7 +138,7 @@ def as_lines(toss: Toss, *, whole: bool = False) -> str:
         f"trusted   {toss.trust}",
         *([f"          ({_meaning_of_trust(toss)})"] if toss.trusted_impacts else []),
     ]
-    if len(impacts):
+    if checked and len(impacts):
         lines.append(f"checked   {_checked(toss)}")
     if toss.outcome in (Outcome.PERPETUAL, Outcome.TRANSIENT):
         energies = [
