@@ -56,7 +56,7 @@ def assert_agrees(given: Toss | Any, scenario: ScenarioSource, *, tolerance: flo
             f"{who}: impact {i + 1} at {time:.6g} s: impulse ({impulse}) N s against the contact law"
             f"{_off(error, tolerance)}",
         )
-    horizon, agreed = pair.horizon, pair.common_prefix
+    horizon, agreed = pair.common_horizon, pair.common_prefix
     face = slice(agreed, agreed + 1)
     _require(
         agreed >= horizon,

@@ -98,15 +98,18 @@ class Against:
         return errors
 
     @cached_property
-    def horizon(self) -> int:
-        """Leading symbols that must agree: within the other engine's own horizon, and that of its errors."""
+    def common_horizon(self) -> int:
+        """Leading symbols that must agree: within the other engine's own horizon, and that of its errors.
+
+        How far each toss is trusted by itself, its own horizon of trust, is its `trusted_impacts`.
+        """
         return min(self.toss.trusted_impacts, agreement_horizon(self.measure, self.errors))
 
     @property
-    def horizon_time(self) -> float | None:
+    def common_horizon_time(self) -> float | None:
         """The time of the last impact whose face must be shared, where others follow [s]."""
         times = self.measure.impacts.time
-        return float(times[self.horizon - 1]) if 0 < self.horizon < self.most_impacts else None
+        return float(times[self.common_horizon - 1]) if 0 < self.common_horizon < self.most_impacts else None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

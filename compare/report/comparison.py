@@ -72,10 +72,10 @@ class Comparison(ComparedTosses):
         for each, look in zip(self.tosses, looks, strict=True):
             each.plot(axes, color=look.color, linestyle=look.line, label=each.engine)
         for pair, look in zip(self.against, looks[1:], strict=True):
-            if pair.horizon_time is not None:
+            if pair.common_horizon_time is not None:
                 color, whose = (look.color, f" of {label_of(pair.toss.engine)}") if several else (GREY, "")
                 label = f"up to here the faces{whose} must agree"
-                axes.axvline(pair.horizon_time, color=color, linestyle=":", label=label)
+                axes.axvline(pair.common_horizon_time, color=color, linestyle=":", label=label)
         axes.set_title(f"{self.name}, by {listed(names)}")
         axes.legend()
         return axes

@@ -1,7 +1,6 @@
 """Write a report's folder: the page, the video, the numbers and the paths."""
 
 import io
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -77,10 +76,7 @@ def _numbers(comparison: ComparedTosses) -> dict[str, Any]:
     return {
         "name": comparison.name,
         "versions": versions(),
-        "tosses": [
-            {**answer.as_json(toss), "certificate": [asdict(setting) for setting in toss.certificate]}
-            for toss in comparison.tosses
-        ],
+        "tosses": [answer.as_json(toss) for toss in comparison.tosses],
         "comparisons": {pair.toss.engine: _compared(pair) for pair in comparison.against},
         "absent": comparison.absent,
     }
@@ -89,7 +85,7 @@ def _numbers(comparison: ComparedTosses) -> dict[str, Any]:
 def _compared(pair: Against) -> dict[str, Any]:
     return {
         "common_prefix": pair.common_prefix,
-        "horizon": pair.horizon,
+        "common_horizon": pair.common_horizon,
         "impulse_error": pair.errors,
         "parting_time": pair.together.parting_time,
         "time_difference": pair.differences.time,

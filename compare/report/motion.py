@@ -36,7 +36,11 @@ def motion_of(comparison: ComparedTosses) -> dict[str, Any]:
         "parted": PARTED,
         "rounding": ROUNDING,
         "bars": sorted(
-            ({"time": pair.horizon_time, "engine": look.kind} for pair, look in others if pair.horizon_time),
+            (
+                {"time": pair.common_horizon_time, "engine": look.kind}
+                for pair, look in others
+                if pair.common_horizon_time
+            ),
             key=itemgetter("time"),
         ),
     }

@@ -138,7 +138,7 @@ def _shown(value: Any) -> str:
 
 def _horizons(comparison: ComparedTosses) -> list[int]:
     """Return how many faces of each toss must agree: of the measure, with any other."""
-    others = [pair.horizon for pair in comparison.against]
+    others = [pair.common_horizon for pair in comparison.against]
     return [max(others, default=len(comparison.measure.impacts)), *others]
 
 

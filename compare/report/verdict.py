@@ -5,6 +5,7 @@ from enum import StrEnum
 from typing import NamedTuple
 
 from cointoss.compare.engines import is_own, label_of
+from cointoss.compare.output.answer import counted
 from cointoss.compare.output.language import listed
 from cointoss.compare.report.compared_tosses import Against, ComparedTosses
 from cointoss.models.records import Ending, Outcome, Toss, TrustEnd
@@ -83,8 +84,8 @@ def _doubt(toss: Toss) -> str:
 
 
 def horizon_sentence(pair: Against) -> str:
-    """Return what the horizon of an engine means."""
-    horizon, count, caught = pair.horizon, pair.most_impacts, _is_caught(pair)
+    """Return what the common horizon of a pair means, and how far each toss is trusted by itself."""
+    horizon, count, caught = pair.common_horizon, pair.most_impacts, _is_caught(pair)
     if count == 0:
         before = "The coin is caught before its first impact: without" if caught else "Without"
         return f"{before} an impact nothing amplifies small errors."
@@ -98,17 +99,18 @@ def horizon_sentence(pair: Against) -> str:
     if horizon == 0:
         return f"Not even the first face must agree: {off_the_law or f'{errors} can change it'}."
     first = "The first face" if horizon == 1 else f"The first {horizon} faces"
-    if off_the_law:
-        return f"{first}, up to the bar (the horizon of trust), must agree. {_sentence(off_the_law)}"
+    own, its = pair.measure.trusted_impacts, pair.toss.trusted_impacts
+    why = off_the_law or f"each impact amplifies small errors: after the bar {errors} can change a face"
     return (
-        f"{first}, up to the bar (the horizon of trust), must agree. Each impact amplifies small errors: "
-        f"after the bar {errors} can change a face."
+        f"{first}, up to the bar (the common horizon), must agree. {_sentence(why)} "
+        f"By itself the analytic toss is trusted in {counted(own, 'impact')}, that of "
+        f"{label_of(pair.toss.engine)} in {its}."
     )
 
 
 def _agreement(pair: Against, same_outcome: bool) -> tuple[str, VerdictKind]:
     a, b = pair.measure, pair.toss
-    prefix, horizon, count = pair.common_prefix, pair.horizon, pair.most_impacts
+    prefix, horizon, count = pair.common_prefix, pair.common_horizon, pair.most_impacts
     in_contact, caught = len(a.contacts) + len(b.contacts) > 0, _is_caught(pair)
     # Bounces that die out have no last one: each engine takes the smallest for contact from its own on.
     dies_out = len(a.contacts) > 0 < len(b.contacts) and 0 < prefix == min(len(a.impacts), len(b.impacts))
@@ -168,7 +170,7 @@ def _off_the_law(pair: Against) -> str:
     toss = pair.toss
     if not is_own(toss.engine):
         return _missed(pair, f"the {{}} of {label_of(toss.engine)}")
-    ends_it = pair.horizon == toss.trusted_impacts and toss.trust_end in OFF_THE_LAW
+    ends_it = pair.common_horizon == toss.trusted_impacts and toss.trust_end in OFF_THE_LAW
     return toss.trust_reason if ends_it else ""
 
 
@@ -176,7 +178,7 @@ def _missed(pair: Against, whose: str) -> str:
     """Return what is off first, the flight or an impulse within the horizon, and by how much."""
     if pair.flight_error > MISSES:
         return f"before impact 1 {whose.format('flight')} is {100 * pair.flight_error:.0f} % off"
-    for number, error in enumerate(pair.errors[: pair.horizon].tolist(), start=1):
+    for number, error in enumerate(pair.errors[: pair.common_horizon].tolist(), start=1):
         if error > MISSES:
             off = f"{100 * error:.0f} % off" if math.isfinite(error) else "nothing like that of"
             return f"at impact {number} {whose.format('impulse')} is {off} the contact law"

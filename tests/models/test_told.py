@@ -108,7 +108,7 @@ def test_no_word_on_a_comparison_denies_those_on_its_tosses(known):
         mujoco = made(b, b, TrustEnd.NONE, outcome=its, **ends, outcome_certain=None)
         both = Comparison(name="", text="", tosses=(analytic, mujoco))
         (pair,) = both.against
-        vars(pair).update(common_prefix=9, horizon=9 if settled else 4)
+        vars(pair).update(common_prefix=9, common_horizon=9 if settled else 4)
         ((_, verdict, kind),) = verdicts_of(both)
         told = f"{analytic.outcome_told}\n{mujoco.outcome_told}\n{verdict}\n{horizon_sentence(pair)}"
         kinds.add(kind)

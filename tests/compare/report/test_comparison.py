@@ -31,8 +31,8 @@ def test_both_tosses_are_compared(found):
     pair = found["mujoco"]
     assert found.against == (pair,)
     assert found.tosses == (found.measure, pair.toss)
-    assert (pair.horizon, pair.common_prefix) == (3, 3)
-    assert pair.horizon_time is None
+    assert (pair.common_horizon, pair.common_prefix) == (3, 3)
+    assert pair.common_horizon_time is None
     assert len(pair.errors) == len(pair.differences.time) == 3
     with pytest.raises(ValueError, match="read-only"):
         pair.errors[0] = 0
@@ -74,8 +74,8 @@ def test_a_plot_shows_both_paths_and_up_to_where_the_faces_must_agree():
     assert axes is given
     lines = {str(line.get_label()): line for line in axes.get_lines()}
     pair = found["mujoco"]
-    assert pair.horizon_time == found.measure.impacts.time[pair.horizon - 1]
-    assert lines["up to here the faces must agree"].get_xdata() == [pair.horizon_time] * 2
+    assert pair.common_horizon_time == found.measure.impacts.time[pair.common_horizon - 1]
+    assert lines["up to here the faces must agree"].get_xdata() == [pair.common_horizon_time] * 2
     for toss in found.tosses:
         assert np.max(lines[toss.engine].get_xdata()) == toss.end_time
     _, legend = axes.get_legend_handles_labels()
@@ -95,7 +95,7 @@ def test_another_engine_is_held_against_what_was_asked():
     labels = {str(line.get_label()): line.get_xdata() for line in axes.get_lines()}
     for pair in found.against:
         label = f"up to here the faces of {pair.toss.engine.replace('mujoco', 'MuJoCo')} must agree"
-        assert labels[label] == [pair.horizon_time] * 2
+        assert labels[label] == [pair.common_horizon_time] * 2
     colors = {
         line.get_color() for line in axes.get_lines() if line.get_label() in ("analytic", "off", "mujoco")
     }

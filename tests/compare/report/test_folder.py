@@ -55,7 +55,7 @@ def test_the_numbers_are_those_of_the_tosses(found, folder):
     pair, written = found["mujoco"], numbers["comparisons"]["mujoco"]
     assert numbers["tosses"][0]["impacts"][1]["time"] == found.measure.impacts.time[1]
     assert written["impulse_difference"] == pair.differences.impulse.tolist()
-    assert written["horizon"] == pair.horizon
+    assert written["common_horizon"] == pair.common_horizon
     assert numbers["absent"] == {}
 
 

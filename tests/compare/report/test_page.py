@@ -253,7 +253,10 @@ def test_the_page_of_three_engines_tells_them_apart(page, tmp_path, width):
     drawn = page.value("document.querySelectorAll('#plot-apart polyline').length")
     assert (drawn, len(texts(page, ".verdict"))) == (4, 2)
     # The bar of each engine's row is after the faces that must agree, and so are its pale faces.
-    horizons = [max(pair.horizon for pair in found.against), *(pair.horizon for pair in found.against)]
+    horizons = [
+        max(pair.common_horizon for pair in found.against),
+        *(pair.common_horizon for pair in found.against),
+    ]
     for row, (toss, horizon) in enumerate(zip(found.tosses, horizons, strict=True), start=1):
         assert len(texts(page, f".pair span:nth-child({row}):not(.beyond):not(.none)")) == horizon
         assert len(texts(page, f".bars i.bar:nth-child({row})")) == (horizon < len(found.measure.impacts))

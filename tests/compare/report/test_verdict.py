@@ -36,7 +36,7 @@ def made(sequence, outcome=Outcome.HEADS, *, engine="analytic", ending=Ending.SE
 def compared(a, b, prefix, horizon, engine="mujoco", errors=()):
     """Return a comparison of which some numbers are as given, and its pair."""
     found = Comparison(name="made", text="", tosses=(a, replace(b, engine=engine)))
-    vars(found[engine]).update(common_prefix=prefix, horizon=horizon, errors=np.array(errors))
+    vars(found[engine]).update(common_prefix=prefix, common_horizon=horizon, errors=np.array(errors))
     return found, found[engine]
 
 
@@ -164,8 +164,14 @@ def test_what_mujoco_cannot_toss_is_said():
         ("HHT", 3, "All faces must agree: errors"),
         ("sure", 3, "All faces must agree: errors as small as MuJoCo’s change none"),
         ("sure", 0, "Not even the first face must agree: errors as small as MuJoCo’s can change it"),
-        ("HHT", 2, "The first 2 faces, up to the bar (the horizon of trust), must agree. Each"),
-        ("HHT", 1, "The first face, up to the bar (the horizon of trust), must agree. Each"),
+        (
+            "HHT",
+            2,
+            "The first 2 faces, up to the bar (the common horizon), must agree. Each impact amplifies small "
+            "errors: after the bar errors as small as the engines’ own can change a face. By itself the "
+            "analytic toss is trusted in 3 impacts, that of MuJoCo in 3.",
+        ),
+        ("HHT", 1, "The first face, up to the bar (the common horizon), must agree. Each"),
         ("HHT", 0, "Not even the first face must agree: errors"),
         ("bounced", 2, "All faces must agree: the coin is caught before errors as small as the engines’ own"),
         ("caught", 0, "The coin is caught before its first impact: without an impact nothing amplifies"),
@@ -181,8 +187,8 @@ def test_the_horizon_is_told_in_plain_words(name, horizon, begins):
 SECOND_POINT = "at impact {} a second point lands within MuJoCo's contact."
 TOLD = (
     "Not even the first face must agree: ",
-    "The first face, up to the bar (the horizon of trust), must agree. A",
-    "The first 2 faces, up to the bar (the horizon of trust), must agree. A",
+    "The first face, up to the bar (the common horizon), must agree. A",
+    "The first 2 faces, up to the bar (the common horizon), must agree. A",
 )
 """How the sentence on a horizon of so many impacts begins."""
 
@@ -203,7 +209,10 @@ def test_an_impact_that_is_not_the_laws_is_named_where_it_ends_the_horizon(b, pr
     (found, pair), reason = compared(TOSSES["HHT"], ends, prefix, horizon), SECOND_POINT.format(horizon + 1)
     begins = verdict.replace("HEADS", WORDS["HEADS"]).replace("TAILS", WORDS["TAILS"])
     assert verdicts_of(found)[0].text == begins + reason
-    assert horizon_sentence(pair) == told + reason.removeprefix("a" if told.endswith("A") else "")
+    own = f" By itself the analytic toss is trusted in 3 impacts, that of MuJoCo in {horizon}." * (
+        horizon > 0
+    )
+    assert horizon_sentence(pair) == told + reason.removeprefix("a" if told.endswith("A") else "") + own
     earlier, pair = compared(TOSSES["HHT"], replace(ends, trusted_impacts=horizon + 1), prefix, horizon)
     assert "tiny errors" in verdicts_of(earlier)[0].text
     assert "errors" in horizon_sentence(pair)
@@ -245,8 +254,8 @@ def test_another_engine_is_told_where_its_impulse_misses_the_law(b, prefix, hori
 def test_each_of_several_engines_has_a_verdict_that_names_it():
     tosses = (TOSSES["HHT"], replace(TOSSES["HHT"], engine="mujoco"), replace(TOSSES["HTT"], engine="off"))
     found = Comparison(name="made", text="", tosses=tosses, absent={"gone": "no"})
-    vars(found["mujoco"]).update(common_prefix=3, horizon=3)
-    vars(found["off"]).update(common_prefix=1, horizon=1, errors=np.zeros(3))
+    vars(found["mujoco"]).update(common_prefix=3, common_horizon=3)
+    vars(found["off"]).update(common_prefix=1, common_horizon=1, errors=np.zeros(3))
     assert [(verdict.engine, verdict.text.partition(":")[0]) for verdict in verdicts_of(found)] == [
         ("mujoco", "Heads by the analytic engine and MuJoCo"),
         ("off", "Heads by the analytic engine, tails by off"),
