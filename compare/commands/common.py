@@ -45,7 +45,7 @@ class Place(click.Path):
         if value == "":
             self.fail("an empty name; accepted: a path", param, ctx)
         path: Any = super().convert(value, param, ctx)
-        if ctx is not None and not ctx.resilient_parsing:  # as it is while a shell completes a word
+        if ctx is not None and not ctx.resilient_parsing:  # it is resilient while a shell completes a word
             self.check(path, ctx)
         return path
 
