@@ -106,7 +106,7 @@ def flight_tangent(
     seen = np.empty((len(changes), 12))
     for i in range(len(changes)):
         _write_seen(start, changes[i], seen[i])
-    motion = Motion(_against_gravity(body, start), apply_transposed(start.R, start.velocity), start.spin)
+    motion = _motion_at(body, start)
     air, left = _air_at(body, motion), duration
     longest = longest_step(duration * fastest(body, motion, air), accuracy)
     while left > 0:
@@ -117,6 +117,20 @@ def flight_tangent(
             air = _air_at(body, motion)
     for i in range(len(changes)):
         _write_change(end, seen[i], changes[i])
+
+
+@compiled
+def steps_of_tangent(body: Body, start: State, duration: float, accuracy: float) -> float:
+    """Return about how many steps `flight_tangent` takes; the arguments are its own."""
+    motion = _motion_at(body, start)
+    turned = duration * fastest(body, motion, _air_at(body, motion))
+    return turned / longest_step(turned, accuracy)
+
+
+@compiled
+def _motion_at(body: Body, state: State) -> Motion:
+    """Return the `Motion` in a state."""
+    return Motion(_against_gravity(body, state), apply_transposed(state.R, state.velocity), state.spin)
 
 
 @compiled

@@ -23,7 +23,7 @@ from cointoss.analytic.flight.state_vector import (
     velocity_of,
 )
 from cointoss.analytic.flight.turning import turns_in_closed_form
-from cointoss.analytic.horizon.flight_tangent import COARSE, flight_tangent, longest_step
+from cointoss.analytic.horizon.flight_tangent import COARSE, flight_tangent, steps_of_tangent
 from cointoss.analytic.horizon.touch_derivatives import TouchDerivatives, touch_derivatives
 from cointoss.analytic.numerics.householder import reflect_to_triangle
 from cointoss.analytic.numerics.tolerances import TIME_STEP, TOUCH
@@ -37,6 +37,7 @@ from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import norm
 from cointoss.models.records import Array
 from cointoss.models.restitution import elastic_speed
+from cointoss.models.state import State
 
 STEP_ERROR = 1e-15
 """Error that one step adds to height, velocity and spin, relative to the scales of the coin: truncation and
@@ -51,8 +52,8 @@ CLOSED_TOUCH = 2e-16
 extended precision the root mean square of what the gap was then is 0.74 of that, in 580 flights."""
 SAFETY = 2.0
 """The factor by which the carried standard deviations are multiplied."""
-TIME_ERROR = 1e-7
-"""The time of an impact within the horizon is good to this [s]."""
+TIME_ERROR = 2.8e-6
+"""The time of an impact within the horizon is good to this part of √(r/g): a small coin's to 1e-7 s."""
 IMPULSE_ERROR = 1e-5
 """An impulse within the horizon is good to this part of it."""
 MOST_CARRIED, TOUCH_COST, DRAG_COST = 3e6, 20.0, 400.0
@@ -113,7 +114,7 @@ def find_horizon(body: Body, rules: Rules, rows: ImpactRows, started: Started, m
         if started.modes[i] != Mode.FLIGHT or started.times[i + 1] != row.time:
             return Horizon(i, kept)
         duration = row.time - started.times[i]
-        carried += TOUCH_COST + _cost(body, start, duration)
+        carried += TOUCH_COST + _cost(body, state_of(start), duration)
         if carried > made.most_carried:
             return Horizon(i, kept)
         _write_touch(row, y)
@@ -131,7 +132,7 @@ def find_horizon(body: Body, rules: Rules, rows: ImpactRows, started: Started, m
         sinking, delay = _sinking(body, errors), _delay_errors(touch, early, errors)
         # The first touch has no touch before it with which it could change places.
         in_order = sinking < started.grazes[i] / 2 and (i == 0 or delay <= LINEAR_RANGE * duration)
-        if not (in_order and _holds(rules, row, touch, errors)):
+        if not (in_order and _holds(body, rules, row, touch, errors)):
             return Horizon(i, kept)
         _strike_errors(touch, errors)
         reflect_to_triangle(errors)
@@ -151,16 +152,15 @@ def _write_touch(row: Any, y: Array) -> None:
 
 
 @compiled
-def _cost(body: Body, y: Array, duration: float) -> float:
+def _cost(body: Body, start: State, duration: float) -> float:
     """Return about how many steps the tangent map of a flight takes, each as one in linear air.
 
     Args:
         body: the coin.
-        y: state at the start, (13,).
+        start: state at the start.
         duration: of the flight [s].
     """
-    turned = duration * ((body.gravity / body.radius) ** 0.5 + norm(spin_of(y)))
-    steps = turned / longest_step(turned, COARSE)
+    steps = steps_of_tangent(body, start, duration, COARSE)
     return steps if body.air.exponent is None else DRAG_COST * steps
 
 
@@ -300,10 +300,11 @@ def _sinking(body: Body, errors: Array) -> float:
 
 
 @compiled
-def _holds(rules: Rules, row: Any, touch: TouchDerivatives, errors: Array) -> bool:
+def _holds(body: Body, rules: Rules, row: Any, touch: TouchDerivatives, errors: Array) -> bool:
     """Return whether an impact keeps its time, face, place and impulse within the errors.
 
     Args:
+        body: the coin.
         rules: floor and ending.
         row: the impact.
         touch: its derivatives.
@@ -325,7 +326,7 @@ def _holds(rules: Rules, row: Any, touch: TouchDerivatives, errors: Array) -> bo
         in_place
         and (threshold == 0 or closing < abs(speed - threshold))
         and (elastic == 0 or closing < abs(speed - elastic))
-        and _size(errors, _TIME, _TIME + 1) <= TIME_ERROR
+        and _size(errors, _TIME, _TIME + 1) <= TIME_ERROR * (body.radius / body.gravity) ** 0.5
         and _size_of(touch.up[2:], errors) < abs(up[2]) - NEAR_EDGE
         and closing <= LINEAR_RANGE * speed
         and _size_of(touch.impulse, errors) <= IMPULSE_ERROR * norm((S[0], S[1], S[2]))

@@ -16,7 +16,10 @@ from cointoss.analytic.horizon.horizon import (
 )
 from cointoss.analytic.runs import EventLog, horizon_of, run
 from cointoss.analytic.toss import state_at_release
+from cointoss.models.fields import UNITS, put
+from cointoss.models.reading import load
 from cointoss.models.records import Impacts
+from cointoss.models.rows import fields_of
 from cointoss.models.scenario import Scenario
 from tests.helpers.draws import AIR, PAPER_LAWS, THIN, draw_coin, draw_release, scenario
 
@@ -46,7 +49,7 @@ def true_horizon(case: Scenario, impacts: Impacts) -> int:
         strayed = float(np.linalg.norm(impacts.impulse[i] - touch.impulse))
         if (
             (impacts.face[i] == 1) != touch.heads
-            or abs(impacts.time[i] - touch.time) > TIME_ERROR
+            or abs(impacts.time[i] - touch.time) > TIME_ERROR * (case.coin.radius / case.gravity) ** 0.5
             or strayed > IMPULSE_ERROR * float(np.linalg.norm(touch.impulse))
         ):
             break
@@ -110,6 +113,35 @@ def test_neither_of_two_neighbouring_tosses_trusts_the_impact_at_which_they_part
     assert trusted_up_to_it >= 5
 
 
+def in_units(case: Scenario, length: float, time: float, mass: float) -> Scenario:
+    """Return a scenario whose numbers are in units so many times smaller."""
+    data, units = (
+        case.model_dump(),
+        {"m": length, "s": time, "kg": mass, "rad": 1.0, "Pa": mass / length / time**2},
+    )
+    for field, value in fields_of(case).items():
+        if unit := UNITS.get(field):
+            put(data, field, value * eval(unit, {}, units))  # noqa: S307
+    return Scenario.checked(data)
+
+
+@pytest.mark.parametrize("name", ["fig24c", "fig24e", "fig13", "contact_knurled", "contact_sliding_friction"])
+def test_as_many_impacts_are_trusted_in_every_unit(name):
+    """1e-7 s, as the time was once known to, is another part of a toss in another unit."""
+    case = load(name)
+    scales = [
+        (1.0, 1.0, 1.0),
+        (2.3, 1.0, 1.0),
+        (1.0, 0.3, 1.0),
+        (1.0, 3.7, 1.0),
+        (1.0, 1.0, 41.0),
+        (0.02, 0.1, 3.0),
+    ]
+    trusted = {analytic.toss(in_units(case, *scale)).trusted_impacts for scale in scales}
+    assert len(trusted) == 1
+    assert trusted.pop() > 2
+
+
 def test_larger_errors_shorten_the_horizon():
     case = draw_toss(np.random.default_rng(53), 4)
     toss = run(case.body, case.rules, state_at_release(case.release))
@@ -141,6 +173,16 @@ def test_errors_are_carried_through_so_many_steps_and_no_impact_after_them_is_tr
     assert trusted[0] == 0
     assert 2 <= trusted[1] < 6
     assert trusted[2] == 8
+
+
+def test_a_flight_costs_what_its_tangent_map_does_also_of_a_coin_that_no_body_can_be():
+    """Its spin about the axis could be J_ξ/J_ζ times as fast as the coin turns: such steps are as short."""
+    coin = {**THIN, "inertia": [[1e-6, 0, 0], [0, 1e-6, 0], [0, 0, 1e-8]]}
+    case = scenario(coin=coin, release={"angular_velocity": [10.0, 20.0, 0]}, ending={"max_impacts": 1})
+    for cost, trusted in ((1e3, 0), (1e5, 1)):
+        assert (
+            horizon_of(case.body, case.rules, logged(case), ErrorsMade(most_carried=cost)).impacts == trusted
+        )
 
 
 def test_a_coin_that_falls_for_a_thousand_seconds_is_not_trusted_beyond_what_takes_seconds():
