@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cointoss.models import notebook
+from cointoss.models.contact_laws.table import LAWS
 from cointoss.models.entries import joint_of_states, lowest_points
 from cointoss.models.interruptible import interruptible
 from cointoss.models.kernel.arrays import Array
@@ -296,7 +297,7 @@ class Flag(StrEnum):
     PULLS = "pulls"
     """S_z < 0: the floor would have to hold the coin back."""
     LEAVES_CONE = "leaves_cone"
-    """|S_xy| > μ S_z: more friction than the floor's coefficient μ allows."""
+    """|S_xy| > μ S_z: more friction than the floor's coefficient μ allows, in a law that has one."""
 
 
 # Beyond rounding, against the energy and the impulse.
@@ -468,9 +469,14 @@ class Toss(EqualByValue):
 
     @property
     def flags(self) -> tuple[frozenset[Flag], ...]:
-        """The flags that each impact raises."""
-        raised = raised_flags(self.impacts, self.scenario.floor.friction)
-        return tuple(frozenset(flag for flag in Flag if raised[flag][i]) for i in range(len(self.impacts)))
+        """The flags that each impact raises; that of the friction cone where the contact law has one."""
+        law, raised = (
+            LAWS[self.scenario.floor.contact],
+            raised_flags(self.impacts, self.scenario.floor.friction),
+        )
+        if not (law.uses_friction or law.is_smooth):
+            del raised[Flag.LEAVES_CONE]
+        return tuple(frozenset(flag for flag in raised if raised[flag][i]) for i in range(len(self.impacts)))
 
     def __repr__(self) -> str:
         """Return how the toss ended, and the faces up at its touches."""

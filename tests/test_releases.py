@@ -116,6 +116,9 @@ def test_a_scenario_is_tossed_as_it_was(toss):
     """Its numbers in SI, and what they do: an impact is trusted, so no error of either version decides it."""
     then = read(toss)
     assert then["trusted_impacts"] == len(then["impacts"])
+    if toss.stem in ("sharp_edge", "knurled", "perfectly_rough", "slip_preserving"):
+        for impact in then["impacts"]:  # laws without a friction cone were said to leave it
+            impact["flags"].remove("leaves_cone")
     now = cointoss("toss", toss.parents[1] / "given" / f"{toss.stem}.toml", "--json")
     assert unlike(then, json.loads(now.stdout)) == []
 

@@ -49,7 +49,7 @@ def test_a_time_outside_the_toss_is_refused(time):
 
 
 def test_flags_name_what_no_passive_floor_does():
-    """Of slips kept (d), some impacts gain energy, some pull; all need more friction than mu = 0 gives."""
+    """Where slip across the edge is stopped some impacts gain energy; no law but one with μ has a cone."""
     rng = np.random.default_rng(1)
     raised = set()
     for _ in range(40):
@@ -63,12 +63,16 @@ def test_flags_name_what_no_passive_floor_does():
         impacts = tossed.impacts
         for i, flags in enumerate(tossed.flags):
             assert (Flag.GAINS_ENERGY in flags) is bool(impacts.energy_change[i] > 1e-9 * impacts.energy[i])
-            assert Flag.LEAVES_CONE in flags
+            assert Flag.LEAVES_CONE not in flags
             raised |= flags
     assert Flag.GAINS_ENERGY in raised
     smooth = analytic.toss(scenario(release=draw_release(rng)))
     assert smooth.flags == (frozenset(),) * len(smooth.impacts)
     assert len(smooth.impacts) > 3
+    slid = smooth.scenario.replace("floor.contact", "sliding_friction", "floor.friction", 0.2)
+    assert analytic.toss(slid).flags[0] == frozenset()
+    weaker = replace(analytic.toss(slid), scenario=slid.replace("floor.friction", 0.1))
+    assert weaker.flags[0] == {Flag.LEAVES_CONE}
 
 
 def test_the_end_of_trust_has_a_name_and_says_which_impact_it_is():
