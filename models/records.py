@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from cointoss.models import notebook
 from cointoss.models.contact_laws.table import LAWS
 from cointoss.models.entries import joint_of_states, lowest_points
+from cointoss.models.geometry import FACE_SINE
 from cointoss.models.interruptible import interruptible
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.labelled import EqualByValue, column, dataset, freeze, table
@@ -455,7 +456,20 @@ class Toss(EqualByValue):
     @property
     def trust_reason(self) -> str:
         """Why the impact after the trusted ones is not trusted, in words; empty where all are."""
-        return self.trust_end.reason(self.trusted_impacts + 1)
+        trusted = self.trusted_impacts
+        if self.trust_end != TrustEnd.ERRORS or not (level := self._level_at(trusted)):
+            return self.trust_end.reason(trusted + 1)
+        return (
+            f"impact {trusted + 1} is {level}, where a tilt below every error chooses the point that touches"
+        )
+
+    def _level_at(self, impact: int) -> str:
+        """Return whether the coin touches "flat" or "upright" at an impact, counted from 0; else ""."""
+        e0, e1, e2, e3 = self.impacts.quaternion[impact]
+        upright, turned = np.hypot(e0, e3), np.hypot(e1, e2)
+        if 2 * upright * turned < FACE_SINE:
+            return "flat"
+        return "upright" if abs(upright - turned) < FACE_SINE else ""
 
     @property
     def trust(self) -> str:
