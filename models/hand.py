@@ -28,6 +28,7 @@ QUANTITIES = {
     "psi": ("angle ψ", "rad"),
     "scatter": ("scatter", ""),
     "psi_scatter": ("scatter of ψ", "rad"),
+    "tilt": ("tilt at the release", "rad"),
 }
 """The hand's numbers that may vary, in a person's words, and their SI units in pint's spelling."""
 UPWARDS = ("heads", "either")
@@ -41,7 +42,7 @@ From the counts of F. Bartoš et al., J. Am. Stat. Assoc. 120 (2025) 2118, by `c
 """
 _TAIL = 3.654
 """Up to it NumPy draws a normal number by products alone."""
-OF_A_TOSS = ("height", "speed", "caught")
+OF_A_TOSS = ("height", "speed", "tilt", "caught")
 """The fields that a coin spun on its edge does not use."""
 
 
@@ -68,6 +69,8 @@ class Hand:
     """Relative standard deviation of height, speed and spin."""
     psi_scatter: float = 0.0
     """Standard deviation of ψ [rad]."""
+    tilt: float = 0.0
+    """Standard deviation of a tossed coin's tilt at the release about each of two horizontal axes [rad]."""
     up: Literal["heads", "either"] | Word = "heads"
     """The side that is up at the release; "either": both sides are equally likely."""
     spun: bool = False
@@ -104,6 +107,7 @@ class Hand:
             "psi": (0 <= self.psi <= math.pi / 2, "an angle from 0 to 90 deg"),
             "scatter": (0 <= self.scatter <= 0.3, "a part from 0 to 30 %"),
             "psi_scatter": (0 <= self.psi_scatter <= math.pi / 2, "an angle from 0 to 90 deg"),
+            "tilt": (0 <= self.tilt <= math.pi / 2, "an angle from 0 to 90 deg"),
         }
         for name, (is_so, what) in accepted.items():
             if not is_so or not math.isfinite(getattr(self, name)):
@@ -123,10 +127,25 @@ class Hand:
         psi = f"ψ = {math.degrees(self.psi):.6g}° ± {math.degrees(self.psi_scatter):.6g}°"
         if self.spun:
             return f"spun on the edge, {side}, at {self.spin:.6g} rad/s ± {100 * self.scatter:.3g} %, {psi}"
+        flat = f"flat ± {math.degrees(self.tilt):.6g}°" if self.tilt else "flat"
         caught = "" if self.caught is None else f", caught at {self.caught:.6g} m"
         return (
-            f"flat, {side}, from {self.height:.6g} m, upwards at {self.speed:.6g} m/s, with "
+            f"{flat}, {side}, from {self.height:.6g} m, upwards at {self.speed:.6g} m/s, with "
             f"{self.spin:.6g} rad/s, each ± {100 * self.scatter:.3g} %, {psi}{caught}"
+        )
+
+    @property
+    def unvaried(self) -> str:
+        """Why its tosses are all alike, in words; empty for a hand of which something varies that turns them."""
+        if self.spun or self.tilt > 0:
+            return ""
+        if self.spin == 0:
+            return "no draw turns the coin: it is released flat, without spin; a tilt would"
+        still = self.scatter == self.psi_scatter == 0
+        return (
+            "no draw but the direction of the spin; a scatter or a tilt would vary the release"
+            if still
+            else ""
         )
 
     def releases(self, scenario: ScenarioSource, n: int, *, seed: int = 0) -> dict[str, Any]:
@@ -172,8 +191,9 @@ class Hand:
         states = np.empty((count, len(STATE)))
         if self.spun:
             spun_states(body.center, body.radius, body.thickness, draws, states)
-        else:
-            tossed_states(body.inertia, body.inertia_inverse, draws, states)
+            return states
+        tilts = self.tilt * _normals(rng, 2 * count).reshape(-1, 2) if self.tilt else np.zeros((count, 2))
+        tossed_states(body.inertia, body.inertia_inverse, draws, tilts, states)
         return states
 
     def scenario(self, described: Scenario) -> Scenario:

@@ -27,7 +27,7 @@ _OPTIONS = (
         is_eager=True,
         metavar="FILE.toml",
         help="A hand's file, with the names of these options: height, speed, spin, psi, psi_scatter, "
-        "scatter, up, spun, caught. An option overrides the value in the file.",
+        "tilt, scatter, up, spun, caught. An option overrides the value in the file.",
     ),
     click.option(
         "--height",
@@ -53,6 +53,12 @@ _OPTIONS = (
         type=quantity("rad"),
         show_default="10 deg, as of people; 0 deg with --hand, --psi or --spun",
         help="Standard deviation of psi.",
+    ),
+    click.option(
+        "--tilt",
+        type=quantity("rad"),
+        show_default="0 deg",
+        help="Standard deviation of the coin's tilt at the release, about each of two horizontal axes.",
     ),
     click.option(
         "--scatter",

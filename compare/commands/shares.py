@@ -215,6 +215,8 @@ def _print(found: "xr.Dataset", plan: "Plan", scenario: str, as_json: bool) -> N
     of = "coins that the hand catches, by the side that is up" if plan.catches else "tosses, by how they end"
     click.echo(f"\nshares     of the {of}; in brackets 99 % intervals")
     click.echo(f"hand       {plan.hand.in_words}")
+    if plan.unvaried:
+        click.echo(f"unvaried   {plan.unvaried}")
     click.echo(f"engine     {' and '.join(plan.engines)}, seed {plan.seed}")
     if missed := int(found.not_caught.sum()):
         click.echo(f"left out   {missed:,d} coins that never came down to the hand")

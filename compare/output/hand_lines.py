@@ -29,6 +29,7 @@ def hand_lines(hand: Hand, scenario: Scenario, engine: str, seed: int) -> HandLi
     caught = scenario.ending.caught
     below = (
         f"hand       {replace(hand, caught=caught).in_words}",
+        *([f"unvaried   {hand.unvaried}"] if hand.unvaried else []),
         f"engine     {engine}, seed {seed}; in brackets 99 % intervals",
     )
     if hand.spun:

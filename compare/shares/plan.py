@@ -107,6 +107,11 @@ class Plan:
         varied = any(axis.field == "ending.caught" for axis in self.vary)
         return varied or self.hand.caught is not None or self.scenario.ending.caught is not None
 
+    @property
+    def unvaried(self) -> str:
+        """Why all tosses of a setting are alike, in words; empty where something of the hand varies."""
+        return "" if any(axis.field in HAND for axis in self.vary) else self.hand.unvaried
+
     def counted(self, counts: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return the counts that enter the shares, (..., 6): a coin that the hand does not catch enters none.
 

@@ -52,6 +52,26 @@ def test_releases_scatter_as_asked():
     assert (psi.mean(), psi.std()) == (pytest.approx(1.3, abs=2e-3), pytest.approx(0.05, rel=0.03))
 
 
+@pytest.mark.parametrize("up", ["heads", "either"])
+def test_a_tilt_turns_the_coin_and_its_motion_about_two_horizontal_axes(up):
+    """The angular momentum keeps its angle to the normal; without tilt the other draws are the same."""
+    body, rngs = COINS[1].body, [np.random.default_rng(7) for _ in range(2)]
+    flat, tilted = (
+        Hand(psi=1.0, tilt=tilt, up=up).states(body, rng, 5000)
+        for tilt, rng in zip((0.0, 0.1), rngs, strict=True)
+    )
+    normals = rotations(tilted)[:, :, 2] * np.sign(rotations(flat)[:, 2:, 2])
+    assert normals[:, :2].std(axis=0) == pytest.approx(0.1, rel=0.03)
+    same = [*range(6), 10, 11, 12]
+    assert (tilted[:, same] == flat[:, same]).all()
+
+
+def test_a_hand_of_which_nothing_varies_says_so():
+    alike = [Hand(spin=0.0), Hand(spin=0.0, psi_scatter=0.1), Hand(scatter=0.0)]
+    varied = [Hand(), Hand(spin=0.0, tilt=0.1), Hand(scatter=0.0, psi_scatter=0.1), Hand(spin=0.0, spun=True)]
+    assert [bool(hand.unvaried) for hand in alike + varied] == [True] * 3 + [False] * 4
+
+
 def test_the_probability_of_the_same_side_is_the_published_one():
     degrees = np.array([90, 79.95, 45, 30, 100.05])
     expected = [0.5, 0.51, 1, 1, 0.51]
