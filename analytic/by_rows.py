@@ -126,7 +126,9 @@ def toss_apart(rows: Table, answers: Table, limits: ContactLimits, wanted: int) 
 def _answer(body, rules, limits, wanted, impacts, y, answer):
     """Toss a coin, write how it ended, and return the rows of impacts, which may have grown."""
     keep_all = wanted != NO_TRUST
-    n, impacts, pieces, outcome, ending, end_time = toss_coin(body, rules, limits, y, impacts, keep_all)
+    n, impacts, pieces, outcome, ending, end_time = toss_coin(
+        body, rules, limits, y, impacts, keep_all, np.empty(2)
+    )
     if keep_all:
         _write_trust(body, rules, impacts[:n], pieces, TossEnd(outcome, ending), wanted, answer)
     # The outcome is written last: a row that has it is complete.
@@ -174,7 +176,7 @@ def _toss_one(body, row, answer, impacts, pieces, sizes):
     rules, y = rules_of(row), np.empty(STATE_SIZE)
     write_release(row, y)
     room = np.zeros(FIRST_ROOM, IMPACT_ROW)
-    n, rows, found, outcome, ending, end_time = toss_coin(body, rules, _LIMITS, y, room, True)
+    n, rows, found, outcome, ending, end_time = toss_coin(body, rules, _LIMITS, y, room, True, sizes)
     _write_end(n, rows, TossEnd(outcome, ending), end_time, answer)
     _write_trust(body, rules, rows[:n], found, TossEnd(outcome, ending), CERTAIN, answer)
     if row[AT.ending_until] > end_time:

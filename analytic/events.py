@@ -56,6 +56,8 @@ class Setup(NamedTuple):
     """The energies so far, which the event loop keeps up."""
     with_graze: bool
     """Whether the flights before the first contact look for minima of the gap; they change nothing else."""
+    so_far: Row
+    """Impacts and time [s] so far, (2,), for whoever waits for the toss."""
 
 
 class Spent(NamedTuple):
@@ -122,7 +124,7 @@ def started_of(pieces: Array) -> Started:
 
 @compiled
 def toss_coin(
-    body: Body, rules: Rules, limits: ContactLimits, y: Row, rows: ImpactRows, keep_all: bool
+    body: Body, rules: Rules, limits: ContactLimits, y: Row, rows: ImpactRows, keep_all: bool, so_far: Row
 ) -> tuple[int, ImpactRows, Table, Outcome, Ending, float]:
     """Run the event loop.
 
@@ -134,16 +136,18 @@ def toss_coin(
         rows: where the impacts are recorded, (m,) of `IMPACT_ROW`. The row after the last is work space.
         keep_all: whether all impacts are recorded, in as many rows as they need, and where modes start;
             else impact number n is recorded in row n modulo m.
+        so_far: becomes the number of impacts and the time [s] so far, (2,), while the toss goes on.
 
     Returns:
         Number of impacts; the rows; where modes start, each with its time, `Mode` and state, the steps and
         the graze of a flight, and the end, (k, 17), or none; outcome; ending; and the time of the end [s].
     """
     history = energy_history(NO_LOSS + limits.tolerance)
-    setup = Setup(body, rules, friction_in_contact(rules), limits, history, keep_all)
+    setup = Setup(body, rules, friction_in_contact(rules), limits, history, keep_all, so_far)
     pieces, k = np.empty((FIRST_ROOM if keep_all else 0, _GRAZE + 1)), 0
     mode, spent, verdict = Mode.FLIGHT.value, Spent(0.0, 0, 0), GOES_ON
     while True:
+        so_far[0], so_far[1] = spent.impacts, spent.time
         if keep_all and mode != Mode.TOUCHING:
             if k == len(pieces):
                 pieces = doubled(pieces)
@@ -298,6 +302,7 @@ def hold_to_event(setup: Setup, mode: int, y: Array, spent: Spent) -> Passage:
         if step.event == Event.NO_SOLUTION:
             return Passage(step.event, spent, TossEnd(Outcome.UNDECIDED, Ending.NO_SOLUTION), NOT_FLOWN)
         spent = Spent(spent.time + step.elapsed, spent.impacts, spent.steps + cost_of(body, step))
+        setup.so_far[1] = spent.time
         if step.event == Event.FALLS_FLAT:
             return Passage(step.event, spent, GOES_ON, NOT_FLOWN)
         contact = contact_at(body, friction, mode, y)

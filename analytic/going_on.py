@@ -71,7 +71,7 @@ def go_on(
     y, room = pieces[k, 2:15].copy(), np.zeros(FIRST_ROOM, IMPACT_ROW)
     history = energy_history(NO_LOSS + limits.tolerance)
     limits = ContactLimits(FOLLOWED * limits.steps, limits.tolerance)
-    setup = Setup(body, rules, friction_in_contact(rules), limits, history, False)
+    setup = Setup(body, rules, friction_in_contact(rules), limits, history, False, np.empty(2))
     mode, spent = mode_at_end(pieces, ending), Spent(start, 0, 1)
     found = doubled(pieces)
     while True:

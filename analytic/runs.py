@@ -55,7 +55,12 @@ class EventLog(NamedTuple):
 
 
 def run(
-    body: Body, rules: Rules, start: Array, settings: AnalyticSettings = FINE, until: float | None = None
+    body: Body,
+    rules: Rules,
+    start: Array,
+    settings: AnalyticSettings = FINE,
+    until: float | None = None,
+    so_far: Array | None = None,
 ) -> EventLog:
     """Toss the coin in state `start`, (13,), until the toss is decided or a budget is spent.
 
@@ -65,9 +70,13 @@ def run(
         start: state, (13,).
         settings: of the engine.
         until: the coin is followed up to this time, see `EndingCriteria.until`.
+        so_far: becomes the number of impacts and the time [s] so far, (2,), while the toss goes on.
     """
     room, limits = np.zeros(FIRST_ROOM, IMPACT_ROW), contact_limits(settings)
-    n, rows, pieces, outcome, ending, end_time = toss_coin(body, rules, limits, start.copy(), room, True)
+    so_far = np.empty(2) if so_far is None else so_far
+    n, rows, pieces, outcome, ending, end_time = toss_coin(
+        body, rules, limits, start.copy(), room, True, so_far
+    )
     started = started_of(pieces)
     followed = pieces if until is None else go_on(body, rules, limits, pieces, Ending(ending), until)
     return EventLog(

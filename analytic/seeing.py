@@ -74,7 +74,9 @@ def _see_run(body, rows, limits, times, found, first, end):
     for i in range(first, end):
         rules = rules_of(rows[i])
         write_release(rows[i], start)
-        n, impacts, pieces, _, _, end_time = toss_coin(body, rules, limits, start, room, is_filmed)
+        n, impacts, pieces, _, _, end_time = toss_coin(
+            body, rules, limits, start, room, is_filmed, np.empty(2)
+        )
         found.impacts[i] = n
         for k in range(most):
             found.touch_times[i, k] = end_time

@@ -26,7 +26,7 @@ from cointoss.models.parts import Release
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Array, Ending, Impacts, Setting, States, Toss, TrustEnd
 from cointoss.models.scenario import Scenario, keeping_all
-from cointoss.models.stages import stage
+from cointoss.models.stages import reached, stage
 
 _INTEGRATED = "Dormand-Prince of order 8(5,3), Euler parameters kept at norm 1"
 
@@ -114,13 +114,16 @@ def toss(scenario: ScenarioSource, *, settings: AnalyticSettings = FINE, law: Ow
     require_type("settings", settings, AnalyticSettings, "analytic.AnalyticSettings, such as analytic.FINE")
     described = scenario_of(scenario)
     rules = keeping_all(rules_by(law, described), described)
-    with stage("tossing by the analytic engine"):
-        return interruptible(lambda: _toss(described, rules, settings, law))
+    so_far = np.zeros(2)
+    with stage("tossing by the analytic engine", detail=lambda: reached(int(so_far[0]), so_far[1])):
+        return interruptible(lambda: _toss(described, rules, settings, law, so_far))
 
 
-def _toss(scenario: Scenario, rules: Rules, settings: AnalyticSettings, law: OwnLaw | None) -> Toss:
+def _toss(
+    scenario: Scenario, rules: Rules, settings: AnalyticSettings, law: OwnLaw | None, so_far: Array
+) -> Toss:
     body, start = scenario.body, state_at_release(scenario.release)
-    answer = run(body, rules, start, settings, scenario.ending.until)
+    answer = run(body, rules, start, settings, scenario.ending.until, so_far)
     impacts, end = Impacts.from_rows(answer.rows), answer.start_states[-1]
     horizon, contacts = horizon_of(body, rules, answer), answer.contacts
     certainty = certainty_of(body, rules, answer.rows, answer.started, answer.verdict, horizon)

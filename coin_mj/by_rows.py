@@ -28,7 +28,7 @@ def toss_rows(coin: MujocoCoin, plastic: MujocoCoin, budgets: Budgets, rows: Tab
         write_release(rows[i], y)
         put_at(coin, y)
         n, _, _, _, outcome, ending, end_time = toss_coin(
-            coin, plastic, rules_of(rows[i]), budgets, impacts, False
+            coin, plastic, rules_of(rows[i]), budgets, impacts, False, np.empty(1)
         )
         answers[i, 1], answers[i, 2], answers[i, 4] = ending.value, n, end_time
         answers[i, 3] = impacts[0]["face"] if n > 0 else 0

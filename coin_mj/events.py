@@ -23,7 +23,7 @@ from cointoss.models.body import Body, Rules, is_linear, with_time_alone
 from cointoss.models.ending import classify_ending, face_outcome, followed_until, unless_caught
 from cointoss.models.geometry import lowest_point
 from cointoss.models.impact_row import FIRST_ROOM, ImpactRow, ImpactRows, with_room, write_impact
-from cointoss.models.kernel.arrays import Table, doubled
+from cointoss.models.kernel.arrays import Row, Table, doubled
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector
 from cointoss.models.making import AT_REST
@@ -43,7 +43,13 @@ AIR_STEPS = 50
 
 @compiled
 def toss_coin(
-    coin: MujocoCoin, plastic: MujocoCoin, rules: Rules, budgets: Budgets, rows: ImpactRows, keep_all: bool
+    coin: MujocoCoin,
+    plastic: MujocoCoin,
+    rules: Rules,
+    budgets: Budgets,
+    rows: ImpactRows,
+    keep_all: bool,
+    impacts: Row,
 ) -> tuple[int, ImpactRows, Table, Table, Outcome, Ending, float]:
     """Toss the coin from its present state until the toss is decided.
 
@@ -55,6 +61,7 @@ def toss_coin(
         rows: where the impacts are recorded, (m,) of `IMPACT_ROW`.
         keep_all: whether all impacts are recorded, in as many rows as they need, and the path; else impact
             number n is recorded in row n modulo m.
+        impacts: becomes their number so far, (1,), while the toss goes on, beside MuJoCo's time.
 
     Returns:
         Number of impacts; the rows; knots of the path, see `path.Knots`, (k, 15), or none; start and end of
@@ -68,6 +75,7 @@ def toss_coin(
     outcome, ending = Outcome.UNDECIDED, Ending.NONE
     lands = False
     while ending == Ending.NONE:
+        impacts[0] = n
         if n == rules.max_impacts:
             ending = Ending.MAX_IMPACTS
             break

@@ -42,7 +42,7 @@ from cointoss.models.records import (
     UnsupportedError,
 )
 from cointoss.models.scenario import Scenario, keeping_all
-from cointoss.models.stages import stage
+from cointoss.models.stages import reached, stage
 
 REALISABLE = laws_that(lambda law: law.is_in_mujoco)
 SOFTER = (10.0, 30.0)
@@ -68,11 +68,10 @@ class MujocoRun(NamedTuple):
 
 def run(machine: Machine, rules: Rules) -> MujocoRun:
     """Toss the coin from its present state until the toss is decided."""
-    room = np.zeros(FIRST_ROOM, IMPACT_ROW)
-    so_far = stage("a toss", detail=lambda: f"{machine.data.time:.3g} s of the coin's time")
-    with so_far:
+    room, impacts = np.zeros(FIRST_ROOM, IMPACT_ROW), np.zeros(1)
+    with stage("a toss", detail=lambda: reached(int(impacts[0]), machine.data.time)):
         n, rows, knots, contacts, outcome, ending, end_time = toss_coin(
-            machine.coin, machine.plastic, rules, machine.settings.budgets, room, True
+            machine.coin, machine.plastic, rules, machine.settings.budgets, room, True, impacts
         )
     rows = rows[:n].copy()
     for told in ("impulse", "energy", "energy_change"):

@@ -116,6 +116,11 @@ def stage(
         stages.open.remove(own)
 
 
+def reached(impacts: int, time: float) -> str:
+    """Return how far a toss is, in words; the time is the coin's [s]."""
+    return f"{impacts:,} impact{'s' * (impacts != 1)} in {time:.3g} s of the coin's time"
+
+
 def counted(name: str, unit: str, items: Sequence[Item]) -> Iterator[Item]:
     """Yield items one after the other; with the last, the stage of that name ends."""
     with stage(name, unit, total=len(items)) as progress:

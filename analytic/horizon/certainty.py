@@ -123,7 +123,7 @@ def neighbour(body: Body, start: NeighbourStart, horizon: Horizon, pair: int, si
 def end_of(body: Body, rules: Rules, y: Array) -> tuple[NDArray[Any], Outcome, Ending]:
     """Return the impacts, the outcome and the ending of a neighbour that starts in the state y, (13,)."""
     limits, room = ContactLimits(FOLLOWED, CONTACT_ERROR), np.zeros(FIRST_ROOM, IMPACT_ROW)
-    n, rows, _, outcome, ending, _ = toss_coin(body, rules, limits, y, room, True)
+    n, rows, _, outcome, ending, _ = toss_coin(body, rules, limits, y, room, True, np.empty(2))
     return rows[:n], outcome, ending
 
 

@@ -10,6 +10,7 @@ from contextlib import contextmanager, suppress
 from typing import NoReturn
 
 from cointoss.compare.output.language import in_options
+from cointoss.models.stages import stages
 
 _NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
 SIGNALS: tuple[signal.Signals, ...] = tuple(getattr(signal, name) for name in _NAMES if hasattr(signal, name))
@@ -27,10 +28,12 @@ class Interruption(SystemExit):
     """A signal that asks the command to end."""
 
     def __init__(self, number: int) -> None:
-        """Keep the exit status and what to say."""
+        """Keep the exit status and what to say: how far the innermost stage is that can say so."""
         super().__init__(128 + number)
         self.status = 128 + number
-        self.message = f"interrupted by {signal.Signals(number).name}"
+        self.name = f"interrupted by {signal.Signals(number).name}"
+        reached = [said for each in stages.open if (said := each.detail())]
+        self.message = ": ".join([self.name, *reached[-1:]])
 
 
 @contextmanager
@@ -50,11 +53,11 @@ def undoing(undo: Callable[[], None]) -> Iterator[None]:
 
 @contextmanager
 def saying(say: Callable[[str], str]) -> Iterator[None]:
-    """Let an interruption within the `with` statement say what `say` returns of its message."""
+    """Let an interruption within the `with` statement say what `say` returns of its name."""
     try:
         yield
     except Interruption as interruption:
-        interruption.message = say(interruption.message)
+        interruption.message = say(interruption.name)
         raise
 
 
