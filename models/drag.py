@@ -31,7 +31,8 @@ def linear_drag(radius: float, thickness: float, normal: float, tangential: floa
     Strzalko et al. 2008, eqs (49)-(74). Pressure acts only where the surface moves outwards, eq. (58).
     Where one face has none its twin has all, so both together make one whole disc; on the wall the mean
     of cos² over the half that moves outwards is half of that over the whole. So force and moment are
-    exactly linear, without cross terms, for every motion.
+    exactly linear, without cross terms, for every motion. `sliding_share` and `clearance.drag_bound` rest on
+    these coefficients.
 
     Args:
         radius: r [m].

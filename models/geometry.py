@@ -59,6 +59,8 @@ def height_of_center(body: Body, z: float, up: Vector) -> float:
 def gap(body: Body, z: float, up: Vector) -> float:
     """Return the height of the coin's lowest point above the floor [m], negative below it.
 
+    On it rest `clearance.clear_time` and the barriers.
+
     Args:
         body: the coin.
         z: height of the mass centre C [m].

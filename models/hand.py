@@ -136,7 +136,7 @@ class Hand:
 
     @property
     def unvaried(self) -> str:
-        """Why its tosses are all alike, in words; empty for a hand of which something varies that turns them."""
+        """Why all its tosses are alike, in words; empty where something varies that turns the coin."""
         if self.spun or self.tilt > 0:
             return ""
         if self.spin == 0:

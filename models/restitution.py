@@ -32,7 +32,7 @@ def restitution_at_speed(rules: Rules, speed: float) -> float:
 def elastic_restitution(rules: Rules, speed: float) -> float:
     """Return min(1, χ (v/v₀)^-p) V(v), the restitution at a speed v without regard to the threshold.
 
-    It never grows with the speed [m/s].
+    It never grows with the speed [m/s], on which `chatter_restitution` and `largest_restitution` rest.
     """
     if not varies(rules):
         return rules.restitution

@@ -75,48 +75,11 @@ def test_the_viscous_law_has_the_series_of_its_source():
             assert abs(found - (1 - x + 0.6 * x * x)) < 0.5 * x**2.5
 
 
-@pytest.mark.parametrize("a", [0.01, 0.3, 3.0])
-def test_the_viscous_law_falls_with_the_speed_and_its_loss_no_faster_than_the_fifth_root(a):
-    """Both make the bound of `chatter_restitution`."""
-    speeds = np.geomspace(1e-7, 20, 400)
-    kept = np.array([viscous_restitution(a, float(speed)) for speed in speeds])
-    assert (np.diff(kept) < 0).all()
-    assert (np.diff((1 - kept) / speeds**0.2) < 1e-7 * a).all()
-
-
 def test_both_factors_act_above_the_threshold():
     rules = rules_with(restitution_threshold=0.2, restitution_viscous=0.1, **POWER)
     assert restitution_at_speed(rules, 0.2) == 0.0
     expected = 0.5 * 0.3**-0.25 * viscous_restitution(0.1, 0.3)
     assert restitution_at_speed(rules, 0.3) == pytest.approx(expected, rel=1e-14)
-
-
-FLOORS = [
-    {},
-    {"restitution_threshold": 0.01},
-    VISCOUS,
-    {"restitution_viscous": 0.3},
-    {"restitution_threshold": 0.1, **POWER},
-    {"restitution_threshold": 0.1, "restitution_viscous": 0.1, **POWER},
-    {"restitution_viscous": 0.1, **POWER},
-]
-
-
-@pytest.mark.parametrize("floor", FLOORS)
-def test_a_geometric_chatter_outlasts_the_impacts_to_come(floor):
-    """Their speeds add up to less than v/(1 - χ), and to more than the part of it that the law leaves."""
-    rules = rules_with(**floor)
-    for first in (2.0, 0.5, 0.11):
-        speed, total, count = first, 0.0, 0
-        while speed > 1e-6 * first and count < 100_000:
-            total += speed
-            speed *= restitution_at_speed(rules, speed)
-            count += 1
-        assert count < 100_000
-        longest = first / (1 - chatter_restitution(rules, first))
-        assert total <= longest * (1 + 1e-12)
-        if floor in (VISCOUS, {}):
-            assert total > 0.8 * longest
 
 
 def test_impacts_by_the_power_law_slow_down_to_the_elastic_speed_and_never_end():

@@ -53,14 +53,35 @@ def rocks_on_edge(contact: SustainedContact, y: Array) -> bool:
         for share in (1.0, -1.0, 0.0):
             set_roll_rate(body, L_z, False, share * roll_rate, phase)
             for rim in (1.0, -1.0):
-                at_edge = restoring_acceleration(contact, rim, TRIAL, phase)
-                leaning = restoring_acceleration(contact, rim, most_lean, phase)
-                strongest = max(strongest, at_edge)
-                least_work = min(least_work, (at_edge + leaning) / 2 * most_lean)
+                weakest, mean, force = turning_back(contact, rim, most_lean, phase)
+                strongest = max(strongest, force)
+                least_work = min(least_work, mean * most_lean)
                 energy = moving + abs(n_z) * strongest
-                if not (min(at_edge, leaning) > 0 and _GROWTH * energy < least_work):
+                if not (weakest > 0 and _GROWTH * energy < least_work):
                     return False
     return least_work < np.inf
+
+
+@compiled
+def turning_back(
+    contact: SustainedContact, rim: float, most_lean: float, y: Array
+) -> tuple[float, float, float]:
+    """Return the least, the mean, from below, and the largest acceleration back from leans up to one [1/s²].
+
+    Of coins the acceleration is concave in the lean, so that the trapezoid lies below it; of rods it may be
+    convex, and what is in the middle lies below.
+
+    Args:
+        contact: the contact, at one rim.
+        rim: the lower one, see `restoring_acceleration`.
+        most_lean: the largest |n_z|.
+        y: state that is tried so, (13,).
+    """
+    at_edge = restoring_acceleration(contact, rim, TRIAL, y)
+    middle = restoring_acceleration(contact, rim, most_lean / 2, y)
+    leaning = restoring_acceleration(contact, rim, most_lean, y)
+    mean = min((at_edge + leaning) / 2, middle)
+    return min(at_edge, middle, leaning), mean, max(at_edge, middle, leaning)
 
 
 @compiled

@@ -196,7 +196,7 @@ def test_a_contact_that_no_step_is_short_enough_to_follow_has_no_solution():
     y = state_at_release(case.release)
     y[6:10], y[12] = (0.8, 0.6, 0.0, 0.0), np.inf
     friction, limits = friction_in_contact(case.rules), contact_limits(AnalyticSettings())
-    toss = Setup(case.body, case.rules, friction, limits, energy_history(NO_LOSS), False)
+    toss = Setup(case.body, case.rules, friction, limits, energy_history(NO_LOSS), False, np.zeros(2))
     with np.errstate(all="ignore"):
         passage = hold_to_event(toss, Mode.SLIDING.value, y, Spent(2.0, 0, 0))
     assert (passage.event, passage.spent) == (Event.NO_SOLUTION, Spent(2.0, 0, 0))

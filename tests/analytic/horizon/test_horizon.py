@@ -121,7 +121,7 @@ def in_units(case: Scenario, length: float, time: float, mass: float) -> Scenari
     )
     for field, value in fields_of(case).items():
         if unit := UNITS.get(field):
-            put(data, field, value * eval(unit, {}, units))  # noqa: S307
+            put(data, field, value * eval(unit, {}, units))
     return Scenario.checked(data)
 
 
