@@ -137,16 +137,11 @@ class Hand:
     @property
     def unvaried(self) -> str:
         """Why all its tosses are alike, in words; empty where something varies that turns the coin."""
-        if self.spun or self.tilt > 0:
+        if self.spun or self.tilt > 0 or (self.spin > 0 and (self.scatter > 0 or self.psi_scatter > 0)):
             return ""
-        if self.spin == 0:
-            return "no draw turns the coin: it is released flat, without spin; a tilt would"
-        still = self.scatter == self.psi_scatter == 0
-        return (
-            "no draw but the direction of the spin; a scatter or a tilt would vary the release"
-            if still
-            else ""
-        )
+        if self.spin > 0:
+            return "no draw but the direction of the spin; a scatter or a tilt would vary the release"
+        return "no draw turns the coin: it is released flat, without spin; a tilt would"
 
     def releases(self, scenario: ScenarioSource, n: int, *, seed: int = 0) -> dict[str, Any]:
         """Draw releases of a scenario's coin, as `cointoss.toss_many` takes them.

@@ -456,20 +456,19 @@ class Toss(EqualByValue):
     @property
     def trust_reason(self) -> str:
         """Why the impact after the trusted ones is not trusted, in words; empty where all are."""
-        trusted = self.trusted_impacts
-        if self.trust_end != TrustEnd.ERRORS or not (level := self._level_at(trusted)):
-            return self.trust_end.reason(trusted + 1)
-        return (
-            f"impact {trusted + 1} is {level}, where a tilt below every error chooses the point that touches"
-        )
+        number = self.trusted_impacts + 1
+        if self.trust_end == TrustEnd.ERRORS and (level := self._level_at(number - 1)):
+            return (
+                f"impact {number} is {level}, where a tilt below every error chooses the point that touches"
+            )
+        return self.trust_end.reason(number)
 
     def _level_at(self, impact: int) -> str:
         """Return whether the coin touches "flat" or "upright" at an impact, counted from 0; else ""."""
         e0, e1, e2, e3 = self.impacts.quaternion[impact]
-        upright, turned = np.hypot(e0, e3), np.hypot(e1, e2)
-        if 2 * upright * turned < FACE_SINE:
-            return "flat"
-        return "upright" if abs(upright - turned) < FACE_SINE else ""
+        kept, turned = np.hypot(e0, e3), np.hypot(e1, e2)
+        upright = "upright" if abs(kept - turned) < FACE_SINE else ""
+        return "flat" if 2 * kept * turned < FACE_SINE else upright
 
     @property
     def trust(self) -> str:

@@ -77,12 +77,11 @@ def is_held(body: Body, rolling: float, sliding: float, state: State, arm: Vecto
     if sliding > 0:
         energy += body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
     # C and A move apart by less than this for each radian of turn: nearly flat, A runs round the rim.
-    n_z, tilt_sine = abs(state.R[2][2]), math.hypot(state.R[2][0], state.R[2][1])
-    running = body.radius * max(1.0, 0.5 / max(tilt_sine, FLAT_SINE))
-    longest = 2 * (dot(arm, arm) ** 0.5 + running) * (1 + leaning)
+    running = max(1.0, 0.5 / max(math.hypot(state.R[2][0], state.R[2][1]), FLAT_SINE))
+    longest = 2 * (dot(arm, arm) ** 0.5 + body.radius * running) * (1 + leaning)
     if body.thickness > 0 and not on_line:
         # Beyond upright A is on the other rim.
-        longest = max(longest, spare / max(n_z, FLAT_SINE))
+        longest = max(longest, spare / max(abs(state.R[2][2]), FLAT_SINE))
     return energy < body.mass * body.gravity * spare * spare / (4 * longest)
 
 

@@ -37,7 +37,6 @@ from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import norm
 from cointoss.models.records import Array
 from cointoss.models.restitution import elastic_speed
-from cointoss.models.state import State
 
 STEP_ERROR = 1e-15
 """Error that one step adds to height, velocity and spin, relative to the scales of the coin: truncation and
@@ -114,7 +113,8 @@ def find_horizon(body: Body, rules: Rules, rows: ImpactRows, started: Started, m
         if started.modes[i] != Mode.FLIGHT or started.times[i + 1] != row.time:
             return Horizon(i, kept)
         duration = row.time - started.times[i]
-        carried += TOUCH_COST + _cost(body, state_of(start), duration)
+        cost = 1.0 if body.air.exponent is None else DRAG_COST
+        carried += TOUCH_COST + cost * steps_of_tangent(body, state_of(start), duration, COARSE)
         if carried > made.most_carried:
             return Horizon(i, kept)
         _write_touch(row, y)
@@ -149,19 +149,6 @@ def _write_touch(row: Any, y: Array) -> None:
     set_velocity(y, (v[0], v[1], v[2]))
     set_attitude(y, (e[0], e[1], e[2], e[3]))
     set_spin(y, (w[0], w[1], w[2]))
-
-
-@compiled
-def _cost(body: Body, start: State, duration: float) -> float:
-    """Return about how many steps the tangent map of a flight takes, each as one in linear air.
-
-    Args:
-        body: the coin.
-        start: state at the start.
-        duration: of the flight [s].
-    """
-    steps = steps_of_tangent(body, start, duration, COARSE)
-    return steps if body.air.exponent is None else DRAG_COST * steps
 
 
 @compiled

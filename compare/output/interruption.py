@@ -32,8 +32,7 @@ class Interruption(SystemExit):
         super().__init__(128 + number)
         self.status = 128 + number
         self.name = f"interrupted by {signal.Signals(number).name}"
-        reached = [said for each in stages.open if (said := each.detail())]
-        self.message = ": ".join([self.name, *reached[-1:]])
+        self.message = ": ".join([self.name, *[said for each in stages.open if (said := each.detail())][-1:]])
 
 
 @contextmanager

@@ -162,4 +162,4 @@ def test_a_toss_sets_the_time_of_mujoco_and_says_it_to_those_who_wait(monkeypatc
     monkeypatch.setattr(sys.modules["cointoss.coin_mj.toss"], "toss_coin", told_after)
     end_time = run(machine, described.rules).end_time
     assert machine.data.time == end_time > 0
-    assert told == [f"{end_time:.3g} s of the coin's time"]
+    assert told == [f"3 impacts in {end_time:.3g} s of the coin's time"]

@@ -77,9 +77,11 @@ def turning_back(
         most_lean: the largest |n_z|.
         y: state that is tried so, (13,).
     """
-    at_edge = restoring_acceleration(contact, rim, TRIAL, y)
-    middle = restoring_acceleration(contact, rim, most_lean / 2, y)
-    leaning = restoring_acceleration(contact, rim, most_lean, y)
+    at_edge, middle, leaning = (
+        restoring_acceleration(contact, rim, TRIAL, y),
+        restoring_acceleration(contact, rim, most_lean / 2, y),
+        restoring_acceleration(contact, rim, most_lean, y),
+    )
     mean = min((at_edge + leaning) / 2, middle)
     return min(at_edge, middle, leaning), mean, max(at_edge, middle, leaning)
 

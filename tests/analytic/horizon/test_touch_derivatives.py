@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from cointoss.analytic.flight.state_vector import attitude_of, normalise
-from cointoss.analytic.horizon.touch_derivatives import step_size, touch_derivatives, touch_differences
+from cointoss.analytic.flight.state_vector import attitude_of
+from cointoss.analytic.horizon.touch_derivatives import touch_derivatives, touch_differences
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.laws import ContactLaw, RestitutionKind
 from cointoss.models.scenario import Scenario
@@ -122,23 +122,6 @@ def test_differences_are_of_the_second_order_and_the_step_chosen_is_short_enough
     chosen = np.vstack([touch.gap, touch.up, touch.contact_velocity, touch.impulse, touch.after])
     errors = [np.linalg.norm(differences(part) - chosen) for part in (4e-3, 2e-3, 1e-3)]
     assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx([2, 2], abs=0.1)
-
-
-def test_near_a_kink_the_step_is_shorter_but_never_as_short_as_rounding():
-    frictionless, rough = on_floor({}), on_floor({"contact": "coulomb", "friction": 0.2})
-
-    def step(case: Scenario, y: np.ndarray, v_A: tuple[float, float, float]) -> float:
-        normalise(y)
-        return step_size(case.body, case.rules, y, v_A)
-
-    usual = (0.5, 0.5, -1.0)
-    assert step(rough, tilted(0.7, 5.0, [0, 0, -1]), usual) == 1e-5
-    assert step(frictionless, tilted(1e-6, 5.0, [0, 0, -1]), usual) == pytest.approx(1e-8)
-    assert step(frictionless, tilted(np.pi / 2 - 1e-6, 5.0, [0, 0, -1]), usual) == pytest.approx(1e-8)
-    assert step(frictionless, tilted(0.7, 5.0, [0, 0, -1]), (1e-9, 0.0, -1e-9)) == 1e-5
-    for slow in ((1e-6, 0.0, -1.0), (0.5, 0.5, -1e-6)):
-        assert 1e-11 < step(rough, tilted(0.7, 5.0, [0, 0, -1]), slow) < 1e-8
-    assert step(rough, tilted(0.7, 5.0, [0, 0, -1]), (1e-13, 0.0, -1e-9)) == 1e-11
 
 
 @pytest.mark.parametrize("floor", LAWS[::3])
