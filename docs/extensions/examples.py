@@ -13,13 +13,11 @@ import tempfile
 import tomllib
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from contextlib import redirect_stdout
-from io import StringIO
 from pathlib import Path
 from traceback import format_exc
 from typing import Any
 
-from tests.helpers.pages import PAGES, TOP, Block, blocks, commands, is_synopsis, not_answered
+from tests.helpers.pages import PAGES, TOP, Block, blocks, commands, is_synopsis, not_answered, printed_by
 
 NOT_RUN = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))["not_run"]
 """Patterns of what is not run, by the reason."""
@@ -49,31 +47,28 @@ def examples(block: Block) -> list[str]:
     return [block.text] if block.language == "python" else called
 
 
-def run_command(block: Block, command: str) -> str | None:
-    """Run a command in the shell; return what is wrong with it."""
+def run_command(command: str) -> str:
+    """Run a command in the shell; return its answer."""
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    here = os.environ | {"PATH": path}
     ran = subprocess.run(
         ["timeout", HANGS, "bash", "-c", command],
-        env=here,
+        env=os.environ | {"PATH": path},
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,
     )
     if ran.returncode > bool(ANSWERS.match(command)) or "Traceback" in ran.stderr:
-        return f"exit status {ran.returncode}: {ran.stderr.strip()[-400:]}"
-    missing = not_answered(block.text, command, ran.stdout)
-    return f"its answer has no line {missing[0]!r}" if missing else None
+        raise ChildProcessError(f"exit status {ran.returncode}: {ran.stderr.strip()[-400:]}")
+    return ran.stdout
 
 
-def run_python(code: str, names: dict[str, Any]) -> str | None:
-    """Run Python with the names of the blocks above; return what is wrong with it."""
+def fault(block: Block, code: str, names: dict[str, Any]) -> str:
+    """Run a command, or Python with the names of the blocks above; return what is wrong, or nothing."""
     try:
-        with redirect_stdout(StringIO()):
-            exec(compile(code, "page", "exec"), names)
+        answer = printed_by(code, names) if block.language == "python" else run_command(code)
     except (Exception, SystemExit):
         return format_exc(limit=-2).strip()
-    return None
+    return "\n".join(not_answered(block, code, answer))
 
 
 def run_page(page: Path) -> Iterator[str]:
@@ -84,19 +79,18 @@ def run_page(page: Path) -> Iterator[str]:
         if block.file:
             Path(block.file).write_text(f"{block.text}\n", encoding="utf-8")
         for code in examples(block):
-            shown = (
+            told = (
                 code if code.startswith("cointoss ") else f"the Python that begins {code.splitlines()[0]!r}"
             )
             if why := reason(page, code):
-                yield f"not run, {why}: {shown}"
+                yield f"not run, {why}: {told}"
                 continue
             before, count = sum(os.times()[:4]), count + 1
-            is_python = block.language == "python"
-            if wrong := run_python(code, names) if is_python else run_command(block, code):
-                yield f"FAILED: {shown}\n    {wrong}"
+            if wrong := fault(block, code, names):
+                yield f"FAILED: {told}\n    {wrong}"
             spent = sum(os.times()[:4]) - before
             if spent > LONG and not LASTING.search(f"{block.above} {block.text} {block.below}"):
-                yield f"takes {spent:.0f} s of processor time, which the page doesn't say: {shown}"
+                yield f"takes {spent:.0f} s of processor time, which the page doesn't say: {told}"
     if count:
         yield f"examples: {count}, {sum(os.times()[:4]):.0f} s of processor time"
 

@@ -1,9 +1,12 @@
 """README and the pages of docs/: their blocks of code, commands, and the answers that they show."""
 
 import re
-from dataclasses import dataclass
-from math import isclose
+from contextlib import redirect_stdout
+from dataclasses import dataclass, replace
+from difflib import ndiff
+from io import StringIO
 from pathlib import Path
+from typing import Any
 
 TOP = Path(__file__).parents[2]
 DOCS = TOP / "docs"
@@ -20,12 +23,16 @@ SAVED = re.compile(r"\b[Ss]ave\b[^.:]*\bas `([\w-]+\.\w+)`[^`]*\Z")
 
 @dataclass(frozen=True)
 class Block:
-    """A block of code on a page: its language where a fence names one, its text, the paragraphs around."""
+    """A block of code on a page: its language where a fence names one, its text, the paragraphs around.
+
+    Of Python, `answer` is the block of output below it.
+    """
 
     language: str
     text: str
     above: str
     below: str
+    answer: str = ""
 
     @property
     def file(self) -> str | None:
@@ -53,7 +60,11 @@ def blocks(page: Path) -> list[Block]:
             continue
         above = "\n".join(lines[:start]).rstrip().rpartition("\n\n")[2]
         below = "\n".join(lines[end:]).lstrip().partition("\n\n")[0]
-        found.append(Block(language, "\n".join(code), above, below))
+        if language == "text":
+            last = max(number for number, block in enumerate(found) if block.language == "python")
+            found[last] = replace(found[last], answer="\n".join(code))
+        else:
+            found.append(Block(language, "\n".join(code), above, below))
         start = end
     return found
 
@@ -74,38 +85,29 @@ def is_synopsis(command: str) -> bool:
     return PLACEHOLDER.search(command) is not None
 
 
-def shown_below(block: str, command: str) -> list[str]:
-    """Return what a block shows of the answer to its only command."""
-    if len(commands(block)) > 1:
+def printed_by(code: str, names: dict[str, Any]) -> str:
+    """Run Python with the names of the blocks above; return what it prints."""
+    with redirect_stdout(StringIO()) as told:
+        exec(compile(code, "page", "exec"), names)
+    return told.getvalue()
+
+
+def shown(block: Block, code: str) -> list[str]:
+    """Return what a block shows of the answer to its only command, or of what its Python prints."""
+    if block.language == "python":
+        return ANSWERED.findall(code) + block.answer.splitlines()
+    if len(commands(block.text)) > 1:
         return []
-    lines = joined(block).partition(command)[2].splitlines()[1:]
+    lines = joined(block.text).partition(code)[2].splitlines()[1:]
     return [line for line in lines if line.strip() and not line.strip().startswith(("...", "…", "#"))]
 
 
-def not_answered(block: str, command: str, stdout: str) -> list[str]:
-    """Return the lines that a block shows and the answer has not, numbers to a part in a thousand or 1e-9."""
-    answer = [_words(line) for line in stdout.splitlines()]
-    shown = shown_below(block, command)
-    return [line for line in shown if not any(_is_same(_words(line), given) for given in answer)]
+def not_answered(block: Block, code: str, stdout: str) -> list[str]:
+    """Return where what a block shows departs from the answer: "- " a line shown, "+ " one printed.
 
-
-def not_printed(code: str, stdout: str) -> list[str]:
-    """Return the comments behind a `print` in a block of Python that were not printed."""
-    printed = [_words(line) for line in stdout.splitlines()]
-    return [line for line in ANSWERED.findall(code) if _words(line) not in printed]
-
-
-def _words(line: str) -> list[str]:
-    return line.replace(",", "").split()
-
-
-def _is_same(shown: list[str], given: list[str]) -> bool:
-    return len(shown) == len(given) and all(
-        a == b
-        or (_is_number(a) and _is_number(b) and isclose(float(a), float(b), rel_tol=1e-3, abs_tol=1e-9))
-        for a, b in zip(shown, given, strict=True)
-    )
-
-
-def _is_number(text: str) -> bool:
-    return re.fullmatch(r"[-+]?\d+(\.\d*)?(e[-+]?\d+)?", text) is not None
+    Of a command's answer a page may show some lines, of what Python prints all or nothing.
+    """
+    lines = shown(block, code)
+    compared = ndiff([line.rstrip() for line in lines], [line.rstrip() for line in stdout.splitlines()])
+    departs = "-+" if block.language == "python" else "-"
+    return [line for line in compared if lines and line[0] in departs]

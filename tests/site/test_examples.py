@@ -23,12 +23,12 @@ Save the coin as `coin.toml`:
 ```python
 from pathlib import Path
 
-assert "coin" in Path("{file}").read_text(encoding="utf-8")
+print("coin" in Path("{file}").read_text(encoding="utf-8"))  # {answer}
 ```
 
     cointoss lab
 """
-RIGHT = {"line": "engine    analytic", "file": "coin.toml"}
+RIGHT = {"line": "engine    analytic", "file": "coin.toml", "answer": "True"}
 
 
 def said_of(folder, monkeypatch, **changed):
@@ -48,7 +48,8 @@ def test_the_examples_of_a_page_run_but_those_on_the_list(tmp_path, monkeypatch)
 @pytest.mark.parametrize(
     ("changed", "problem"),
     [
-        ({"line": "engine    mujoco"}, "its answer has no line 'engine    mujoco'"),
+        ({"line": "engine    mujoco"}, "- engine    mujoco"),
+        ({"answer": "False"}, "- False\n+ True"),
         ({"file": "page.toml"}, "No such file or directory: 'page.toml'"),
         (
             {"line": "engine    analytic\n\n    cointoss toss fig24a > gone/a.txt"},
