@@ -132,6 +132,7 @@ wheels: $(VENV)/.ready-slow engines
 # otherwise than known is printed, and is no reason to stop.
 results: $(VENV)/.ready-docs opengl engines
 	-$(BIN)/cointoss reproduce $(notdir $(wildcard docs/reproduction/*)) --out docs
+	TQDM_DISABLE=1 $(BIN)/jupyter execute --inplace docs/examples/*.ipynb
 	$(BIN)/python docs/extensions/written.py
 
 # The exact versions installed here, with which the numbers of the pages can be made again.

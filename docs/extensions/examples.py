@@ -35,10 +35,8 @@ LASTING = re.compile(
 
 def reason(page: Path, code: str) -> str | None:
     """Return why an example is not run."""
-    for why, patterns in NOT_RUN.items():
-        if any(re.search(pattern, f"{page.name}: {code}") for pattern in patterns):
-            return why
-    return None
+    said = ((why, pattern) for why, patterns in NOT_RUN.items() for pattern in patterns)
+    return next((why for why, pattern in said if re.search(pattern, f"{page.name}: {code}")), None)
 
 
 def examples(block: Block) -> list[str]:
@@ -49,10 +47,9 @@ def examples(block: Block) -> list[str]:
 
 def run_command(command: str) -> str:
     """Run a command in the shell; return its answer."""
-    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     ran = subprocess.run(
         ["timeout", HANGS, "bash", "-c", command],
-        env=os.environ | {"PATH": path},
+        env=os.environ | {"PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"},
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,

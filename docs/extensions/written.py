@@ -9,6 +9,7 @@ import nbformat
 import others
 import pictures
 from myst_nb.core.read import read_myst_markdown_notebook
+from myst_nb.core.utils import coalesce_streams
 
 from cointoss.study import table, write_text, written_together
 from cointoss_reproduction.frame import gallery, pages, runner
@@ -16,6 +17,8 @@ from cointoss_reproduction.frame.claim import to_json
 from cointoss_reproduction.frame.files import PAGE, SHEETS, folder_of
 
 DOCS = Path(__file__).parents[1]
+SHOWN = ("text/plain", "image/png")
+"""Kinds of data that notebooks are kept with: an interactive page would add megabytes."""
 
 
 def write_blocks(folder: Path, blocks: Mapping[str, str]) -> None:
@@ -48,13 +51,22 @@ def figures() -> str:
     return table([" "] * 3, zip(*[iter(cells)] * 3, strict=True), words=True)
 
 
-def notebook_of(page: Path) -> str:
-    """Return a page with cells of code as a notebook for Jupyter, without what its cells show."""
+def notebook_of(page: Path) -> nbformat.NotebookNode:
+    """Return a page with cells of code as a notebook for Jupyter, with what its cells showed when run."""
     notebook = read_myst_markdown_notebook(page.read_text(encoding="utf-8"), path=page)
     del notebook.metadata["jupytext"]
+    ran = {cell.source: cell for cell in nbformat.read(page.with_suffix(".ipynb"), as_version=4).cells}
     for number, cell in enumerate(notebook.cells):
         cell.id = f"cell-{number}"
-    return nbformat.writes(notebook) + "\n"
+        if cell.cell_type == "code":
+            cell.outputs = coalesce_streams([shown(one) for one in ran.get(cell.source, cell).outputs])
+    return notebook
+
+
+def shown(output: nbformat.NotebookNode) -> nbformat.NotebookNode:
+    """Return what a cell shows without data of other kinds than `SHOWN`."""
+    data = {kind: data for kind, data in output.get("data", {}).items() if kind in SHOWN}
+    return nbformat.from_dict(output | {"data": data}) if "data" in output else output
 
 
 def write(docs: Path) -> None:
@@ -67,7 +79,7 @@ def write(docs: Path) -> None:
     (docs / "house.svg").write_text(pictures.house(), encoding="utf-8")
     (docs / "automaton.svg").write_text(pictures.automaton(), encoding="utf-8")
     for page in (docs / "examples").glob("*.md"):
-        page.with_suffix(".ipynb").write_text(notebook_of(page), encoding="utf-8")
+        nbformat.write(notebook_of(page), page.with_suffix(".ipynb"))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """README and the pages of docs/: their blocks of code, commands, and the answers that they show."""
 
 import re
+from collections.abc import Iterable
 from contextlib import redirect_stdout
 from dataclasses import dataclass, replace
 from difflib import ndiff
@@ -103,11 +104,16 @@ def shown(block: Block, code: str) -> list[str]:
 
 
 def not_answered(block: Block, code: str, stdout: str) -> list[str]:
-    """Return where what a block shows departs from the answer: "- " a line shown, "+ " one printed.
+    """Return the `departures` of what a block shows from the answer.
 
     Of a command's answer a page may show some lines, of what Python prints all or nothing.
     """
     lines = shown(block, code)
-    compared = ndiff([line.rstrip() for line in lines], [line.rstrip() for line in stdout.splitlines()])
     departs = "-+" if block.language == "python" else "-"
-    return [line for line in compared if lines and line[0] in departs]
+    return [line for line in departures(lines, stdout) if lines and line[0] in departs]
+
+
+def departures(lines: Iterable[str], answer: str) -> list[str]:
+    """Return where lines depart from an answer: "- " a line that it has not, "+ " one that is not shown."""
+    compared = ndiff([line.rstrip() for line in lines], [line.rstrip() for line in answer.splitlines()])
+    return [line for line in compared if line[0] in "-+"]

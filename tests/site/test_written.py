@@ -2,15 +2,18 @@
 
 import re
 import sys
+from copy import deepcopy
 from importlib import import_module
-from pathlib import Path
 
+import nbformat
 import pytest
+from jupyter_cache import get_cache
 
-DOCS = Path(__file__).parents[2] / "docs"
-PAGES = sorted((DOCS / "examples").glob("*.md"))
+from tests.helpers.pages import DOCS, departures
+
 sys.path.append(str(DOCS / "extensions"))
 written = import_module("written")
+PAGES = sorted((DOCS / "examples").glob("*.md"))
 
 
 def test_every_block_that_is_written_is_included_by_one_page(tmp_path):
@@ -24,10 +27,30 @@ def test_every_block_that_is_written_is_included_by_one_page(tmp_path):
     assert (tmp_path / "made" / "ports.md").read_text(encoding="utf-8") == "b\n"
 
 
+def told(notebook):
+    """Return the texts that a notebook's cells show."""
+    shown = [output for cell in notebook.cells for output in cell.get("outputs", ())]
+    return "".join(output.get("text") or output.data["text/plain"] + "\n" for output in shown)
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
-def test_a_notebook_is_that_of_its_page(page):
-    """`make pages` writes it."""
-    assert page.with_suffix(".ipynb").read_text(encoding="utf-8") == written.notebook_of(page)
+def test_a_notebook_is_that_of_its_page_with_what_its_cells_show(page):
+    """`make pages` writes the one, `make results` the other; `make docs` has run it for the site."""
+    kept = nbformat.read(page.with_suffix(".ipynb"), as_version=4)
+    assert kept == written.notebook_of(page)
+    _, ran = get_cache(DOCS.parent / "out" / "docs" / "notebooks").merge_match_into_notebook(kept)
+    assert departures(told(kept).splitlines(), told(ran)) == []
+
+
+def test_a_notebook_keeps_texts_and_pictures_of_cells_that_did_not_change(tmp_path):
+    page, text = tmp_path / "page.md", PAGES[0].read_text(encoding="utf-8")
+    page.write_text(text.replace("\ntoss.play()\n", "\nprint(1)\n"), encoding="utf-8")
+    kept = nbformat.read(PAGES[0].with_suffix(".ipynb"), as_version=4)
+    ran = deepcopy(kept)
+    ran.cells[2].outputs[0].data["text/html"] = "<b>a page</b>"
+    nbformat.write(ran, page.with_suffix(".ipynb"))
+    lost = [cell for cell in written.notebook_of(page).cells if cell not in kept.cells]
+    assert [(cell.source, cell.outputs) for cell in lost] == [("print(1)", [])]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
