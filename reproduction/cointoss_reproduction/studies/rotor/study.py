@@ -156,13 +156,23 @@ def paired(scenario: Scenario, rows: Callable[[float], Array], tosses: int) -> I
 
 
 def found(cells: pd.DataFrame) -> dict[str, Any]:
-    """Return the predictions over what `predictability` has counted at `COMPARED`, and whether it has."""
-    rows = cells.query(f"accuracy == {COMPARED} and chi >= {LEAST}").to_dict("records")
-    ratios = {f"{row['floor']}, {row['chi']:g}": estimate(row, "ratio") for row in rows}
-    met = {name: ratio for name, ratio in ratios.items() if isinstance(ratio, Estimate)}
-    values = [ratio.value for ratio in met.values()]
-    told = f"from {min(values):.2f} to {max(values):.2f}" if met else "-"
-    return {"of_planar": met, "range": told, "uncounted": "" if met else UNCOUNTED}
+    """Return the predictions over what `predictability` has counted, and whether it has."""
+    planar, finest = (ratios(cells, accuracy) for accuracy in (COMPARED, ACCURACIES[-1]))
+    values = [ratio.value for ratio in planar.values()]
+    return {
+        "of_planar": planar,
+        "of_finest": finest,
+        "range": f"from {min(values):.2f} to {max(values):.2f}" if values else "-",
+        "uncounted": "" if planar else UNCOUNTED,
+        "unreached": "" if finest else UNCOUNTED,
+    }
+
+
+def ratios(cells: pd.DataFrame, accuracy: float) -> dict[str, Estimate]:
+    """Return what is predicted over what was counted at an accuracy [m], by floor and restitution."""
+    rows = cells.query(f"accuracy == {accuracy} and chi >= {LEAST}").to_dict("records")
+    each = {f"{row['floor']}, {row['chi']:g}": estimate(row, "ratio") for row in rows}
+    return {name: ratio for name, ratio in each.items() if isinstance(ratio, Estimate)}
 
 
 CASES = {"floor": tuple(CHIS), "chi": CHIS[SMOOTH][1:]}
