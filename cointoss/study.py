@@ -129,6 +129,7 @@ if TYPE_CHECKING:
     from cointoss.models.answers import Answers as Answers
     from cointoss.models.attitude import quaternion_from_angles as quaternion_from_angles
     from cointoss.models.attitude import rotation_matrix as rotation_matrix
+    from cointoss.models.barriers import energy as energy
     from cointoss.models.barriers import highest_on_floor as highest_on_floor
     from cointoss.models.batch import PLACE as PLACE
     from cointoss.models.batch import rows_from_states as rows_from_states
@@ -151,6 +152,7 @@ if TYPE_CHECKING:
     from cointoss.models.geometry import lowest_point as lowest_point
     from cointoss.models.kernel.compiled import by_numba as by_numba
     from cointoss.models.kernel.digests import code_digest as code_digest
+    from cointoss.models.making import AT_REST as AT_REST
     from cointoss.models.parts import RESISTANCES as RESISTANCES
     from cointoss.models.processor import Processor as Processor
     from cointoss.models.processor import usual as usual

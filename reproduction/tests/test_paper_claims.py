@@ -204,18 +204,27 @@ def test_a_face_named_in_sustained_contact_is_left_there(rough, start, test, com
     assert not stop_test.turns_over(body, rules, release, stopped.outcome, times[0], times[0] + 1e-3)
 
 
+def test_coins_that_stand_on_their_edge_come_below_m_g_r():
+    """Where they are at rest C lies below B, and so lower than r."""
+    found = stop_test.unasked(False, others=80)
+    assert found == {"of": 80, "standing": 4, "below": 4}
+
+
 def test_a_face_that_is_never_left_or_always_would_be_seen():
-    def missed_where(**counts):
+    def missed_where(*, below=0, **counts):
         tests = [
             {"test": name, "named": 900, "edges": 0, "tosses": 100_000}
             for name, _ in stop_test.TESTS.values()
         ]
         cells = Cells(lambda **_: [test | counts for test in tests], stop_test.AXES)
-        return [claim.partition(" ")[0] for claim in missed("stop-test", table_of([cells], unseen, {}))]
+        stand = Cells(lambda **_: {"of": 100_000, "standing": 900, "below": below}, {"floor": ["smooth"]})
+        table = table_of([cells, stand], unseen, {})
+        return [claim.partition(" ")[0] for claim in missed("stop-test", table)]
 
-    assert missed_where(left=0, maybe=0) == ["E", "eq."]
-    assert len(missed_where(left=450, maybe=450)) == 4
-    assert len(missed_where(left=0, maybe=450)) == 6, "nothing is known where so much is open"
+    assert missed_where(left=0, maybe=0) == ["E", "eq.", "E"]
+    assert missed_where(left=0, maybe=0, below=900) == ["E", "eq."]
+    assert len(missed_where(left=450, maybe=450, below=900)) == 4
+    assert len(missed_where(left=0, maybe=450, below=900)) == 6, "nothing is known where so much is open"
 
 
 def general_coin(*, thick):

@@ -9,12 +9,14 @@ import numpy as np
 from cointoss import Ending, Outcome
 from cointoss.analytic import AnalyticSettings, toss_rows
 from cointoss.study import (
+    AT_REST,
     Array,
     Body,
     FloorFriction,
     Mode,
     Pieces,
     Rules,
+    energy,
     rows_from_states,
     run,
 )
@@ -78,6 +80,28 @@ def stopped(
         }
 
 
+def unasked(floor: bool, others: int = 8_000) -> dict[str, int]:
+    """Return how many thick imperfect coins in air end on the edge, and come below m g r there.
+
+    E < m g r has not named their face, and is not asked while a coin stands on both rims. They are followed
+    until they are at rest.
+    """
+    kind = CoinClass(thick=True, imperfect=True, air=True, coulomb=floor)
+    starts, body, rules = kind.starts(others), kind.scenario.body, kind.scenario.rules
+    stopped, whole = (
+        toss_rows(rows_from_states(kind.scenario.replace("ending.test", test), starts), settings=SETTINGS)
+        for test in ("paper", "rigorous")
+    )
+    standing = starts[(whole.outcome == Outcome.EDGE) & (stopped.ending != Ending.PAPER)]
+    later = (run(body, rules, start, SETTINGS, AT_REST).later for start in standing)
+    ends = [path.states[-1] for path in later if path.modes[-2] == Mode.UPRIGHT]
+    below = sum(
+        energy(body, y[2], tuple(y[3:6]), tuple(y[10:])) < body.mass * body.gravity * body.radius
+        for y in ends
+    )
+    return {"of": others, "standing": len(standing), "below": below}
+
+
 def turns_over(body: Body, rules: Rules, start: Array, named: int, time: float, until: float) -> bool:
     """Return whether a toss shows another face than the named one on the floor between two times [s].
 
@@ -101,4 +125,4 @@ def turns_over(body: Body, rules: Rules, start: Array, named: int, time: float, 
     return bool(np.any(SIGNS[named] * normals[:, 2] < 0))
 
 
-REPRODUCTION = study(__name__, Cells(stopped, AXES))
+REPRODUCTION = study(__name__, Cells(stopped, AXES), Cells(unasked, {"floor": AXES["floor"]}))
