@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from yaml import safe_load
 
-from cointoss.compare.sweep import form
+from cointoss.compare.sweep import chunks
 from cointoss.models import reading
 
 TOP = Path(__file__).parents[1]
@@ -59,6 +59,6 @@ def test_the_name_of_the_index_and_the_python_are_in_codemeta():
 
 def test_support_has_the_numbers_of_the_files_that_are_kept():
     page = (TOP / "docs" / "SUPPORT.md").read_text(encoding="utf-8")
-    assert f"the attribute `cointoss_map`, now {form.FORMAT} |" in page
-    assert f"the attribute `cointoss_tosses`, now {form.TOSSES_FORMAT} |" in page
+    assert f"the attribute `cointoss_map`, now {chunks.FORMAT} |" in page
+    assert f"the attribute `cointoss_tosses`, now {chunks.TOSSES_FORMAT} |" in page
     assert f"the field `format`, now {reading.FORMAT}; without it, 1 |" in page

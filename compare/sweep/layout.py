@@ -7,11 +7,16 @@ from typing import Any, NamedTuple
 from numpy.typing import NDArray
 
 from cointoss.compare.sweep.batch import Batch, attributes_of
-from cointoss.compare.sweep.form import FORMAT, MARGIN_ALONG, TOSSES_FORMAT, TRUST
+from cointoss.compare.sweep.chunks import FORMAT, TOSSES_FORMAT
 from cointoss.compare.sweep.grid import MOST_TILES, Sweep, tile_shape, tosses_in_tile
 from cointoss.compare.sweep.layers import axis_attributes, layers_of
 from cointoss.compare.sweep.pieces import How
 from cointoss.models.answers import COLUMNS, AnswerColumn
+
+MARGIN_ALONG = "margin_along"
+"""Attribute of a map with margins: their quantity."""
+TRUST = "trust"
+"""Attribute of a map that says which of its pixels can be trusted: true."""
 
 
 class Coordinate(NamedTuple):

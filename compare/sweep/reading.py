@@ -1,6 +1,8 @@
 """Read a map from disk: what it is of, and the pixels that are tossed."""
 
-from collections.abc import Iterable, Mapping
+import json
+from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -9,16 +11,13 @@ from numpy.typing import NDArray
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.film.back_end import BackEndError, require_mujoco
-from cointoss.compare.sweep.axes import Axis, unit_of
+from cointoss.compare.sweep.axes import NUMBERS
+from cointoss.compare.sweep.chunks import FORMAT, DamagedError
 from cointoss.compare.sweep.errors import MapError, SweepError, is_whole
-from cointoss.compare.sweep.form import MARGIN_ALONG, TRUST, FormError, MapGrid, read_form
-from cointoss.compare.sweep.grid import Sweep, tiles
-from cointoss.compare.sweep.layers import LAYERS, NOT_TOSSED, REFUSED, layers_of
+from cointoss.compare.sweep.layers import LAYERS, layers_of
 from cointoss.compare.sweep.store import Store
-from cointoss.compare.sweep.tossed_map import TossedMap, settings_of, stride_of
+from cointoss.compare.sweep.tossed_map import TossedMap, map_of, stride_of
 from cointoss.models.errors import ScenarioError, shown
-from cointoss.models.reading import parse
-from cointoss.models.scenario import Scenario
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,9 +25,17 @@ if TYPE_CHECKING:
 MOST_READ = 50_000_000
 """The most pixels of a map that is read."""
 MOST_NAME = 255
-"""The most characters of a scenario's name, as of a file's."""
+"""The most characters of a scenario's name, as of a file's, and of what is said of a store that is no map."""
 MOST_TILES = 1_000_000
 """The most tiles of a map that is read."""
+_ATTRIBUTES = {
+    "cointoss_map": int,
+    "scenario": str,
+    "engine": str,
+    "engine_settings": dict,
+    "after": int | None,
+    "versions": dict,
+}
 _ACCEPTED = "accepted: a map that cointoss basin made"
 
 
@@ -61,75 +68,83 @@ def tossed_map_at(path: str | Path, *, most: int = MOST_READ) -> TossedMap:
     if not path.is_dir():
         raise MapError(f"{path}: {'is no' if path.exists() else 'no such'} folder; {_ACCEPTED}")
     try:
-        form = read_form(path, 2)
-        if (grid := form.grid) is None:
-            raise FormError("attribute cointoss_map missing")
-        map_ = Store.at(path, "r")
-        sweep = _sweep(path, form.attributes, grid, map_)
-        layers = layers_of(sweep)
-    except (ScenarioError, BackEndError):
+        store = Store.at(path, "r")
+        _require_map(store.attributes)
+        _require_size(path, store)
+        read = map_of(_dataset(path, store, stride_of(store.shape, most)))
+        if lacking := layers_of(read.sweep).keys() - read.layers.keys():
+            raise DamagedError(f"array {min(lacking)} missing")
+        return replace(read, name=path.name)
+    except (MapError, BackEndError):
         raise
+    except ScenarioError as error:
+        raise ScenarioError(f"{path}: {error}") from None
     except Exception as error:  # zarr raises errors of any kind
-        raise MapError(f"{path}: is no map of cointoss ({error}); {_ACCEPTED}") from None
-    ny, nx = grid.shape
+        raise MapError(f"{path}: is no map of cointoss ({_line(error)}); {_ACCEPTED}") from None
+
+
+def _require_map(attributes: Mapping[str, Any]) -> None:
+    """Refuse the attributes of a store that is no map of this format, or of an engine that is not there."""
+    for name, kind in _ATTRIBUTES.items():
+        if not isinstance(attributes.get(name), kind):
+            raise DamagedError(f"attribute {name} = {shown(attributes.get(name))}")
+    if attributes["cointoss_map"] != FORMAT:
+        raise DamagedError(f"attribute cointoss_map = {attributes['cointoss_map']}, not {FORMAT}")
+    name = attributes.get("name", "")
+    if not (isinstance(name, str) and len(name) <= MOST_NAME):
+        raise DamagedError(f"name = {shown(name)}")
+    require_mujoco(Engine(attributes["engine"]))
+
+
+def _require_size(path: Path, store: Store) -> None:
+    ny, nx = store.shape
     if ny * nx > MOST_READ:
         few = f"accepted: a map of at most {MOST_READ:g} pixels"
         raise MapError(f"{path}: has {nx} by {ny} pixels; {few}")
-    if -(-ny // grid.tile[0]) * -(-nx // grid.tile[1]) > MOST_TILES:
+    tile = store.arrays["outcome"].chunks
+    if -(-ny // tile[0]) * -(-nx // tile[1]) > MOST_TILES:
         few = f"accepted: a map of at most {MOST_TILES:g} tiles"
-        raise MapError(f"{path}: has tiles of {grid.tile[1]} by {grid.tile[0]} pixels; {few}")
-    stride = stride_of(grid.shape, most)
-    return TossedMap(name=path.name, sweep=sweep, stride=stride, layers=_read(map_, grid, layers, stride))
+        raise MapError(f"{path}: has tiles of {tile[1]} by {tile[0]} pixels; {few}")
 
 
-def _sweep(path: Path, attributes: Mapping[str, Any], grid: MapGrid, map_: Store) -> Sweep:
-    scenario = parse(attributes["scenario"], f"{path}: attribute scenario")
-    engine = Engine(attributes["engine"])
-    require_mujoco(engine)
-    after = attributes["after"]
-    if not (after is None or (is_whole(after) and after >= 0)):
-        raise ValueError(f"after = {shown(after)}")
-    name = attributes.get("name", "")
-    if not (isinstance(name, str) and len(name) <= MOST_NAME):
-        raise ValueError(f"name = {shown(name)}")
-    return Sweep(
-        scenario=scenario,
-        engine=engine,
-        x=_axis(grid.x, map_, scenario),
-        y=_axis(grid.y, map_, scenario),
-        settings=settings_of(engine, attributes["engine_settings"]),
-        after=after,
-        margin=attributes.get(MARGIN_ALONG),
-        trust=TRUST in attributes,
-        name=name,
-    )
+def _dataset(path: Path, store: Store, stride: int) -> "xr.Dataset":
+    """Return every n-th pixel of a map along both axes, with its coordinates and what it says of itself."""
+    import xarray
+
+    dims = {name: array.metadata.dimension_names for name, array in store.arrays.items()}
+    axes = {name: store.whole(name) for name in store.arrays if name in NUMBERS}
+    ends = [
+        [axis[0], axis[-1], len(axis)]
+        for dim in dims["outcome"]
+        for name, axis in axes.items()
+        if dims[name] == (dim,)
+    ]
+    coordinates = {name: (dims[name], axis[::stride]) for name, axis in axes.items()}
+    layers = {name: (dims["outcome"], array) for name, array in _layers(path, store, stride).items()}
+    about = {**store.attributes, "stride": stride, "axes": json.dumps(ends)}
+    return xarray.Dataset(layers, coordinates, about)
 
 
-def _axis(field: str, map_: Store, scenario: Scenario) -> Axis:
-    values = map_.whole(field)
-    axis = Axis(
-        field=field,
-        unit=unit_of(field, scenario),
-        start=float(values[0]),
-        stop=float(values[-1]),
-        count=len(values),
-    )
-    if not np.array_equal(axis.values, values):
-        raise ValueError(f"values of {field} that are not evenly spaced")
-    return axis
-
-
-def _read(map_: Store, grid: MapGrid, names: Iterable[str], stride: int) -> dict[str, NDArray[Any]]:
-    ny, nx = (-(-count // stride) for count in grid.shape)
-    arrays = {name: np.full((ny, nx), LAYERS[name].missing, LAYERS[name].kind) for name in names}
-    for tile in tiles(grid.shape, grid.tile):
-        tossed = map_.tossed(tile)
-        if not tossed.any():
-            continue
+def _layers(path: Path, store: Store, stride: int) -> dict[str, NDArray[Any]]:
+    shape = [-(-count // stride) for count in store.shape]
+    arrays = {name: np.full(shape, LAYERS[name].missing, LAYERS[name].kind) for name in store.layers}
+    for tile in store.tiles:
+        try:
+            if not (tossed := store.tossed(tile)).any():
+                continue
+            found = {name: store.read(tile, name) for name in arrays}
+        except DamagedError as error:
+            raise MapError(
+                f"{path}: a file is damaged ({_line(error)}); accepted: a whole map "
+                "(cointoss basin --resume tosses again what is damaged)"
+            ) from None
         kept = tuple(slice(-(-part.start // stride), -(-part.stop // stride)) for part in tile)
         first = tuple(slice(-part.start % stride, None, stride) for part in tile)
         for name, array in arrays.items():
-            array[kept] = np.where(tossed, map_.read(tile, name), LAYERS[name].missing)[first]
-    # No map has a pixel that is no scenario.
-    arrays["outcome"][arrays["outcome"] == REFUSED] = NOT_TOSSED
+            array[kept] = np.where(tossed, found[name], LAYERS[name].missing)[first]
     return arrays
+
+
+def _line(error: Exception) -> str:
+    """Return the beginning of what an error says, in one line."""
+    return " ".join(str(error).split())[:MOST_NAME]

@@ -4,10 +4,9 @@ import json
 import math
 import os
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
-from functools import cache, cached_property
 from itertools import product
 from pathlib import Path
 from typing import Any, Literal
@@ -21,21 +20,21 @@ from zarr.errors import ZarrUserWarning
 
 from cointoss.compare.output.files import UnwritableError, beside, naming, remove, written_whole
 from cointoss.compare.output.interruption import undoing
-from cointoss.compare.sweep.form import (
-    MARGIN_ALONG,
-    TRUST,
-    StoreForm,
-    foreign_entry,
+from cointoss.compare.sweep.axes import NUMBERS
+from cointoss.compare.sweep.chunks import (
+    DESCRIPTION,
+    DamagedError,
     is_map,
-    read_form,
-    require_arrays,
+    require_array,
     require_chunk,
+    require_plain,
 )
 from cointoss.compare.sweep.grid import numbers_in, tiles
 from cointoss.compare.sweep.layers import LAYERS, holds_tosses
-from cointoss.compare.sweep.layout import Layout
+from cointoss.compare.sweep.layout import MARGIN_ALONG, TRUST, Layout
 from cointoss.compare.sweep.pieces import Columns
 from cointoss.models.errors import ScenarioError
+from cointoss.models.fields import FIELDS
 from cointoss.models.reading import parse
 
 _WAYS_OUT = "accepted: a new name, or `overwrite`"
@@ -49,60 +48,103 @@ _CALLED = {
     TRUST: "set of arrays (`trust`)",
 }
 """What a person calls attributes."""
+_NAMES = {*LAYERS, *NUMBERS, *FIELDS}
+"""What an array of a store may be called."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Store:
-    """A store on disk whose form is accepted; what does not decode to its size raises `FormError`."""
+    """A store on disk whose arrays are decoded by our codecs alone."""
 
     path: Path
-    group: zarr.Group
+    attributes: dict[str, Any]
+    arrays: dict[str, Any]
+    """The arrays of Zarr by name, of those that may be a store's."""
 
     @classmethod
     def at(cls, path: Path, mode: Literal["r", "r+"]) -> "Store":
-        """Open a store whose form is accepted, for reading alone or to be filled."""
-        return cls(path=path, group=zarr.open_group(path, mode=mode, zarr_format=3, use_consolidated=False))
+        """Open a store for reading alone or to be filled; Zarr raises errors of any kind.
+
+        Raises:
+            DamagedError: naming a file or an array that is not as in a store of cointoss.
+        """
+        require_plain(path)
+        group = zarr.open_group(path, mode=mode, zarr_format=3, use_consolidated=True)
+        arrays = {name: array for name, array in group.arrays() if name in _NAMES}
+        for name, array in arrays.items():
+            require_array(name, array)
+        if "outcome" not in arrays:
+            raise DamagedError("array outcome missing")
+        return cls(path=path, attributes=dict(group.attrs), arrays=arrays)
 
     @property
     def shape(self) -> tuple[int, ...]:
         """The lengths of its dimensions."""
-        return self._array("outcome").shape
+        return self.arrays["outcome"].shape
 
     @property
     def tiles(self) -> list[tuple[slice, ...]]:
         """All tiles."""
-        return list(tiles(self.shape, self._array("outcome").chunks))
+        return list(tiles(self.shape, self.arrays["outcome"].chunks))
+
+    @property
+    def layers(self) -> list[str]:
+        """The names of what is known of each toss."""
+        return [name for name in LAYERS if name in self.arrays]
 
     @property
     def is_empty(self) -> bool:
         """Whether no tile was tossed yet; only the names of what is on disk are read."""
-        return self._array("outcome").nchunks_initialized == 0
+        return self.arrays["outcome"].nchunks_initialized == 0
 
     def tossed(self, tile: tuple[slice, ...]) -> NDArray[np.bool_]:
-        """Return what of a tile is on disk, over the tile; nothing of one that is damaged."""
-        none = np.zeros([part.stop - part.start for part in tile], dtype=bool)
-        if not (self.path / next(self._files("outcome", tile))).exists():
-            return none
-        try:
-            parts = [holds_tosses(name, self.read(tile, name)) for name in self._layers]
-        except OSError:
-            raise
-        except Exception:  # its checksum is wrong, or it breaks off; each codec fails in its own way
-            return none
+        """Return what of a tile is on disk, over the tile.
+
+        Raises:
+            DamagedError: naming a file that does not hold what it should.
+        """
+        if not all((self.path / file).exists() for file in self._files("outcome", tile)):
+            return np.zeros([part.stop - part.start for part in tile], dtype=bool)
+        parts = [holds_tosses(name, self.read(tile, name)) for name in self.layers]
+        for name, holds in zip(self.layers, parts, strict=True):
+            # The outcome is written last.
+            if not holds.any() and (lost := self._lost(name, tile)):
+                raise DamagedError(f"{lost}: lost")
         return np.logical_and.reduce(parts)
 
     def missing(self, tile: tuple[slice, ...]) -> NDArray[np.intp]:
-        """Return the numbers of what of a tile is not on disk, in the order of a C array."""
-        return numbers_in(tile, self.shape)[~self.tossed(tile)]
+        """Return the numbers of what of a tile is not on disk, or damaged, in the order of a C array."""
+        try:
+            there = self.tossed(tile)
+        except DamagedError:
+            there = False
+        numbers = numbers_in(tile, self.shape)
+        return numbers[~np.broadcast_to(there, numbers.shape)]
 
     def read(self, part: tuple[slice, ...], name: str = "outcome") -> NDArray[Any]:
-        """Return a part of an array, such as a tile."""
-        self._require_chunks(name, part)
-        return self._array(name)[part]
+        """Return a part of an array, such as a tile; where a file is not there, what stands for no toss.
+
+        Raises:
+            DamagedError: naming the file, also of a coordinate that is not there.
+        """
+        array, file = self.arrays[name], Path(name)
+        try:
+            for file in self._files(name, part):
+                if name not in LAYERS or (self.path / file).exists():
+                    require_chunk(self.path / file, array.dtype.itemsize * math.prod(array.chunks))
+            return array[part]
+        except FileNotFoundError:
+            raise DamagedError(f"{file}: lost") from None
+        except OSError:
+            raise
+        except (
+            Exception
+        ) as error:  # a checksum is wrong, or a file breaks off; each codec fails in its own way
+            raise DamagedError(f"{file}: {error}") from None
 
     def whole(self, name: str) -> NDArray[Any]:
         """Return all values of an array, or of a coordinate by its field."""
-        return self.read(tuple(slice(0, count) for count in self._array(name).shape), name)
+        return self.read(tuple(slice(0, count) for count in self.arrays[name].shape), name)
 
     def write(self, numbers: NDArray[np.intp], layers: Columns) -> None:
         """Keep what is known of a tile, or of a part of one.
@@ -115,7 +157,7 @@ class Store:
             UnwritableError: naming the store and why, for every error of the system.
         """
         at = np.unravel_index(numbers, self.shape)
-        lengths = self._array("outcome").chunks
+        lengths = self.arrays["outcome"].chunks
         tile = tuple(
             slice(one[0] // length * length, min((one[0] // length + 1) * length, size))
             for one, length, size in zip(at, lengths, self.shape, strict=True)
@@ -128,40 +170,25 @@ class Store:
 
     def _put(self, name: str, tile: tuple[slice, ...], inside: tuple[Any, ...], values: NDArray[Any]) -> None:
         """Write a part of a tile; a file around it that is damaged holds nothing else."""
-        array = self._array(name)
+        array = self.arrays[name]
         shape = [part.stop - part.start for part in tile]
         known = np.full(shape, array.fill_value, array.dtype)
         if len(values) < math.prod(shape):
-            try:
+            with suppress(DamagedError):
                 known = self.read(tile, name)
-            except OSError:
-                raise
-            except Exception:  # see `tossed`
-                pass
         known[inside] = values
         array[tile] = known
 
-    def _require_chunks(self, name: str, part: tuple[slice, ...]) -> None:
-        """Refuse chunks of a part of an array that decode to another size than they should."""
-        array = self._array(name)
-        size = array.dtype.itemsize * math.prod(array.chunks)
-        for file in self._files(name, part):
-            require_chunk(self.path, file, size)
+    def _lost(self, name: str, part: tuple[slice, ...]) -> Path | None:
+        """Return a file of a part of an array that is not there, if there is any."""
+        return next((file for file in self._files(name, part) if not (self.path / file).exists()), None)
 
     def _files(self, name: str, part: tuple[slice, ...]) -> Iterator[Path]:
         """Yield the files of the chunks of a part of an array, as they are named in the store."""
-        spans = zip(part, self._array(name).chunks, strict=True)
+        array = self.arrays[name]
+        spans = zip(part, array.chunks, strict=True)
         for place in product(*(range(one.start // side, -(-one.stop // side)) for one, side in spans)):
-            yield Path(name, "c", *map(str, place))
-
-    @cached_property
-    def _layers(self) -> list[str]:
-        return [name for name in LAYERS if name in self.group]
-
-    @cached_property
-    def _array(self) -> Callable[[str], Any]:
-        """Opens an array by its name, once."""
-        return cache(self.group.__getitem__)
+            yield Path(name, array.metadata.encode_chunk_key(place))
 
 
 def require_place(path: Path, *, resume: bool, overwrite: bool) -> None:
@@ -193,8 +220,10 @@ def require_place(path: Path, *, resume: bool, overwrite: bool) -> None:
             raise UnwritableError(
                 f"{path}: exists; accepted: a new name, `resume` to continue it, or `overwrite` to replace it"
             )
-        elif overwrite and (foreign := foreign_entry(target)):
-            raise UnwritableError(f"{path}: holds {foreign}, which is no part of a map; accepted: a new name")
+        elif overwrite and (foreign := {one.name for one in target.iterdir()} - {DESCRIPTION, *_NAMES}):
+            raise UnwritableError(
+                f"{path}: holds {min(foreign)}, which is no part of a map; accepted: a new name"
+            )
 
 
 def require_same(path: Path, layout: Layout) -> None:
@@ -282,22 +311,17 @@ def _same(path: Path, target: Path, mode: Literal["r", "r+"], layout: Layout) ->
     A store of another layout or of other versions raises an error: its tosses would be of two kinds.
     """
     with _readable(path):
-        form = read_form(target, len(layout.sizes))
-    unlike = _unlike(form, layout, path)
+        found = Store.at(target, mode)
+        unlike = _unlike(found, layout, path)
     if unlike is None:
-        with _readable(path):
-            require_arrays(form, layout.sizes, layout.layers, layout.coordinates)
-            found = Store.at(target, mode)
-            unlike = _unlike_values(found, form, layout)
-        if unlike is None:
-            return replace(found, path=path)
+        return replace(found, path=path)
     kind = "map" if "cointoss_map" in layout.attributes else "store of tosses"
     raise UnwritableError(f"{path}: is a {kind} with another {unlike}; {_WAYS_OUT}")
 
 
-def _unlike(form: StoreForm, layout: Layout, path: Path) -> str | None:
-    """Return how a store's description differs from a layout, in words; None where it does not."""
-    stored, due = form.attributes, layout.attributes
+def _unlike(found: Store, layout: Layout, path: Path) -> str | None:
+    """Return how a store differs from a layout, in words; None where it does not."""
+    stored, due = found.attributes, layout.attributes
     try:
         same_scenario = parse(stored["scenario"], str(path)) == parse(due["scenario"], str(path))
     except ScenarioError:
@@ -309,22 +333,27 @@ def _unlike(form: StoreForm, layout: Layout, path: Path) -> str | None:
         if stored.get(name) != due.get(name):
             value = f", {json.dumps(stored.get(name))}" if name == "engine_settings" else ""
             return f"{_CALLED.get(name, name)}{value}"
-    if grids := [one.dims[0] for field, one in layout.coordinates.items() if not form.has(field, one)]:
-        return f"grid in {grids[-1]}"
-    arrays = sorted(form.arrays.keys() ^ {*layout.layers, *layout.coordinates})
-    return f"set of arrays, for {', '.join(arrays)}" if arrays else None
-
-
-def _unlike_values(found: Store, form: StoreForm, layout: Layout) -> str | None:
-    """Return which values or versions of a store differ from those of a layout; None where none do."""
     for field, one in reversed(layout.coordinates.items()):
+        array = found.arrays.get(field)
+        if array is None or _shape_of(array) != (one.values.shape, one.values.dtype, one.dims):
+            return f"grid in {one.dims[0]}"
         if not np.array_equal(found.whole(field), one.values, equal_nan=one.values.dtype.kind == "f"):
             return f"grid in {one.dims[0]}"
+    shape, dims = tuple(layout.sizes.values()), tuple(layout.sizes)
+    arrays = {name: (shape, np.dtype(layer.kind), dims) for name, layer in layout.layers.items()}
+    there = {name: _shape_of(found.arrays[name]) for name in found.arrays.keys() - layout.coordinates.keys()}
+    if wrong := sorted(name for name in arrays | there if arrays.get(name) != there.get(name)):
+        return f"set of arrays, for {', '.join(wrong)}"
     made_by, ours = (
         {name: one for name, one in each["versions"].items() if name not in _READERS}
-        for each in (form.attributes, layout.attributes)
+        for each in (stored, due)
     )
     return None if made_by == ours else f"set of versions, {json.dumps(made_by)}"
+
+
+def _shape_of(array: Any) -> tuple[tuple[int, ...], np.dtype[Any], tuple[str, ...] | None]:
+    """Return the shape, the type and the dimensions of an array of Zarr."""
+    return array.shape, array.dtype, array.metadata.dimension_names
 
 
 @contextmanager
@@ -332,9 +361,9 @@ def _readable(path: Path) -> Iterator[None]:
     """Name a map in what goes wrong in reading it; zarr raises errors of any kind."""
     try:
         yield
-    except OSError:
-        raise
     except Exception as error:
+        if isinstance(error, OSError) and error.errno is not None:  # of the system; zarr's own have no number
+            raise
         raise UnwritableError(f"{path}: is no map of cointoss ({error}); {_WAYS_OUT}") from None
 
 

@@ -78,7 +78,6 @@ def test_an_unfinished_map_is_shown_as_far_as_it_is(tmp_path, monkeypatch):
     chunks = sorted(part for part in (path / "outcome" / "c").rglob("*") if part.is_file())
     assert len(chunks) > 3
     chunks[0].unlink()
-    chunks[1].write_bytes(b"broken")
     found = tossed_map_at(path)
     outcome = found.outcome
     assert 0 < (outcome == -1).mean() < 0.8

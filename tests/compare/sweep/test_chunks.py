@@ -1,18 +1,255 @@
-"""Chunks of a map from a stranger: none is decoded whose size is not the one that it must have."""
+"""A map from a stranger: what cointoss did not write is refused in one line, and nothing of it is run."""
+
+import json
+import os
+import pickle
+import shutil
+from typing import Any
 
 import numcodecs
 import numcodecs.abc
 import numpy as np
 import pytest
+import zarr
+from zarr.codecs import BytesCodec, ZstdCodec
 
 import cointoss
 from cointoss.compare.engines import Engine
-from cointoss.compare.sweep import grid
+from cointoss.compare.sweep import chunks, grid
 from cointoss.compare.sweep.layout import layout_of_map
 from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.compare.sweep.store import opened
 from tests.helpers.basin_runs import SCENARIO, sweep_of
-from tests.helpers.strange_maps import AXES, CHUNKS, GIGABYTES, X, Y, is_refused
+from tests.helpers.command_line import refused
+from tests.helpers.pickles import Runs
+from tests.helpers.strange_maps import (
+    AXES,
+    CHUNKS,
+    GIGABYTES,
+    X,
+    Y,
+    asked_of,
+    described,
+    not_read,
+    regular,
+    rewritten,
+)
+
+
+@pytest.fixture
+def decoded(monkeypatch):
+    """The chunks that are decoded."""
+    given, decode = [], numcodecs.zstd.Zstd.decode
+    monkeypatch.setattr(
+        numcodecs.zstd.Zstd, "decode", lambda codec, buf: given.append(bytes(buf)) or decode(codec, buf)
+    )
+    return given
+
+
+class Unpickler(numcodecs.abc.Codec):
+    """A codec that runs what it decodes, as those of any package may that is installed."""
+
+    codec_id = "unpickler"
+
+    def encode(self, buf):
+        return buf
+
+    def decode(self, buf, out=None):
+        return pickle.loads(bytes(buf)) if out is None else out
+
+
+def in_format_2(path, **codecs):
+    """Replace the arrays by those of Zarr's format 2, a chunk of which makes a folder if unpickled."""
+    for name, count in ((X, 12), (Y, 10)):
+        shutil.rmtree(path / name)
+        (path / name).mkdir()
+        array = {"zarr_format": 2, "shape": [count], "chunks": [count], "fill_value": 0.0, "order": "C"}
+        array |= {"dtype": "<f8", "filters": None, "compressor": None, **codecs}
+        (path / name / ".zarray").write_text(json.dumps(array))
+        (path / name / "0").write_bytes(pickle.dumps(Runs(path.parent / "run")))
+    (path / ".zgroup").write_text('{"zarr_format": 2}')
+
+
+@pytest.mark.parametrize(
+    "codecs",
+    [
+        {"compressor": {"id": "unpickler"}},
+        {"compressor": {"id": "pickle"}},
+        {"dtype": "|O", "filters": [{"id": "vlen-utf8"}, {"id": "pickle"}]},
+    ],
+)
+@pytest.mark.parametrize("beside", [False, True])
+def test_a_codec_that_runs_what_it_decodes_is_not_run(path, codecs, beside):
+    numcodecs.register_codec(Unpickler)
+    in_format_2(path, **codecs)
+    run, known = path.parent / "run", (path / "zarr.json").read_bytes()
+    (path / "zarr.json").unlink()
+    if codecs == {"compressor": {"id": "unpickler"}}:
+        group: Any = zarr.open_group(path, mode="r")
+        with pytest.raises(Exception, match=r".*"):
+            group[X][:]
+        assert run.exists(), "the folder does no harm where Zarr alone opens it"
+        run.rmdir()
+    if beside:  # a description of format 3
+        (path / "zarr.json").write_bytes(known)
+    not_read(path, "lost" if beside else "is no map of cointoss")
+    assert "accepted" in refused(*asked_of(path, "--margin", "height", "--resume"))
+    assert not run.exists()
+
+
+BYTES = {"name": "bytes", "configuration": {"endian": "little"}}
+ZSTD = {"name": "zstd", "configuration": {"level": 0, "checksum": True}}
+SHARDS = {
+    "name": "sharding_indexed",
+    "configuration": {"chunk_shape": [1], "codecs": [BYTES], "index_codecs": [BYTES]},
+}
+CODECS = {
+    "pickle": [{"name": "numcodecs.pickle", "configuration": {}}],
+    "pickle after bytes": [BYTES, {"name": "numcodecs.pickle"}],
+    "module": [{"name": "os.system", "configuration": {"command": "true"}}],
+    "text": [{"name": "vlen-utf8"}, ZSTD],
+    "shards": [SHARDS],
+    "gzip": [BYTES, {"name": "gzip", "configuration": {"level": 1}}],
+    "blosc": [BYTES, {"name": "blosc", "configuration": {"cname": "lz4"}}],
+    "delta": [{"name": "numcodecs.delta", "configuration": {"dtype": "<f8"}}, BYTES, ZSTD],
+    "transposed": [{"name": "transpose", "configuration": {"order": [0]}}, BYTES, ZSTD],
+    "twice packed": [BYTES, ZSTD, ZSTD],
+    "not packed": [BYTES],
+    "more settings": [BYTES, {"name": "zstd", "configuration": {**ZSTD["configuration"], "id": "pickle"}}],
+    "none": [],
+    "nothing": None,
+}
+
+
+def test_numbers_are_decoded_by_two_codecs_alone():
+    assert chunks.CODECS == [BytesCodec, ZstdCodec]
+
+
+@pytest.mark.filterwarnings("ignore:Numcodecs codecs are not in the Zarr")
+@pytest.mark.parametrize("codecs", CODECS.values(), ids=CODECS.keys())
+@pytest.mark.parametrize("name", [X, "outcome"])
+def test_codecs_that_are_not_ours_are_refused(path, decoded, name, codecs):
+    described(path, name, codecs=codecs)
+    not_read(path, "is no map of cointoss (")
+    assert "is no map of cointoss (" in refused(*asked_of(path, "--margin", "height", "--resume"))
+    assert not decoded
+
+
+def outside(path, file):
+    """Move a file or a folder out of the map, and link to it."""
+    target = path.parent / "elsewhere"
+    (path / file).rename(target)
+    (path / file).symlink_to(target)
+
+
+def piped(path, file):
+    (path / file).unlink()
+    os.mkfifo(path / file)
+
+
+def nested(count):
+    return count * "[" + count * "]"
+
+
+def said(**attributes):
+    """Return what changes the attributes of a map."""
+    return lambda path: rewritten(path, lambda all_: all_["attributes"].update(attributes))
+
+
+def lacking(*names):
+    """Return what takes an entry out of the description of a map."""
+
+    def take(all_):
+        for name in names[:-1]:
+            all_ = all_[name]
+        del all_[names[-1]]
+
+    return lambda path: rewritten(path, take)
+
+
+NO_MAP = "is no map of cointoss ("
+STRANGE = {
+    "text": (NO_MAP, lambda path: described(path, X, data_type="string")),
+    "dates": (NO_MAP, lambda path: described(path, X, data_type="numpy.datetime64")),
+    "long axis": (NO_MAP, lambda path: described(path, X, shape=[GIGABYTES], chunk_grid=regular(GIGABYTES))),
+    "large map": ("pixels; accepted", lambda path: described(path, "outcome", shape=[GIGABYTES, GIGABYTES])),
+    "another map": (NO_MAP, lambda path: described(path, "impacts", shape=[10, 11])),
+    "large chunk": ("chunks of", lambda path: described(path, X, chunk_grid=regular(GIGABYTES))),
+    "large tile": ("chunks of", lambda path: described(path, "outcome", chunk_grid=regular(GIGABYTES, 12))),
+    "negative": (NO_MAP, lambda path: described(path, X, shape=[-1])),
+    "two axes": (NO_MAP, lambda path: described(path, X, shape=[3, 4])),
+    "grid": (NO_MAP, lambda path: described(path, X, chunk_grid={"name": "rectilinear"})),
+    "keys": ("0: lost", lambda path: described(path, X, chunk_key_encoding={"name": "v2"})),
+    "format": (NO_MAP, lambda path: described(path, X, zarr_format=2)),
+    "group": (NO_MAP, lambda path: described(path, X, node_type="group")),
+    "dimension": (NO_MAP, lambda path: described(path, X, dimension_names=["z"])),
+    "same dimension": (NO_MAP, lambda path: described(path, X, dimension_names=["y"])),
+    "no outcome": ("array outcome missing", lacking("consolidated_metadata", "metadata", "outcome")),
+    "no margin": ("margin", lacking("consolidated_metadata", "metadata", "margin")),
+    "no axis": (NO_MAP, lacking("consolidated_metadata", "metadata", X)),
+    "no consolidated": (NO_MAP, lacking("consolidated_metadata")),
+    "format 9": (NO_MAP, lambda path: rewritten(path, lambda all_: all_.update(zarr_format=9))),
+    "nothing": (NO_MAP, lambda path: (path / "zarr.json").write_text("{}")),
+    "a broken description": (NO_MAP, lambda path: (path / "zarr.json").write_text("{")),
+    "a deep one": (NO_MAP, lambda path: (path / "zarr.json").write_text(nested(500_000))),
+    "a long one": ("more than", lambda path: (path / "zarr.json").write_bytes(b" " * (2 << 20))),
+    "a linked one": ("zarr.json: neither a", lambda path: outside(path, "zarr.json")),
+    "a linked array": (f"{X}: neither a", lambda path: outside(path, X)),
+    "linked chunks": ("outcome/c: neither a", lambda path: outside(path, "outcome/c")),
+    "a linked chunk": ("outcome/c/0/0: neither a", lambda path: outside(path, "outcome/c/0/0")),
+    "a link to nothing": ("more: neither a", lambda path: (path / "more").symlink_to("/nowhere")),
+    "a pipe": ("outcome/c/0/0: neither a", lambda path: piped(path, "outcome/c/0/0")),
+    "a pipe that describes": ("zarr.json: neither a", lambda path: piped(path, "zarr.json")),
+    "engine": ("(engine: 'abacus', accepted: analytic, mujoco)", said(engine="abacus")),
+    "no engine": ("attribute engine = None", lacking("attributes", "engine")),
+    "after": ('attribute after = "two"', said(after="two")),
+    "scenario": ("gravity = -1: accepted: a number", said(scenario="gravity = -1")),
+    "no scenario": ("attribute scenario = 7", said(scenario=7)),
+    "settings": ("(contact_steps: given -1", said(engine_settings={"contact_steps": -1})),
+    "many steps": ("(contact_steps = 1000", said(engine_settings={"contact_steps": 10**30})),
+    "a text in settings": (NO_MAP, said(engine_settings={"contact_tolerance": "1"})),
+    "a list of settings": ("attribute engine_settings = ", said(engine_settings=[])),
+    "margin": (NO_MAP, said(margin_along=7)),
+    "another format": ("(attribute cointoss_map = 2, not 1)", said(cointoss_map=2)),
+    "versions": ('attribute versions = "1"', said(versions="1")),
+}
+
+
+@pytest.mark.parametrize("name", STRANGE)
+def test_a_map_that_is_not_ours_is_refused(path, name):
+    what, change = STRANGE[name]
+    change(path)
+    not_read(path, what)
+    assert "accepted: " in refused(*asked_of(path, "--margin", "height", "--resume"))
+
+
+@pytest.mark.parametrize("name", ["a pipe that describes", "a deep one", "a long one"])
+def test_what_describes_no_map_is_not_replaced(path, name):
+    STRANGE[name][1](path)
+    why = "is no map; accepted: a new name, or a map of cointoss"
+    assert refused(*asked_of(path, "--overwrite")) == f"cointoss: {path}: {why}\n"
+
+
+def test_tiles_without_number_are_refused_at_once(path):
+    for name, ends in ((X, (20, 60)), (Y, (0.2, 0.6))):
+        described(path, name, shape=[5_000], chunk_grid=regular(5_000))
+        values = np.linspace(*ends, 5_000)
+        (path / name / CHUNKS[name]).write_bytes(numcodecs.Zstd(checksum=True).encode(values.tobytes()))
+    for name in ("outcome", "impacts", "margin"):
+        described(path, name, shape=[5_000, 5_000], chunk_grid=regular(1, 1))
+    not_read(path, "has tiles of 1 by 1 pixels; accepted: a map of at most 1e+06 tiles")
+
+
+def test_what_lies_beside_the_arrays_is_not_looked_at(path):
+    before = tossed_map_at(path)
+    (path / "README.txt").write_text("a map of mine")
+    (path / X / ".zarray").write_text("{")
+    (path / "more").mkdir()
+    (path / "more" / "zarr.json").write_text("{")
+    after = tossed_map_at(path)
+    assert after.sweep == before.sweep
+    for name, array in before.layers.items():
+        assert np.array_equal(after.layers[name], array)
 
 
 def frame(size, length=8):
@@ -30,6 +267,7 @@ def bombs(size):
         "packed": pack(bytes(size + (1 << 24))),
         "does not say": frame(0, length=0) + b"\x01\x00\x00",
         "too long": pack(bytes(size)) + bytes(2 * size + 1024),
+        "second frame": pack(bytes(size)) + pack(os.urandom(1 << 16)),
         "another": pack(bytes(size - 1)),
         "skipped": b"\x50\x2a\x4d\x18\x04\x00\x00\x00abcd" + pack(bytes(size)),
         "empty": b"",
@@ -37,50 +275,23 @@ def bombs(size):
     }
 
 
-@pytest.fixture
-def decoded(monkeypatch):
-    """The chunks that are decoded."""
-    given, decode = [], numcodecs.zstd.Zstd.decode
-    monkeypatch.setattr(
-        numcodecs.zstd.Zstd, "decode", lambda codec, buf: given.append(bytes(buf)) or decode(codec, buf)
-    )
-    return given
-
-
 @pytest.mark.parametrize("kind", bombs(100))
-def test_a_chunk_that_decodes_to_another_size_is_not_decoded(path, decoded, kind):
-    (path / X / CHUNKS[X]).write_bytes(bombs(96)[kind])
-    is_refused(path, f"{X}/c/0: does not decode to 96 bytes")
-    assert not decoded
+@pytest.mark.parametrize(("name", "size"), [(X, 96), ("outcome", 120), ("impacts", 480), ("margin", 960)])
+def test_a_chunk_that_decodes_to_another_size_is_not_decoded(path, decoded, name, size, kind):
+    bomb = bombs(size)[kind]
+    (path / name / CHUNKS[name]).write_bytes(bomb)
+    not_read(path, f"({name}/{CHUNKS[name]}: does not decode to {size} bytes)")
+    assert bomb not in decoded
 
 
 @pytest.mark.parametrize("name", CHUNKS)
 def test_values_that_are_lost_are_no_zeros(path, name):
-    """Zarr reads what is lost as its fill value; of a tile, that is one not tossed yet."""
+    """Zarr reads what is lost as its fill value; an outcome that is not there is one not tossed yet."""
     (path / name / CHUNKS[name]).unlink()
-    if name in (X, Y):
-        is_refused(path, f"({name}/c/0: lost)")
-    else:
+    if name == "outcome":
         assert set(cointoss.read_map(path).cointoss.counts) == {"not_tossed"}
-
-
-@pytest.mark.parametrize("kind", bombs(100))
-@pytest.mark.parametrize("name", ["outcome", "impacts", "margin"])
-def test_a_tile_that_decodes_to_another_size_is_not_tossed_yet(path, decoded, name, kind):
-    bomb = bombs(120 * {"outcome": 1, "impacts": 4, "margin": 8}[name])[kind]
-    (path / name / CHUNKS[name]).write_bytes(bomb)
-    assert set(cointoss.read_map(path).cointoss.counts) == {"not_tossed"}
-    assert decoded
-    assert bomb not in decoded
-
-
-def test_a_second_frame_is_not_decoded(path):
-    pack = numcodecs.Zstd(checksum=True).encode
-    whole = pack(bytes(120))
-    (path / "outcome" / CHUNKS["outcome"]).write_bytes(whole)
-    assert set(cointoss.read_map(path).cointoss.counts) == {"undecided"}
-    (path / "outcome" / CHUNKS["outcome"]).write_bytes(whole + pack(bytes(1 << 20)))
-    assert set(cointoss.read_map(path).cointoss.counts) == {"not_tossed"}
+    else:
+        not_read(path, f"({name}/{CHUNKS[name]}: lost)")
 
 
 @pytest.mark.parametrize("tile", [25, 1 << 14])

@@ -248,7 +248,7 @@ def test_a_map_of_something_else_is_not_gone_on_with(tmp_path, change, named):
         opened(tmp_path / "trust.zarr", layout_of_map(map_sweep(), SCENARIO), overwrite=False).__enter__()
     same = SCENARIO + "# another word for the same coin\n"
     with opened(out, layout_of_map(map_sweep(case=same, name="another file"), same), overwrite=False) as map_:
-        assert (map_.group.attrs["scenario"], map_.group.attrs["name"]) == (SCENARIO, "")
+        assert (map_.attributes["scenario"], map_.attributes["name"]) == (SCENARIO, "")
 
 
 def test_a_map_of_other_versions_or_that_lost_an_axis_is_not_gone_on_with(in_tiles, coin, tmp_path):
