@@ -100,8 +100,6 @@ def __getattr__(name: str) -> Any:
         return [*_PACKAGES, *_HOMES]
     if name == "__version__":
         return import_module("cointoss.models.distribution").versions_of(["cointoss"])["cointoss"]
-    if name in _HOMES:  # What takes long says so in a terminal or a notebook.
-        import_module("cointoss.compare.output.progress")
     if name in _PACKAGES:
         return import_module(f"cointoss.{name}")
     return brought(_HOMES, name, __name__)

@@ -103,7 +103,6 @@ if TYPE_CHECKING:
     from cointoss.compare.output.files import require_folder as require_folder
     from cointoss.compare.output.files import write_text as write_text
     from cointoss.compare.output.files import written_together as written_together
-    from cointoss.compare.output.progress import Progress as Progress
     from cointoss.compare.output.style import ANALYTIC as ANALYTIC
     from cointoss.compare.output.style import BLUE as BLUE
     from cointoss.compare.output.style import GREEN as GREEN
@@ -160,6 +159,7 @@ if TYPE_CHECKING:
     from cointoss.models.records import raised_flags as raised_flags
     from cointoss.models.rows import row_of as row_of
     from cointoss.models.scenario import vector as vector
+    from cointoss.models.stages import Progress as Progress
     from cointoss.models.stages import stage as stage
 
 _HOMES = homes_of(__file__)

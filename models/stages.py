@@ -1,14 +1,25 @@
-"""The stages of the long work that this process is at, for those who wait for it."""
+"""Progress of long work on standard error, by tqdm: a line that is rewritten, or lines in a log."""
 
-import time
+import os
+import sys
+import threading
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import KW_ONLY, dataclass
-from typing import TypeVar
+from time import perf_counter
+from typing import Any, TypeVar
 
 Item = TypeVar("Item")
+Progress = Callable[[int, int], None]
+"""Called after each part of a job with the number of parts done so far and of all."""
+AFTER = 3.0
+"""What takes longer is shown, and a stage within another when it has run for as long [s]."""
+REWRITTEN, LOGGED = 0.25, 10.0
+"""A terminal or a notebook is told so often, and a log [s]."""
 TELLING_PART, TELLING_TIME = 0.05, 60.0
 """The time that is left is estimated once this part of the work is done, or after this time [s]."""
+WIDTH = 100
+"""Columns of a line where the terminal has no width."""
 
 
 @dataclass(eq=False)
@@ -26,12 +37,10 @@ class Stage:
     """How many there are so far; those at the beginning say nothing of the speed."""
     detail: Callable[[], str] = str
     """Returns how far it is, in words; empty where none are known."""
-    clock: Callable[[], float] = time.perf_counter
-    """The clock of the wall [s]."""
 
     def __post_init__(self) -> None:
         """Begin."""
-        self._before, self._begun = self.done, self.clock()
+        self._before, self._begun = self.done, perf_counter()
         self._first: tuple[int, float] | None = None
 
     def progress(self, done: int, total: int) -> None:
@@ -43,19 +52,13 @@ class Stage:
     @property
     def seconds(self) -> float:
         """For how long it has run [s]."""
-        return self.clock() - self._begun
+        return perf_counter() - self._begun
 
     @property
     def rate(self) -> float | None:
-        """How many are done in a second; None where none was yet."""
-        new = self.done - self._before
-        return new / self.seconds if new > 0 and self.seconds > 0 else None
+        """How many are done in a second; None while too little is done to tell.
 
-    @property
-    def seconds_left(self) -> float | None:
-        """An estimate of how long it will still run [s]; None while too little is done.
-
-        The first report is left out of the rate: what has to be loaded or compiled delays it alone.
+        The first report is left out: what has to be loaded or compiled delays it alone.
         """
         if self._first is None or self.total is None:
             return None
@@ -65,23 +68,115 @@ class Stage:
         bursts = self.done <= first or self.seconds - delay < delay / 10
         if bursts or not (enough or self.seconds >= TELLING_TIME):
             return None
-        return (self.total - self.done) * (self.seconds - delay) / (self.done - first)
+        return (self.done - first) / (self.seconds - delay)
+
+    def line(self, width: int) -> str:
+        """Return how far it is, with a bar if there is room for one in a line of that width."""
+        if self.total is None:
+            said = self.detail()
+            return f"{self.name}: {self.seconds:.0f} s" + (f", {said}" if said else "")
+        from tqdm import tqdm  # takes longer to import than the command line
+
+        return tqdm.format_meter(
+            self.done,
+            self.total,
+            self.seconds,
+            ncols=width,
+            prefix=self.name,
+            unit=self.unit,
+            rate=self.rate,
+            initial=self.done,  # without a rate tqdm finds one of what is done since then
+        )
 
 
-class Stages:
-    """The stages of this process, the outermost first."""
-
-    def __init__(self) -> None:
-        """Begin with none."""
-        self.open: list[Stage] = []
-        self.shown: Callable[[bool | None], AbstractContextManager[None]] = lambda _: nullcontext()
-        """Shows the stages while the outermost is open, if it is asked to; set by what can."""
-        self.ended: list[Callable[[Stage], None]] = []
-        """Called with each stage that ends."""
+at_work: list[Stage] = []
+"""The stages of this process, the outermost first."""
+_showing = threading.Lock()
+"""Held while stages are shown: one display is enough."""
+_displays: "list[Display]" = []
+"""The display that shows them, if any does."""
 
 
-stages = Stages()
-"""The stages of this process."""
+def line_of(opened: Sequence[Stage], width: int) -> str:
+    """Return what the stages are at, in one line of at most a width; 0 for a line without a bar."""
+    if not opened or opened[0].seconds <= AFTER:
+        return ""
+    running = [each for number, each in enumerate(opened) if number == 0 or each.seconds > AFTER]
+    # What only waits for another says nothing.
+    shown = [each for each in running if each.total is not None or each is running[-1]]
+    line = "; ".join(each.line(width if len(shown) == 1 else 0) for each in shown)
+    return line[:width] if width else line
+
+
+class Display:
+    """Shows on a stream what this process is at: on one line that is rewritten, or line by line."""
+
+    def __init__(self, stream: Any, *, rewrites: bool) -> None:
+        """Show nothing yet."""
+        self.rewrites, self._stream, self._drawn = rewrites, stream, ""
+        self._lock, self.over = threading.Lock(), threading.Event()
+
+    def draw(self, line: str) -> None:
+        """Write a line; an empty one removes what is shown."""
+        # Nobody may read it any more, which stops no work.
+        with self._lock, suppress(OSError, ValueError):
+            if self.rewrites and line != self._drawn:
+                self._stream.write(f"\r{line:{len(self._drawn)}}" + ("" if line else "\r"))
+                self._drawn = line
+            elif line and not self.rewrites:
+                self._stream.write(f"cointoss: {line}\n")
+            self._stream.flush()
+
+    def keep_drawing(self) -> None:
+        """Draw what is at work until it is over."""
+        while not self.over.wait(REWRITTEN if self.rewrites else LOGGED):
+            # Other threads open and end stages.
+            self.draw(line_of(list(at_work), _width(self._stream) - 1 if self.rewrites else 0))
+
+
+def clear_line() -> None:
+    """Remove the line that is shown, so that other text can be written; it comes again."""
+    for display in _displays:
+        display.draw("")
+
+
+@contextmanager
+def progress_shown(*, in_logs: bool) -> Iterator[None]:
+    """Show on standard error what this process is at within.
+
+    Args:
+        in_logs: whether it is shown too where that is no terminal and no notebook.
+    """
+    display = Display(sys.stderr, rewrites=_rewrites(sys.stderr))
+    is_wanted = display.rewrites or (in_logs and sys.stderr is not None)
+    if os.environ.get("TQDM_DISABLE") or not is_wanted or not _showing.acquire(blocking=False):
+        yield
+        return
+    shower = threading.Thread(target=display.keep_drawing, daemon=True)
+    shower.start()
+    _displays.append(display)
+    try:
+        yield
+    finally:
+        display.over.set()
+        shower.join()
+        clear_line()
+        _displays.clear()
+        _showing.release()
+
+
+def _rewrites(stream: Any) -> bool:
+    """Return whether a stream is a terminal's or a notebook's."""
+    if stream is None or stream.closed:
+        return False
+    return stream.isatty() or type(stream).__module__.startswith("ipykernel.")
+
+
+def _width(stream: Any) -> int:
+    try:
+        return os.get_terminal_size(stream.fileno()).columns or WIDTH
+    except (OSError, ValueError, AttributeError):  # a notebook, or a window of Python's own
+        return WIDTH
 
 
 @contextmanager
@@ -93,7 +188,7 @@ def stage(
     done: int = 0,
     detail: Callable[[], str] = str,
     shown: bool | None = None,
-) -> Iterator[Callable[[int, int], None]]:
+) -> Iterator[Progress]:
     """Return a function to be called with how many are done, of how many; the stage ends with the `with`.
 
     The arguments are those of a `Stage`, and whether it is shown: True everywhere, None where someone is
@@ -105,15 +200,13 @@ def stage(
     if not (shown is None or isinstance(shown, bool)):
         raise TypeError(f"progress: {shown!r}, accepted: True, False, or None to show it in a terminal alone")
     own = Stage(name, unit, total=total, done=done, detail=detail)
-    is_outermost = not stages.open
-    stages.open.append(own)
+    is_asked = shown or (shown is None and not at_work)
+    at_work.append(own)
     try:
-        with stages.shown(shown) if is_outermost else nullcontext():
+        with progress_shown(in_logs=shown is True) if is_asked else nullcontext():
             yield own.progress
-            for ended in stages.ended:
-                ended(own)
     finally:
-        stages.open.remove(own)
+        at_work.remove(own)
 
 
 def reached(impacts: int, time: float) -> str:

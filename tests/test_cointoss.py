@@ -81,13 +81,6 @@ PRINTED = {
     ),
     "only a plot brings matplotlib": (PLOT.format("cointoss"), "False\nTrue True toss of 2 g.*"),
     "and so of the engine's own toss": (PLOT.format("cointoss.analytic"), "False\nTrue True toss of 2 g.*"),
-    **{
-        f"{name} brings what shows progress": (
-            f"import sys, cointoss as c; c.{name}; print('cointoss.compare.output.progress' in sys.modules)",
-            "True",
-        )
-        for name in ("analytic", "Scenario")
-    },
 }
 
 

@@ -189,12 +189,12 @@ def plain_errors(source: str) -> Iterator[None]:
     from cointoss.compare.film.back_end import BackEndError
     from cointoss.compare.fitting.errors import ObservationError
     from cointoss.compare.output.files import UnwritableError
-    from cointoss.compare.output.progress import progress_shown
     from cointoss.compare.sweep.errors import MapError, SweepError
     from cointoss.models.cores import CoresError, cores_used
     from cointoss.models.errors import ScenarioError
     from cointoss.models.kernel.library import EngineMissingError
     from cointoss.models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
+    from cointoss.models.stages import progress_shown
     from cointoss.models.unlikely import UnitWarning
     from cointoss.models.unused import UnusedFieldWarning
 
@@ -252,7 +252,7 @@ def refuse(message: str, status: int = 2) -> NoReturn:
 
 def say(message: str) -> None:
     """Print a line to standard error: keywords as options, and what would split it escaped."""
-    from cointoss.compare.output.progress import clear_line
+    from cointoss.models.stages import clear_line
 
     clear_line()
     shown = "".join(char if char.isprintable() else repr(char)[1:-1] for char in in_options(message))

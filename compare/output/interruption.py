@@ -10,7 +10,7 @@ from contextlib import contextmanager, suppress
 from typing import NoReturn
 
 from cointoss.compare.output.language import in_options
-from cointoss.models.stages import stages
+from cointoss.models.stages import at_work, clear_line
 
 _NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
 SIGNALS: tuple[signal.Signals, ...] = tuple(getattr(signal, name) for name in _NAMES if hasattr(signal, name))
@@ -32,7 +32,7 @@ class Interruption(SystemExit):
         super().__init__(128 + number)
         self.status = 128 + number
         self.name = f"interrupted by {signal.Signals(number).name}"
-        self.message = ": ".join([self.name, *[said for each in stages.open if (said := each.detail())][-1:]])
+        self.message = ": ".join([self.name, *[said for each in at_work if (said := each.detail())][-1:]])
 
 
 @contextmanager
@@ -143,6 +143,7 @@ class _Ending:
                 with suppress(Exception):
                     undo()
             with suppress(Exception):
+                clear_line()
                 print(f"cointoss: {in_options(interruption.message)}", file=sys.stderr, flush=True)
             with suppress(Exception):
                 sys.stdout.flush()

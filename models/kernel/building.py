@@ -9,24 +9,22 @@ import signal
 import subprocess
 import sys
 import tempfile
-import threading
 import time
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Sequence
+from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
 
 from cointoss.models.kernel.base_folder import EngineMissingError
 from cointoss.models.kernel.digests import HOME
 from cointoss.models.kernel.library import BROWSER, CUDA, MANIFEST, SYSTEM, current
+from cointoss.models.stages import stage
 
 NEEDED = ("numba", "llvmlite", "ziglang")
 UNUSED = 3 * 24 * 3600.0
 """Libraries that were not used for so long are removed when another is built [s]."""
 REFUSED = 2
 """Exit status of a build that says in one line why it can't be."""
-EVERY = 60.0
-"""The line is written again so often, with the time so far [s]."""
 
 
 def build_once(module: str, folder: Path, systems: Sequence[str] = (SYSTEM,)) -> None:
@@ -47,11 +45,11 @@ def build_once(module: str, folder: Path, systems: Sequence[str] = (SYSTEM,)) ->
         folder.mkdir(mode=0o700, exist_ok=True)
         remove_unused(folder)
         checkout = hashlib.sha256(str(HOME).encode()).hexdigest()[:8]
-        lock, begun = FileLock(folder / f"{name}-{checkout}.lock"), time.monotonic()
+        lock = FileLock(folder / f"{name}-{checkout}.lock")
         try:
             lock.acquire(blocking=False)
         except Timeout:
-            with told(f"waiting for another process, which builds the {name} engine", begun):
+            with stage(f"waiting for another process, which builds the {name} engine", shown=True):
                 lock.acquire()
         try:
             if missing := [each for each in systems if current(folder, name, each) is None]:
@@ -81,13 +79,11 @@ def _build(module: str, name: str, folder: Path, systems: Sequence[str]) -> None
     ]
     paths = filter(None, (str(HOME.parent), os.environ.get("PYTHONPATH")))
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
-    given, shown = (
-        subprocess.PIPE,
-        "" if systems[0] == SYSTEM else f" for {_WORDS.get(systems[0], systems[0])}",
-    )
+    given, parts = subprocess.PIPE, [""]
+    shown = "" if systems[0] == SYSTEM else f" for {_WORDS.get(systems[0], systems[0])}"
     with (
         tempfile.TemporaryFile("w+") as errors,
-        told(f"building the {name} engine{shown}, once", time.monotonic()) as parts,
+        stage(f"building the {name} engine{shown}, once", detail=lambda: "".join(parts), shown=True),
         # It ends with this process, however that ends: then nobody holds its standard input any more.
         subprocess.Popen(
             command, env=environment, text=True, stdin=given, stdout=given, stderr=errors
@@ -110,38 +106,6 @@ def _build(module: str, name: str, folder: Path, systems: Sequence[str]) -> None
 
 
 _WORDS = {CUDA: "NVIDIA's cards", BROWSER: "a browser"}
-
-
-@contextmanager
-def told(what: str, since: float) -> Iterator[list[str]]:
-    """Say on standard error what is done within, in one line, with its time so far [s].
-
-    Yields:
-        A list for the part of it that is done now.
-    """
-    over, rewrites = threading.Event(), sys.stderr is not None and sys.stderr.isatty()
-    parts: list[str] = []
-
-    def line(end: str) -> None:
-        if sys.stderr is None:
-            return
-        with suppress(OSError, ValueError):  # nobody reads it, which stops no work
-            text = ": ".join(["cointoss", what, *parts, f"{time.monotonic() - since:.0f} s"])
-            print(f"\r\x1b[K{text}" if rewrites else text, end=end, file=sys.stderr, flush=True)
-
-    def keep_telling() -> None:
-        while not over.wait(0.25 if rewrites else EVERY):
-            line("" if rewrites else "\n")
-
-    teller = threading.Thread(target=keep_telling, daemon=True)
-    teller.start()
-    try:
-        yield parts
-    finally:
-        over.set()
-        teller.join()
-        parts.clear()
-        line("\n")
 
 
 def remove_unused(folder: Path) -> None:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.models.kernel.arrays import Array
-from cointoss.models.kernel.building import told
+from cointoss.models.stages import stage
 
 PER_BLOCK = 128
 """Threads of a block."""
@@ -173,8 +173,8 @@ class GraphicsCard:
             cuda, loading = self._cuda, f"loading {file.name}"
             self._done(loading, cuda.cuCtxSetLimit(cuda.CUlimit.CU_LIMIT_STACK_SIZE, STACK))
             options = [cuda.CUjit_option.CU_JIT_MAX_REGISTERS], [REGISTERS]
-            is_slow = told(f"NVIDIA's driver compiles the engine for {self.name}, once", time.monotonic())
-            with nullcontext() if self._has_code else is_slow:
+            compiling = f"NVIDIA's driver compiles the engine for {self.name}, once"
+            with nullcontext() if self._has_code else stage(compiling, shown=True):
                 module = self._done(loading, cuda.cuModuleLoadDataEx(file.read_bytes(), 1, *options))
             self._queues[file] = self._done(loading, cuda.cuModuleGetFunction(module, b"queue"))
         return self._queues[file]

@@ -18,7 +18,7 @@ from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.toss import impacts_of, run
 from cointoss.models.batch import rows_of
 from cointoss.models.records import UnusableEngineError
-from cointoss.models.stages import stages
+from cointoss.models.stages import at_work
 from tests.helpers.draws import AIR, IMPERFECT, draw_release, scenario
 
 FOREIGN = """<mujoco><option gravity="0 0 0"/>
@@ -156,7 +156,7 @@ def test_a_toss_sets_the_time_of_mujoco_and_says_it_to_those_who_wait(monkeypatc
 
     def told_after(*arguments):
         result = toss_coin(*arguments)
-        told.append(stages.open[-1].detail())
+        told.append(at_work[-1].detail())
         return result
 
     monkeypatch.setattr(sys.modules["cointoss.coin_mj.toss"], "toss_coin", told_after)

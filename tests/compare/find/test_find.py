@@ -19,7 +19,7 @@ from cointoss.models.laws import ContactLaw
 from cointoss.models.quantities import LARGEST
 from cointoss.models.reading import load, parse
 from cointoss.models.records import Outcome
-from cointoss.models.stages import stages
+from cointoss.models.stages import at_work
 from cointoss.models.unlikely import UnitWarning
 from tests.helpers.basin_runs import SCENARIO
 
@@ -210,7 +210,7 @@ def test_what_was_found_is_told_before_its_margins_are_measured(monkeypatch):
 def test_a_search_is_one_stage_from_its_beginning_to_its_end(monkeypatch):
     seen, own = [], search._margins
     monkeypatch.setattr(
-        search, "_margins", lambda *given: seen.append([one.name for one in stages.open]) or own(*given)
+        search, "_margins", lambda *given: seen.append([one.name for one in at_work]) or own(*given)
     )
     assert find(COIN, WINDOW, sequence="H", tosses=256)
     assert seen[0] == ["finding H", "measuring margins"]
