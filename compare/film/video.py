@@ -2,6 +2,7 @@
 
 import errno
 import itertools
+import re
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
@@ -98,6 +99,7 @@ def _encoding(writer: mediapy.VideoWriter) -> Iterator[None]:
         told = (_last_words(writer) or str(error).partition("': ")[2]).strip()
         raise_interruption_behind(error)
         reason = told.splitlines()[-1] if told else "stopped, or the disk is full"
+        reason = re.sub(r" @ 0x[0-9a-f]+", "", reason)  # where in memory a part of ffmpeg lies
         raise OSError(errno.EIO, f"ffmpeg: {reason}", str(writer.path)) from error
     finally:
         if (encoder := writer._popen) is not None:

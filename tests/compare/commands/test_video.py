@@ -106,12 +106,12 @@ def test_a_film_that_cannot_be_written_is_one_line(tmp_path, short):
 @pytest.mark.usefixtures("small_films")
 def test_what_an_encoder_says_that_no_longer_reads_is_waited_for(tmp_path, short, monkeypatch):
     encoder = tmp_path / "encoder"
-    encoder.write_text("#!/bin/sh\nexec 0<&-\nsleep 1\necho 'no such codec' >&2\nexit 1\n")
+    encoder.write_text("#!/bin/sh\nexec 0<&-\nsleep 1\necho '[mp4 @ 0x55d0] no such codec' >&2\nexit 1\n")
     encoder.chmod(0o755)
     monkeypatch.setattr(imageio_ffmpeg, "get_ffmpeg_exe", lambda: str(encoder))
     answered = cointoss("video", short, "--out", tmp_path / "film.mp4")
     assert answered.exit_code == 2
-    assert answered.stderr.endswith("film.mp4: can't be written (ffmpeg: no such codec)\n")
+    assert answered.stderr.endswith("film.mp4: can't be written (ffmpeg: [mp4] no such codec)\n")
     assert set(tmp_path.iterdir()) == {encoder, short}
 
 
