@@ -1,4 +1,4 @@
-"""Write files whole or not at all: aside first, then renamed."""
+"""Write files whole or not at all: aside first, then renamed; what a killed process left aside is removed."""
 
 import os
 import shutil
@@ -7,10 +7,13 @@ import sys
 import tempfile
 import uuid
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from cointoss.compare.output.interruption import undoing
+
+PREFIX, LOCK = ".cointoss-", ".lock"
+"""What the name of a folder aside begins with, and the file in it that is locked while its process lives."""
 
 
 class UnwritableError(OSError):
@@ -146,10 +149,10 @@ def written_whole(path: Path) -> Iterator[Path]:
     """
     with naming(path):
         target = _target(path)
-        aside = beside(target)
-        with undoing(lambda: remove(aside)):
-            yield aside
-            _move(aside, target)
+        with aside_in(target.parent) as aside:
+            made = aside / f"made{target.suffix.lower()}"
+            yield made
+            _move(made, target)
 
 
 @contextmanager
@@ -167,10 +170,7 @@ def written_together(folder: Path, names: tuple[str, ...]) -> Iterator[Path]:
     made = [part for part in (folder, *folder.parents) if not os.path.lexists(part)]
     with naming(folder), undoing(lambda: _remove_empty(made)):
         folder.mkdir(parents=True, exist_ok=True)
-        # Inside, because the rename must stay on one disk.
-        aside = beside(folder / "aside")
-        with undoing(lambda: remove(aside)):
-            aside.mkdir(mode=0o700)
+        with aside_in(folder) as aside:
             yield aside
             _move_together(aside, folder, names)
 
@@ -179,7 +179,7 @@ def _move_together(aside: Path, folder: Path, names: tuple[str, ...]) -> None:
     """Move files from one folder to another, and remove the others of `names` there: all or none."""
     replaced = require_folder(folder, names)
     new = [name for name in names if (aside / name).exists()]
-    earlier, is_done = beside(folder / "earlier"), False
+    earlier, is_done = aside / ".earlier", False
 
     def undo() -> None:
         if not is_done:
@@ -189,10 +189,9 @@ def _move_together(aside: Path, folder: Path, names: tuple[str, ...]) -> None:
             for path in replaced:
                 if (earlier / path.name).exists():
                     (earlier / path.name).replace(path)
-        remove(earlier)
 
     with undoing(undo):
-        earlier.mkdir(mode=0o700)
+        earlier.mkdir()
         for path in replaced:
             _keep(path, earlier / path.name)
         for name in new:
@@ -211,9 +210,24 @@ def _keep(path: Path, kept: Path) -> None:
         shutil.copy2(path, kept)
 
 
-def beside(path: Path) -> Path:
-    """Return a new name beside `path`, of the same kind."""
-    return path.with_name(f".cointoss-{uuid.uuid4().hex}{path.suffix.lower()}")
+@contextmanager
+def aside_in(folder: Path) -> Iterator[Path]:
+    """Yield a new folder inside `folder`, as a rename must stay on one disk, and remove it at the end.
+
+    What earlier processes were killed at in `folder` is removed, too: the system has released their locks.
+    """
+    from filelock import FileLock  # takes longer to import than the command line
+
+    for left in folder.glob(f"{PREFIX}*/{LOCK}"):
+        with suppress(OSError, NotImplementedError), FileLock(left).acquire(blocking=False):
+            shutil.rmtree(left.parent)
+    aside = folder / f"{PREFIX}{uuid.uuid4().hex}"
+    with undoing(lambda: remove(aside)), ExitStack() as held:
+        aside.mkdir(mode=0o700)
+        with suppress(NotImplementedError):  # a disk without locks, where nobody else gets one either
+            # Another process that finds the folder before it is locked has the lock for a moment.
+            held.enter_context(FileLock(aside / LOCK).acquire(timeout=1))
+        yield aside
 
 
 def remove(path: Path) -> None:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from zarr.codecs import ZstdCodec
 from zarr.errors import ZarrUserWarning
 
-from cointoss.compare.output.files import UnwritableError, beside, naming, remove, written_whole
+from cointoss.compare.output.files import UnwritableError, aside_in, naming, written_whole
 from cointoss.compare.output.interruption import undoing
 from cointoss.compare.sweep.axes import NUMBERS
 from cointoss.compare.sweep.chunks import (
@@ -211,9 +211,8 @@ def require_place(path: Path, *, resume: bool, overwrite: bool) -> None:
                 f"{path}: no folder {path.parent}; accepted: a name in a folder that exists"
             )
         if not target.exists() or (target.is_dir() and not any(target.iterdir())):
-            probe = beside(target)
-            with undoing(lambda: remove(probe)):
-                probe.mkdir()
+            with aside_in(target.parent):
+                pass
         elif not is_map(target):
             raise UnwritableError(f"{path}: is no map; accepted: a new name, or a map of cointoss")
         elif not (resume or overwrite):
@@ -393,6 +392,5 @@ def _unlink(lock: Path) -> None:
 
 def _remove(target: Path) -> None:
     """Remove a map; renamed first, so that no half of it is left under its name."""
-    aside = beside(target)
-    with undoing(lambda: remove(aside)):
-        target.rename(aside)
+    with aside_in(target.parent) as aside:
+        target.rename(aside / target.name)

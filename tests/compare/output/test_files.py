@@ -7,7 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from cointoss.compare.output.files import UnwritableError, require_file, write_text, written_together
+from cointoss.compare.output.files import (
+    PREFIX,
+    UnwritableError,
+    aside_in,
+    require_file,
+    write_text,
+    written_together,
+)
 from tests.helpers.command_line import in_a_shell, python
 
 
@@ -126,6 +133,23 @@ run_to_exit(command)
     ended = python("-c", script)
     assert (ended.returncode, ended.stderr) == (143, "cointoss: interrupted by SIGTERM\n")
     assert held(earlier) == OLD
+
+
+def test_what_a_killed_process_left_is_removed_and_what_a_live_one_writes_is_not(tmp_path):
+    script = (
+        "import os, signal, sys; from pathlib import Path\n"
+        "from cointoss.compare.output.files import written_together, written_whole\n"
+        "folder = Path(sys.argv[1])\n"
+        "with written_whole(folder / 'one') as a, written_together(folder, ()):\n"
+        "    a.write_text('half')\n"
+        "    os.kill(os.getpid(), signal.SIGKILL)\n"
+    )
+    with aside_in(tmp_path) as live:
+        python("-c", script, tmp_path)
+        assert len([*tmp_path.glob(f"{PREFIX}*")]) == 3
+        write_text(tmp_path / "two", "whole")
+        assert {path.name for path in tmp_path.iterdir()} == {live.name, "two"}
+        assert live.is_dir()
 
 
 def test_only_files_that_may_be_replaced_are_accepted(tmp_path):
