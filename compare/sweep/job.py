@@ -87,14 +87,15 @@ def make(job: Job, source: Source, command: str, say: Say) -> Iterator[str]:
     # From here on MuJoCo is imported: its back end is chosen.
     require_mujoco(*engines.values())
     sweeps = sweeps_of(job, source, x, y)
-    if job.resume:
-        for path, sweep in sweeps.items():
-            store.require_same(path, layout_of_map(sweep, source.text))
+    kept = [
+        store.there(path, layout_of_map(sweep, source.text)) for path, sweep in sweeps.items() if job.resume
+    ]
+    new = len(sweeps) - sum(one is not None and one.is_whole for one in kept)
     drawn, maps = len(sweeps) > 1 or job.png is not None, []
     margins = untrusted = None
     for sweep in sweeps.values():
         check(sweep)
-        run.require_room(sweep, job.out.parent, maps=len(sweeps), drawn=drawn)
+        run.require_room(sweep, job.out.parent, maps=new, drawn=drawn)
     with cluster(job.scheduler, say, "`resume` goes on") as workers:
         for path, sweep in sweeps.items():
             with store.opened(path, layout_of_map(sweep, source.text), overwrite=job.overwrite) as map_:

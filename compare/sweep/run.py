@@ -93,7 +93,7 @@ def require_room(sweep: Sweep, folder: Path, *, maps: int, drawn: bool) -> None:
     Args:
         sweep: whose grid.
         folder: where the maps will be.
-        maps: how many of them.
+        maps: how many of them are not whole.
         drawn: whether they are measured or drawn as a whole.
 
     Raises:
@@ -105,16 +105,16 @@ def require_room(sweep: Sweep, folder: Path, *, maps: int, drawn: bool) -> None:
     needed, free = maps * pixels * bytes_per_pixel(sweep), shutil.disk_usage(folder).free
     if needed > free:
         raise UnwritableError(
-            f"{folder}: {grid} need up to {_gigabytes(needed)} of disk; accepted: a grid for the "
-            f"{_gigabytes(free)} that are free"
+            f"{folder}: {grid} need up to {_bytes(needed)} of disk; accepted: a grid for the "
+            f"{_bytes(free)} that are free"
         )
     pictures = 1 if sweep.margin is None else 2
     needed = pictures * pixels * DRAWING_BYTES_PER_PIXEL
     there = _memory()
     if drawn and needed > there:
         raise SweepError(
-            f"{grid}: to draw or compare them needs up to {_gigabytes(needed)} of memory; accepted: "
-            f"a grid for the {_gigabytes(there)} of this machine, or the map alone"
+            f"{grid}: to draw or compare them needs up to {_bytes(needed)} of memory; accepted: "
+            f"a grid for the {_bytes(there)} of this machine, or the map alone"
         )
 
 
@@ -126,5 +126,9 @@ def _memory() -> float:
         return math.inf
 
 
-def _gigabytes(count: float) -> str:
-    return f"{count / 1e9:,.2f} GB"
+def _bytes(count: float) -> str:
+    """Return a number of bytes in the unit that shows it."""
+    unit, size = next(
+        ((unit, size) for unit, size in (("GB", 1e9), ("MB", 1e6)) if count >= size), ("kB", 1e3)
+    )
+    return f"{count / size:,.1f} {unit}"

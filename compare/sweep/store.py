@@ -97,6 +97,11 @@ class Store:
         """Whether no tile was tossed yet; only the names of what is on disk are read."""
         return self.arrays["outcome"].nchunks_initialized == 0
 
+    @property
+    def is_whole(self) -> bool:
+        """Whether every tile was tossed, and none is damaged."""
+        return not any(self.missing(tile).size for tile in self.tiles)
+
     def tossed(self, tile: tuple[slice, ...]) -> NDArray[np.bool_]:
         """Return what of a tile is on disk, over the tile.
 
@@ -225,21 +230,20 @@ def require_place(path: Path, *, resume: bool, overwrite: bool) -> None:
             )
 
 
-def require_same(path: Path, layout: Layout) -> None:
-    """Check that a store at a path, if there is one, has a layout.
+def there(path: Path, layout: Layout) -> Store | None:
+    """Return the store at a path, to be read, if there is one.
 
     Raises:
-        UnwritableError: naming the path and what is not the same.
+        UnwritableError: naming the path and what is not the same, for one of another layout.
     """
     with naming(path):
         target = Path(os.path.realpath(path))
-        if is_map(target):
-            _same(path, target, "r", layout)
+        return _same(path, target, "r", layout) if is_map(target) else None
 
 
 @contextmanager
 def opened(path: Path, layout: Layout, *, overwrite: bool) -> Iterator[Store]:
-    """Open a store for this process alone: a new one, or what is there of it.
+    """Open a store for this process alone: a new one, or what is there of it; a whole one is only read.
 
     Args:
         path: of the store; checked by `require_place`.
@@ -250,6 +254,9 @@ def opened(path: Path, layout: Layout, *, overwrite: bool) -> Iterator[Store]:
         UnwritableError: naming the path and why: another process is at it, or it is another one.
     """
     target = Path(os.path.realpath(path))
+    if not overwrite and (found := there(path, layout)) is not None and found.is_whole:
+        yield found
+        return
     with ExitStack() as kept:
         with naming(path):
             if overwrite and is_map(target):

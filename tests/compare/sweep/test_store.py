@@ -5,6 +5,7 @@ import json
 import os
 import shutil
 from dataclasses import replace
+from itertools import count
 from typing import Any
 
 import numpy as np
@@ -18,10 +19,11 @@ from cointoss import analytic, coin_mj
 from cointoss.coin_mj import Realisation
 from cointoss.compare.engines import Engine
 from cointoss.compare.output.files import UnwritableError
-from cointoss.compare.sweep import grid, run
+from cointoss.compare.sweep import grid, run, store
 from cointoss.compare.sweep.grid import numbers_in
-from cointoss.compare.sweep.layers import holds_tosses
+from cointoss.compare.sweep.layers import holds_tosses, layers_of
 from cointoss.compare.sweep.layout import layout_of_map
+from cointoss.compare.sweep.reading import read_map
 from cointoss.compare.sweep.store import Store, opened, require_place
 from tests.helpers.basin_runs import (
     AXES,
@@ -166,6 +168,38 @@ def test_a_disk_that_is_full_at_the_start_leaves_nothing(coin, tmp_path, monkeyp
     assert [path.name for path in tmp_path.iterdir()] == ["coin.toml"]
 
 
+def test_a_tile_is_whole_when_its_outcome_is_there(tmp_path, monkeypatch):
+    path, sweep, put = tmp_path / "map.zarr", map_sweep(margin="height", trust=True), LocalStore.set
+    with opened(path, layout_of_map(sweep, SCENARIO), overwrite=False) as kept:
+        numbers = kept.missing(kept.tiles[0])
+        layers = {name: np.ones(len(numbers), layer.kind) for name, layer in layers_of(sweep).items()}
+        for room in range(len(layers)):
+            writes = count()
+
+            async def ended_after(self, key, value, left=writes, most=room):
+                if next(left) == most:
+                    raise OSError(errno.EIO, os.strerror(errno.EIO))
+                await put(self, key, value)
+
+            monkeypatch.setattr(LocalStore, "set", ended_after)
+            with pytest.raises(UnwritableError):
+                kept.write(numbers, layers)
+            assert set(read_map(path).cointoss.counts) == {"not_tossed"}
+            assert len([*path.glob("*/c/0/0")]) == room
+
+
+def test_a_whole_map_on_a_disk_that_is_read_only_prints_its_shares(in_tiles, coin, monkeypatch):
+    def read_only(*_, **__):
+        raise OSError(errno.EROFS, os.strerror(errno.EROFS))
+
+    monkeypatch.setattr(os, "mkdir", read_only)
+    monkeypatch.setattr(store, "_locked", read_only)
+    usage = shutil.disk_usage(in_tiles)
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: usage._replace(free=0))
+    answered = basin(coin, *AXES, "--out", in_tiles, "--resume")
+    assert answered.stdout.startswith(f"map        {in_tiles}\n"), answered.stderr
+
+
 @pytest.mark.slow_after_first
 @pytest.mark.parametrize("damage", ["empty", "cut", "flipped", "lost"])
 @pytest.mark.parametrize("name", ["outcome", "impacts"])
@@ -295,7 +329,7 @@ def test_a_grid_beyond_disk_or_memory_is_refused_with_its_need(coin, tmp_path, m
     usage = shutil.disk_usage(tmp_path)
     monkeypatch.setattr(shutil, "disk_usage", lambda _: usage._replace(free=5000))
     said = refused("basin", coin, *AXES, "--out", tmp_path / "map.zarr")
-    assert "48 by 40 tosses need up to 0.00 GB of disk" in said
+    assert "48 by 40 tosses need up to 9.6 kB of disk; accepted: a grid for the 5.0 kB that are free" in said
     monkeypatch.undo()
     monkeypatch.setattr(os, "sysconf", lambda _: 100)
     said = refused("basin", coin, *AXES, "--out", tmp_path / "map.zarr", "--png", tmp_path / "map.png")
