@@ -92,9 +92,9 @@ class Stage:
 at_work: list[Stage] = []
 """The stages of this process, the outermost first."""
 _showing = threading.Lock()
-"""Held while stages are shown: one display is enough."""
-_displays: "list[Display]" = []
-"""The display that shows them, if any does."""
+"""Held while stages are shown: one line is enough."""
+_shown: "list[Line]" = []
+"""The line that shows them, if any does."""
 
 
 def line_of(opened: Sequence[Stage], width: int) -> str:
@@ -108,36 +108,36 @@ def line_of(opened: Sequence[Stage], width: int) -> str:
     return line[:width] if width else line
 
 
-class Display:
-    """Shows on a stream what this process is at: on one line that is rewritten, or line by line."""
+class Line:
+    """What a stream shows: one line that is rewritten, or line by line."""
 
-    def __init__(self, stream: Any, *, rewrites: bool) -> None:
+    def __init__(self, stream: Any) -> None:
         """Show nothing yet."""
-        self.rewrites, self._stream, self._drawn = rewrites, stream, ""
-        self._lock, self.over = threading.Lock(), threading.Event()
+        self.stream, self.rewrites = stream, _rewrites(stream)
+        self._drawn, self._lock = "", threading.Lock()
 
     def draw(self, line: str) -> None:
         """Write a line; an empty one removes what is shown."""
         # Nobody may read it any more, which stops no work.
         with self._lock, suppress(OSError, ValueError):
             if self.rewrites and line != self._drawn:
-                self._stream.write(f"\r{line:{len(self._drawn)}}" + ("" if line else "\r"))
+                self.stream.write(f"\r{line:{len(self._drawn)}}" + ("" if line else "\r"))
                 self._drawn = line
             elif line and not self.rewrites:
-                self._stream.write(f"cointoss: {line}\n")
-            self._stream.flush()
+                self.stream.write(f"cointoss: {line}\n")
+            self.stream.flush()
 
-    def keep_drawing(self) -> None:
+    def keep_drawing(self, over: threading.Event) -> None:
         """Draw what is at work until it is over."""
-        while not self.over.wait(REWRITTEN if self.rewrites else LOGGED):
+        while not over.wait(REWRITTEN if self.rewrites else LOGGED):
             # Other threads open and end stages.
-            self.draw(line_of(list(at_work), _width(self._stream) - 1 if self.rewrites else 0))
+            self.draw(line_of(list(at_work), _width(self.stream) - 1 if self.rewrites else 0))
 
 
 def clear_line() -> None:
     """Remove the line that is shown, so that other text can be written; it comes again."""
-    for display in _displays:
-        display.draw("")
+    for line in _shown:
+        line.draw("")
 
 
 @contextmanager
@@ -147,21 +147,21 @@ def progress_shown(*, in_logs: bool) -> Iterator[None]:
     Args:
         in_logs: whether it is shown too where that is no terminal and no notebook.
     """
-    display = Display(sys.stderr, rewrites=_rewrites(sys.stderr))
-    is_wanted = display.rewrites or (in_logs and sys.stderr is not None)
+    line, over = Line(sys.stderr), threading.Event()
+    is_wanted = line.rewrites or (in_logs and sys.stderr is not None)
     if os.environ.get("TQDM_DISABLE") or not is_wanted or not _showing.acquire(blocking=False):
         yield
         return
-    shower = threading.Thread(target=display.keep_drawing, daemon=True)
+    shower = threading.Thread(target=line.keep_drawing, args=(over,), daemon=True)
     shower.start()
-    _displays.append(display)
+    _shown.append(line)
     try:
         yield
     finally:
-        display.over.set()
+        over.set()
         shower.join()
         clear_line()
-        _displays.clear()
+        _shown.clear()
         _showing.release()
 
 

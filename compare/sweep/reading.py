@@ -97,12 +97,11 @@ def _require_map(attributes: Mapping[str, Any]) -> None:
 
 
 def _require_size(path: Path, store: Store) -> None:
-    ny, nx = store.shape
+    (ny, nx), tile = store.shape, store.arrays["outcome"].chunks
+    count = -(-ny // tile[0]) * -(-nx // tile[1])
     if ny * nx > MOST_READ:
-        few = f"accepted: a map of at most {MOST_READ:g} pixels"
-        raise MapError(f"{path}: has {nx} by {ny} pixels; {few}")
-    tile = store.arrays["outcome"].chunks
-    if -(-ny // tile[0]) * -(-nx // tile[1]) > MOST_TILES:
+        raise MapError(f"{path}: has {nx} by {ny} pixels; accepted: a map of at most {MOST_READ:g} pixels")
+    if count > MOST_TILES:
         few = f"accepted: a map of at most {MOST_TILES:g} tiles"
         raise MapError(f"{path}: has tiles of {tile[1]} by {tile[0]} pixels; {few}")
 

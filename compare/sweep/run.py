@@ -55,8 +55,7 @@ def fill(store: Store, tosser: Tosser, *, shown: bool | None = None) -> None:
         ScenarioError, UnsupportedError: for what can't be tossed.
     """
     whole, name = math.prod(store.shape), store.path.name
-    is_empty = store.is_empty
-    left = [tile for tile in store.tiles if is_empty or store.missing(tile).size]
+    left = [tile for tile in store.tiles if store.missing(tile).size]
     kept = whole - sum(int(store.missing(tile).size) for tile in left)
     with (
         saying(lambda _: f"{name}: {kept} of {whole} tosses are saved; `resume` continues"),

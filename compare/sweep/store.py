@@ -93,11 +93,6 @@ class Store:
         return [name for name in LAYERS if name in self.arrays]
 
     @property
-    def is_empty(self) -> bool:
-        """Whether no tile was tossed yet; only the names of what is on disk are read."""
-        return self.arrays["outcome"].nchunks_initialized == 0
-
-    @property
     def is_whole(self) -> bool:
         """Whether every tile was tossed, and none is damaged."""
         return not any(self.missing(tile).size for tile in self.tiles)
@@ -112,9 +107,9 @@ class Store:
             return np.zeros([part.stop - part.start for part in tile], dtype=bool)
         parts = [holds_tosses(name, self.read(tile, name)) for name in self.layers]
         for name, holds in zip(self.layers, parts, strict=True):
-            # The outcome is written last.
-            if not holds.any() and (lost := self._lost(name, tile)):
-                raise DamagedError(f"{lost}: lost")
+            lost = [file for file in self._files(name, tile) if not (self.path / file).exists()]
+            if lost and not holds.any():  # the outcome is written last
+                raise DamagedError(f"{lost[0]}: lost")
         return np.logical_and.reduce(parts)
 
     def missing(self, tile: tuple[slice, ...]) -> NDArray[np.intp]:
@@ -183,10 +178,6 @@ class Store:
                 known = self.read(tile, name)
         known[inside] = values
         array[tile] = known
-
-    def _lost(self, name: str, part: tuple[slice, ...]) -> Path | None:
-        """Return a file of a part of an array that is not there, if there is any."""
-        return next((file for file in self._files(name, part) if not (self.path / file).exists()), None)
 
     def _files(self, name: str, part: tuple[slice, ...]) -> Iterator[Path]:
         """Yield the files of the chunks of a part of an array, as they are named in the store."""

@@ -8,7 +8,8 @@ import pytest
 
 from cointoss.compare.commands.common import say
 from cointoss.models import stages
-from cointoss.models.stages import Display, Stage, at_work, counted, line_of, stage
+from cointoss.models.stages import Line, Stage, at_work, counted, line_of, stage
+from tests.helpers.processes import HANGS
 
 
 class Terminal(io.StringIO):
@@ -61,20 +62,20 @@ def test_a_line_has_what_is_done_and_not_what_waits_for_it(clock):
 
 
 def test_the_line_of_a_terminal_is_one_and_goes_before_a_message(monkeypatch):
-    display = Display(Terminal(), rewrites=True)
-    monkeypatch.setattr(stages, "_displays", [display])
-    monkeypatch.setattr(sys, "stderr", display._stream)
+    display = Line(Terminal())
+    monkeypatch.setattr(stages, "_shown", [display])
+    monkeypatch.setattr(sys, "stderr", display.stream)
     for line in ("finding: 4 s", "f: 5 s"):
         display.draw(line)
     say("64 tosses show HTTH")
-    shown = display._stream.getvalue()
+    shown = display.stream.getvalue()
     assert shown == "\rfinding: 4 s\rf: 5 s      \r      \rcointoss: 64 tosses show HTTH\n"
 
 
-@pytest.mark.parametrize("rewrites", [True, False])
-def test_a_stream_that_nobody_reads_stops_no_work(rewrites):
-    display = Display(io.StringIO(), rewrites=rewrites)
-    display._stream.close()
+@pytest.mark.parametrize("stream", [Terminal(), io.StringIO()])
+def test_a_stream_that_nobody_reads_stops_no_work(stream):
+    display = Line(stream)
+    stream.close()
     display.draw("finding: 4 s")
     display.draw("")
 
@@ -107,10 +108,10 @@ def test_a_log_is_told_what_is_asked_for_and_a_terminal_all(monkeypatch, clock, 
     monkeypatch.setenv("TQDM_DISABLE", "")
     monkeypatch.setattr(sys, "stderr", stream)
     monkeypatch.setattr(stages, "LOGGED", 0.01)
-    monkeypatch.setattr(Display, "draw", lambda *a, own=Display.draw: own(*a) or (a[1] and drawn.set()))
+    monkeypatch.setattr(Line, "draw", lambda *a, own=Line.draw: own(*a) or (a[1] and drawn.set()))
     with stage("outer", shown=asked), stage("inner"):
         clock[0] = 9.0
-        assert drawn.wait(2.0 if said else 0.3) == bool(said)
+        assert drawn.wait(HANGS if said else 0.3) == bool(said)
     assert stream is None or set(stream.getvalue().splitlines(True)) == set(said.splitlines(True))
 
 
@@ -118,11 +119,11 @@ def test_a_display_that_is_forbidden_shows_nothing(monkeypatch):
     monkeypatch.setenv("TQDM_DISABLE", "1")
     monkeypatch.setattr(sys, "stderr", Terminal())
     with stage("outer", shown=True):
-        assert stages._displays == []
+        assert stages._shown == []
 
 
 def test_two_that_work_side_by_side_have_one_line(monkeypatch):
     monkeypatch.setenv("TQDM_DISABLE", "")
     monkeypatch.setattr(sys, "stderr", Terminal())
     with stage("building one engine", shown=True), stage("building another", shown=True):
-        assert len(stages._displays) == 1
+        assert len(stages._shown) == 1

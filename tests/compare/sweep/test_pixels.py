@@ -40,17 +40,23 @@ AXES = [
 ]
 
 
+LONG = scenario(floor={"restitution": 0.9}, release={"angular_velocity": [3.0, 40.0, 5.0]})
+"""Long tosses multiply a difference in the last digit: their numbers of impacts would tell."""
+
+
 @pytest.mark.parametrize(
-    ("x", "y", "after"),
+    ("case", "x", "y", "after"),
     [
-        *((x, y, after) for x, y in AXES for after in (None, 0, 2)),
-        ("gravity=1:20:4", "ending.max_impacts=1:9:3", None),
+        *((TUMBLING, x, y, after) for x, y in AXES for after in (None, 0, 2)),
+        (TUMBLING, "gravity=1:20:4", "ending.max_impacts=1:9:3", None),
+        (LONG, "release.angles.theta=0.1:3:4", "release.angles.phi=-1:1:3", None),
     ],
 )
-def test_each_pixel_is_its_own_toss_to_the_bit(x, y, after):
-    sweep = sweep_of(x, y, TUMBLING, after=after)
+def test_each_pixel_is_its_own_toss_to_the_bit(case, x, y, after):
+    sweep = sweep_of(x, y, case, after=after)
     pixels = toss_pixels(sweep)
     assert pixels.outcome.shape == (3, 4)
+    assert case is TUMBLING or pixels.impacts.max() > 1000
     for i, at_y in enumerate(sweep.y.values):
         for j, at_x in enumerate(sweep.x.values):
             given = [
@@ -59,23 +65,10 @@ def test_each_pixel_is_its_own_toss_to_the_bit(x, y, after):
             ]
             toss = analytic.toss(sweep.scenario.replace(*given[0], *given[1]))
             if after is None or len(toss.impacts) <= after:
-                assert pixels.outcome[i, j] == toss.outcome
-                assert pixels.impacts[i, j] == len(toss.impacts)
+                due = toss.outcome, len(toss.impacts)
             else:
-                assert pixels.outcome[i, j] == toss.impacts.face[after]
-                assert pixels.impacts[i, j] == after + 1
-
-
-def test_the_impacts_of_the_last_digit_are_those_of_one_toss():
-    """Long tosses multiply a difference in the last digit: their numbers of impacts would tell."""
-    case = scenario(floor={"restitution": 0.9}, release={"angular_velocity": [3.0, 40.0, 5.0]})
-    sweep = sweep_of("release.angles.theta=0.1:3:4", "release.angles.phi=-1:1:3", case)
-    pixels = toss_pixels(sweep)
-    for i, at_y in enumerate(sweep.y.values.tolist()):
-        for j, at_x in enumerate(sweep.x.values.tolist()):
-            toss = analytic.toss(pixel_scenario(sweep, at_y, at_x))
-            assert (pixels.outcome[i, j], pixels.impacts[i, j]) == (toss.outcome, len(toss.impacts))
-    assert pixels.impacts.max() > 1000
+                due = toss.impacts.face[after], after + 1
+            assert (pixels.outcome[i, j], pixels.impacts[i, j]) == due
 
 
 def test_a_part_of_a_map_is_that_part_of_the_whole():

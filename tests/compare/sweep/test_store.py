@@ -129,12 +129,10 @@ def test_a_new_map_is_known_to_be_empty_without_reading_its_tiles(tmp_path, monk
     monkeypatch.setattr(Store, "read", lambda kept, *asked: reads.append(asked) or read(kept, *asked))
     sweep = map_sweep()
     with opened(tmp_path / "map.zarr", layout_of_map(sweep, SCENARIO), overwrite=False) as kept:
-        assert kept.is_empty
         assert [kept.missing(tile).size for tile in kept.tiles] == [SMALL] * TILES
         assert {name for _, name in reads} == {sweep.x.field, sweep.y.field}
         last = numbers_in(kept.tiles[-1], sweep.shape).ravel()
         kept.write(last, run.toss_part(sweep, last))
-        assert not kept.is_empty
         assert [kept.missing(tile).size for tile in kept.tiles] == [*[SMALL] * (TILES - 1), 0]
         assert {name for _, name in reads} > {sweep.x.field, sweep.y.field}
 
@@ -200,26 +198,39 @@ def test_a_whole_map_on_a_disk_that_is_read_only_prints_its_shares(in_tiles, coi
     assert answered.stdout.startswith(f"map        {in_tiles}\n"), answered.stderr
 
 
+def changed(file, change):
+    file.write_bytes(change(file.read_bytes()))
+
+
+def set_to(value):
+    """Return what gives one pixel of an array a number that means nothing."""
+
+    def change(out, name):
+        array: Any = zarr.open_group(out, mode="r+", use_consolidated=False)[name]
+        array[7, 7] = value if name == "outcome" else -abs(value)
+
+    return change
+
+
+DAMAGES = {
+    "empty": (SMALL, lambda out, name: (out / name / "c/2/2").write_bytes(b"")),
+    "cut": (SMALL, lambda out, name: changed(out / name / "c/2/2", lambda whole: whole[: len(whole) // 2])),
+    "flipped": (
+        SMALL,
+        lambda out, name: changed(out / name / "c/2/2", lambda whole: whole[:-5] + b"?" + whole[-4:]),
+    ),
+    "lost": (SMALL, lambda out, name: (out / name / "c/2/2").unlink()),
+    **{f"a pixel with {value}": (1, set_to(value)) for value in (-7, 6, 100)},
+}
+
+
 @pytest.mark.slow_after_first
-@pytest.mark.parametrize("damage", ["empty", "cut", "flipped", "lost"])
+@pytest.mark.parametrize("damage", DAMAGES)
 @pytest.mark.parametrize("name", ["outcome", "impacts"])
-def test_a_damaged_tile_is_tossed_again(undisturbed, in_tiles, coin, tmp_path, monkeypatch, name, damage):
-    out = shutil.copytree(in_tiles, tmp_path / "map.zarr")
-    part = next((out / name / "c").glob("2/*"))
-    whole = part.read_bytes()
-    middle = len(whole) // 2
-    if damage == "lost":
-        part.unlink()
-    else:
-        flipped = bytes([whole[middle] ^ 1])
-        part.write_bytes(
-            {
-                "empty": b"",
-                "cut": whole[:middle],
-                "flipped": whole[:middle] + flipped + whole[middle + 1 :],
-            }[damage]
-        )
-    assert tosses_of(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == SMALL
+def test_what_is_damaged_is_tossed_again(undisturbed, in_tiles, coin, tmp_path, monkeypatch, name, damage):
+    out, (again, harm) = shutil.copytree(in_tiles, tmp_path / "map.zarr"), DAMAGES[damage]
+    harm(out, name)
+    assert tosses_of(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == again
     assert_same(out, undisturbed)
 
 
@@ -230,20 +241,6 @@ def test_a_certainty_that_means_nothing_is_found_again():
         True,
         False,
     ]
-
-
-@pytest.mark.parametrize("value", [-7, 6, 100])
-@pytest.mark.parametrize("name", ["outcome", "impacts"])
-def test_a_pixel_with_a_number_that_means_nothing_is_tossed_again(
-    undisturbed, in_tiles, coin, tmp_path, monkeypatch, name, value
-):
-    out = shutil.copytree(in_tiles, tmp_path / "map.zarr")
-    if name == "impacts":
-        value = -abs(value)
-    array: Any = zarr.open_group(out, mode="r+", use_consolidated=False)[name]
-    array[7, 7] = value
-    assert tosses_of(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == 1
-    assert_same(out, undisturbed)
 
 
 def test_a_map_is_replaced_where_that_is_asked_for(in_tiles, coin, tmp_path):
@@ -269,19 +266,16 @@ def test_a_map_is_replaced_where_that_is_asked_for(in_tiles, coin, tmp_path):
     ],
 )
 def test_a_map_of_something_else_is_not_gone_on_with(tmp_path, change, named):
-    out = tmp_path / "map.zarr"
-    with opened(out, layout_of_map(map_sweep(), SCENARIO), overwrite=False):
-        pass
-    with pytest.raises(UnwritableError, match=f"is a map with another {named}"):
-        opened(
-            out, layout_of_map(map_sweep(**change), change.get("case", SCENARIO)), overwrite=False
-        ).__enter__()
-    with opened(tmp_path / "trust.zarr", layout_of_map(map_sweep(trust=True), SCENARIO), overwrite=False):
-        pass
-    with pytest.raises(UnwritableError, match=r"another set of arrays \(`trust`\)"):
-        opened(tmp_path / "trust.zarr", layout_of_map(map_sweep(), SCENARIO), overwrite=False).__enter__()
+    one, other = tmp_path / "one.zarr", tmp_path / "other.zarr"
+    layout = layout_of_map(map_sweep(), SCENARIO)
+    changed = layout_of_map(map_sweep(**change), change.get("case", SCENARIO))
+    for path, made, asked in ((one, layout, changed), (other, changed, layout)):
+        with opened(path, made, overwrite=False):
+            pass
+        with pytest.raises(UnwritableError, match=f"is a map with another {named}"):
+            opened(path, asked, overwrite=False).__enter__()
     same = SCENARIO + "# another word for the same coin\n"
-    with opened(out, layout_of_map(map_sweep(case=same, name="another file"), same), overwrite=False) as map_:
+    with opened(one, layout_of_map(map_sweep(case=same, name="another file"), same), overwrite=False) as map_:
         assert (map_.attributes["scenario"], map_.attributes["name"]) == (SCENARIO, "")
 
 
