@@ -93,7 +93,7 @@ at_work: list[Stage] = []
 """The stages of this process, the outermost first."""
 _showing = threading.Lock()
 """Held while stages are shown: one line is enough."""
-_shown: "list[Line]" = []
+_shown: "list[ProgressLine]" = []
 """The line that shows them, if any does."""
 
 
@@ -108,7 +108,7 @@ def line_of(opened: Sequence[Stage], width: int) -> str:
     return line[:width] if width else line
 
 
-class Line:
+class ProgressLine:
     """What a stream shows: one line that is rewritten, or line by line."""
 
     def __init__(self, stream: Any) -> None:
@@ -147,7 +147,7 @@ def progress_shown(*, in_logs: bool) -> Iterator[None]:
     Args:
         in_logs: whether it is shown too where that is no terminal and no notebook.
     """
-    line, over = Line(sys.stderr), threading.Event()
+    line, over = ProgressLine(sys.stderr), threading.Event()
     is_wanted = line.rewrites or (in_logs and sys.stderr is not None)
     if os.environ.get("TQDM_DISABLE") or not is_wanted or not _showing.acquire(blocking=False):
         yield

@@ -8,7 +8,7 @@ import pytest
 
 from cointoss.compare.commands.common import say
 from cointoss.models import stages
-from cointoss.models.stages import Line, Stage, at_work, counted, line_of, stage
+from cointoss.models.stages import ProgressLine, Stage, at_work, counted, line_of, stage
 from tests.helpers.processes import HANGS
 
 
@@ -62,7 +62,7 @@ def test_a_line_has_what_is_done_and_not_what_waits_for_it(clock):
 
 
 def test_the_line_of_a_terminal_is_one_and_goes_before_a_message(monkeypatch):
-    display = Line(Terminal())
+    display = ProgressLine(Terminal())
     monkeypatch.setattr(stages, "_shown", [display])
     monkeypatch.setattr(sys, "stderr", display.stream)
     for line in ("finding: 4 s", "f: 5 s"):
@@ -74,7 +74,7 @@ def test_the_line_of_a_terminal_is_one_and_goes_before_a_message(monkeypatch):
 
 @pytest.mark.parametrize("stream", [Terminal(), io.StringIO()])
 def test_a_stream_that_nobody_reads_stops_no_work(stream):
-    display = Line(stream)
+    display = ProgressLine(stream)
     stream.close()
     display.draw("finding: 4 s")
     display.draw("")
@@ -108,7 +108,9 @@ def test_a_log_is_told_what_is_asked_for_and_a_terminal_all(monkeypatch, clock, 
     monkeypatch.setenv("TQDM_DISABLE", "")
     monkeypatch.setattr(sys, "stderr", stream)
     monkeypatch.setattr(stages, "LOGGED", 0.01)
-    monkeypatch.setattr(Line, "draw", lambda *a, own=Line.draw: own(*a) or (a[1] and drawn.set()))
+    monkeypatch.setattr(
+        ProgressLine, "draw", lambda *a, own=ProgressLine.draw: own(*a) or (a[1] and drawn.set())
+    )
     with stage("outer", shown=asked), stage("inner"):
         clock[0] = 9.0
         assert drawn.wait(HANGS if said else 0.3) == bool(said)
