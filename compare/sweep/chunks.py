@@ -4,6 +4,7 @@ A Zarr folder names the codecs that its numbers are decoded by, and their sizes.
 """
 
 import json
+import math
 import os
 import stat
 from pathlib import Path
@@ -55,16 +56,22 @@ def require_plain(folder: Path) -> None:
                 raise DamagedError(f"{path.relative_to(folder)}: more than {MOST_DESCRIBED} bytes")
 
 
-def require_array(name: str, array: Any) -> None:
-    """Refuse an array that is decoded by other codecs than ours, or cut into chunks larger than itself.
+def require_array(name: str, array: Any, most: int) -> None:
+    """Refuse an array that is decoded by other codecs than ours, or by which a chunk would fill the memory.
+
+    Args:
+        name: of the array.
+        array: Zarr's.
+        most: numbers, of at most 8 bytes each, that it may have.
 
     Raises:
         DamagedError: naming the array.
     """
     if [type(codec) for codec in array.metadata.codecs] != CODECS:
         raise DamagedError(f"array {name}: codecs {shown(array.metadata.codecs)}, not bytes and zstd")
-    if any(side > size for side, size in zip(array.chunks, array.shape, strict=True)):
-        raise DamagedError(f"array {name}: chunks of {array.chunks} in {array.shape}")
+    outside = any(side > size for side, size in zip(array.chunks, array.shape, strict=True))
+    if outside or math.prod(array.shape) > most or array.dtype.itemsize > 8:
+        raise DamagedError(f"array {name}: chunks of {array.chunks} {array.dtype} in {array.shape}")
 
 
 def require_chunk(file: Path, size: int) -> None:

@@ -71,10 +71,10 @@ class Store:
         require_plain(path)
         group = zarr.open_group(path, mode=mode, zarr_format=3, use_consolidated=True)
         arrays = {name: array for name, array in group.arrays() if name in _NAMES}
-        for name, array in arrays.items():
-            require_array(name, array)
         if "outcome" not in arrays:
             raise DamagedError("array outcome missing")
+        for name, array in arrays.items():
+            require_array(name, array, math.prod(arrays["outcome"].shape))
         return cls(path=path, attributes=dict(group.attrs), arrays=arrays)
 
     @property

@@ -176,6 +176,20 @@ STRANGE = {
     "another map": (NO_MAP, lambda path: described(path, "impacts", shape=[10, 11])),
     "large chunk": ("chunks of", lambda path: described(path, X, chunk_grid=regular(GIGABYTES))),
     "large tile": ("chunks of", lambda path: described(path, "outcome", chunk_grid=regular(GIGABYTES, 12))),
+    "large layer": (
+        "chunks of",
+        lambda path: described(path, "impacts", shape=[10, 13], chunk_grid=regular(10, 13)),
+    ),
+    "longer axis": ("chunks of", lambda path: described(path, X, shape=[121], chunk_grid=regular(121))),
+    "wide numbers": (
+        "chunks of",
+        lambda path: described(
+            path,
+            "impacts",
+            data_type={"name": "null_terminated_bytes", "configuration": {"length_bytes": 9}},
+            fill_value="",
+        ),
+    ),
     "negative": (NO_MAP, lambda path: described(path, X, shape=[-1])),
     "two axes": (NO_MAP, lambda path: described(path, X, shape=[3, 4])),
     "grid": (NO_MAP, lambda path: described(path, X, chunk_grid={"name": "rectilinear"})),
