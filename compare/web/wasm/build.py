@@ -5,7 +5,6 @@ import sys
 from importlib.metadata import version
 from pathlib import Path
 
-from cointoss.compare.output.files import write_bytes
 from cointoss.compare.web.wasm.carried import SECTION, made_of, sources
 from cointoss.models.kernel.base_folder import EngineMissingError, base_folder
 from cointoss.models.kernel.building import build_once
@@ -28,7 +27,8 @@ def build(out: Path, library: Path | None = None) -> None:
     if library is None:
         build_once(MODULE, base_folder() / "engines", [SYSTEM, BROWSER])
         library = library_file(MODULE, BROWSER)
-    write_bytes(out, library.read_bytes() + _section(_description()))
+    # A build has no locks, by which other files are written aside; half a file is not of these sources.
+    out.write_bytes(library.read_bytes() + _section(_description()))
 
 
 def _description() -> dict[str, object]:
