@@ -376,7 +376,7 @@ BOUNDED: dict[str, tuple[Callable[[Draws], Pairs], int, float]] = {
     "idle energy": (idle_energies, 200, 0.9),
     "losses to come": (losses_to_come, 300, 0.5),
     "kink": (steps_to_a_kink, 300, 1e-3),
-    "hold": (holds, 300, 0.1),
+    "hold": (holds, 1000, 0.1),
     "restoring": (restoring, 60, 0.9),
     "closed touch": (closed_touches, 100, 0.9),
 }
