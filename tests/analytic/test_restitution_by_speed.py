@@ -36,17 +36,17 @@ def dropped(height: float, floor: dict[str, Any], **ending: Any) -> Scenario:
     return scenario(coin=ZLOTY, floor=floor, release={"position": position}, ending=ending)
 
 
-def test_the_touches_of_a_coin_that_falls_flat_are_those_of_the_closed_form():
+def test_a_coin_that_falls_flat_hops_on_by_the_closed_form():
     """v(n) = v_e (v(0)/v_e)^((1 - p)^n), and 2 v(n)/g lie between touches n and n + 1."""
-    case = dropped(1.0, POWER, test="lying", max_impacts=12)
+    case = dropped(1.0, POWER, test="lying", max_impacts=300)
     slowest, fastest = elastic_speed(case.rules), (2 * G) ** 0.5
     assert slowest == 0.5**4
-    speeds = slowest * (fastest / slowest) ** (0.75 ** np.arange(13))
+    speeds = slowest * (fastest / slowest) ** (0.75 ** np.arange(301))
     times = fastest / G + 2 / G * np.concatenate([[0], np.cumsum(speeds[1:-1])])
     tossed = analytic.toss(case)
     assert tossed.impacts.time == pytest.approx(times, rel=1e-13)
     assert -tossed.impacts.contact_velocity_before[:, 2] == pytest.approx(speeds[:-1], rel=1e-11)
-    assert tossed.ending == Ending.MAX_IMPACTS
+    assert (tossed.ending, len(tossed.contacts)) == (Ending.MAX_IMPACTS, 0)
 
 
 @pytest.mark.parametrize("floor", [POWER, VISCOUS, BOTH])
@@ -113,17 +113,13 @@ def test_a_touch_at_the_elastic_speed_has_the_derivatives_of_its_own_side():
         assert found == pytest.approx(slope, rel=1e-3)
 
 
-def test_by_the_power_law_no_impacts_chatter_and_a_coin_hops_on():
+def test_by_the_power_law_no_impacts_chatter():
     case = scenario(coin=THIN, floor=POWER)
     for speed in np.geomspace(1e-4, 1.0, 30):
         y = touching(case.body, speed)
         with np.errstate(divide="ignore"):
             assert not is_chattering(case.body, rebound_at(case.body, case.rules, y), state_of(y))
     assert rebound_at(case.body, case.rules, touching(case.body, 2.0)) == 1.0
-    tossed = analytic.toss(dropped(0.3, POWER, test="lying", max_impacts=300))
-    assert tossed.ending == Ending.MAX_IMPACTS
-    assert -tossed.impacts.contact_velocity_before[-1, 2] == pytest.approx(0.5**4, rel=1e-9)
-    assert len(tossed.contacts) == 0
 
 
 def test_a_threshold_above_the_elastic_speed_stops_the_coin():
