@@ -52,6 +52,8 @@ def checked_states(scenario: Scenario, times: Array, dt: float | None, answer: M
         raise ValueError(
             "impact_time: accepted: times in order, and impact_impulse with three numbers for each"
         )
+    if not np.asarray(answer.get("stiffness", 1.0)) > 0:
+        raise ValueError(f"stiffness: {answer['stiffness']} N/m, accepted: a number above 0")
     norms = np.linalg.norm(columns["quaternion"], axis=1)
     wrong = np.abs(norms - 1) > ROUNDING * 10
     if wrong.any():

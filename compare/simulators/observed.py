@@ -35,7 +35,7 @@ STRUCK = 5.0
 weight's impulse."""
 SLOWEST = 0.02
 """The smallest change of speed that is an impact, against √(g r)."""
-NEAR = 0.1
+NEAR = 0.5
 """How near the floor a coin must be for it to act, against r, beside the way of an interval."""
 RAMP = 3
 """Intervals of a soft contact's rise and fall that belong to its impact."""
@@ -52,6 +52,8 @@ class ObservedToss:
     """The states from the release on, at times close enough to separate the impacts."""
     told: tuple[Array, Array] | None = None
     """The times of the impacts, (k,) [s], and their impulses, (k, 3) [N s], where the engine gives them."""
+    stiffness: float = np.inf
+    """The stiffness k of the engine's contact, in which the coin lies m g/k deep [N/m]."""
     processor_time: float = 0.0
     """How long the engine took [s]."""
 

@@ -43,8 +43,9 @@ class Simulates(Protocol):
         Returns:
             Arrays by name, or in this order: `position` of the mass centre, space frame, (n, 3) [m];
             `quaternion`, scalar first, body to space, (n, 4); `velocity` of the mass centre, space frame,
-            (n, 3) [m/s]; `angular_velocity`, body frame, (n, 3) [rad/s]. By name it may add `time`, and the
-            `impact_time`, (k,) [s], and `impact_impulse`, space frame, (k, 3) [N s], of its impacts.
+            (n, 3) [m/s]; `angular_velocity`, body frame, (n, 3) [rad/s]. By name it may add `time`, the
+            `impact_time`, (k,) [s], and `impact_impulse`, space frame, (k, 3) [N s], of its impacts, and the
+            `stiffness` of a contact that is a spring [N/m].
         """
         ...
 
@@ -96,6 +97,7 @@ class Simulator:
             scenario=scenario,
             states=states,
             told=(np.asarray(answer["impact_time"]), np.asarray(answer["impact_impulse"])) if given else None,
+            stiffness=float(answer.get("stiffness", np.inf)),
             processor_time=float(answer["processor_time"]),
         )
 

@@ -55,8 +55,9 @@ def imported(path: str) -> Any:
 
 STATE = ("position", "quaternion", "velocity", "angular_velocity")
 """What an engine returns: see `cointoss.models.records.States`."""
-MORE = ("time", "impact_time", "impact_impulse")
-"""What it may return: the times of its states, and of its impacts, (k,), with their impulses, (k, 3)."""
+MORE = ("time", "impact_time", "impact_impulse", "stiffness")
+"""What it may return: the times of its states, and of its impacts, (k,), with their impulses, (k, 3); the
+stiffness of its contact [N/m]."""
 
 
 def about(engine: Any) -> "dict[str, Any]":
