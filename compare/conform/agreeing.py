@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 
 from cointoss import analytic
-from cointoss.compare.conform.card import value
-from cointoss.compare.conform.case import Case
-from cointoss.compare.conform.running import Status, run_case, tolerance_of
+from cointoss.compare.conform.card import height_told, value
+from cointoss.compare.conform.case import Case, kind_of
+from cointoss.compare.conform.running import Status, run_case
 from cointoss.compare.report.compared_tosses import Against
 from cointoss.compare.simulators.simulator import Simulator, simulator_of
 from cointoss.models.reading import ScenarioSource, scenario_of
@@ -35,7 +35,8 @@ def assert_agrees(given: Toss | Any, scenario: ScenarioSource, *, tolerance: flo
     """
     described = scenario_of(scenario)
     right = analytic.toss(described)
-    toss = given if isinstance(given, Toss) else _simulator(given).toss(described, right.end_time + AFTER)
+    engine = given if isinstance(given, Toss | Simulator) else simulator_of(given)
+    toss = engine if isinstance(engine, Toss) else engine.toss(described, right.end_time + AFTER)
     who, first, expected = toss.engine, _first(toss), _first(right)
     _require(
         len(toss.impacts) > 0 or not len(right.impacts),
@@ -71,21 +72,17 @@ def assert_met(engine: Simulator, case: Case) -> None:
     Raises:
         AssertionError: naming the case, the quantity, what was found, how far off it is, and what is allowed.
     """
-    run, limit = run_case(engine, case, engine.dt), tolerance_of(case, engine.dt)
+    run, limit = run_case(engine, case, engine.dt), case.tolerance[kind_of(engine.dt)]
     _require(run.status != Status.FAILED, f"{engine.name}: {case.name}: {run.why}")
     _require(
         run.status != Status.MISSED,
         f"{engine.name}: {case.name} ({case.title}): {case.quantity} {value(run.found)}, right "
-        f"{value(case.right)}{_off(run.error, limit)}, {case.reason}; often: {case.points_to}",
+        f"{value(case.right)}{_off(run.error, limit)}, {case.reason}{height_told(run)}",
     )
 
 
 def _off(error: float, allowed: float) -> str:
     return f": off by {error:.1e}, allowed {allowed:.1e}"
-
-
-def _simulator(given: Any) -> Simulator:
-    return given if isinstance(given, Simulator) else simulator_of(given)
 
 
 def _first(toss: Toss) -> float:

@@ -2,12 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from importlib import resources
 from typing import Any
 
 import jinja2
 import numpy as np
 
+from cointoss.compare.conform.hints import hints
 from cointoss.compare.conform.running import Result, Run, Status
 from cointoss.compare.simulators.simulator import Simulator
 
@@ -45,6 +47,11 @@ class Card:
         more = [f"{count} {status}" for status, count in counts.items() if count and status != Status.MET]
         return ", ".join([f"{counts[Status.MET]} of {len(self.results)} cases met", *more])
 
+    @cached_property
+    def hints(self) -> list[str]:
+        """The likely causes of what is missed; see `cointoss.compare.conform.hints`."""
+        return hints(self.results)
+
     @property
     def steps(self) -> str:
         """How the engine steps, in words."""
@@ -57,22 +64,27 @@ class Card:
             "dt": self.dt,
             "settings": self.settings,
             "cases": [_as_json(result) for result in self.results],
+            "hints": self.hints,
         }
 
     def as_lines(self) -> str:
         """Return it as text: a line for each case, and what was found for right where it is missed."""
-        settings = [f"  {name} = {value}" for name, value in self.settings.items()]
-        meaning = "error: relative to the scale of the case; order: of the error in the step"
-        head = f"{'case':18} {'error':>8} {'limit':>8} {'order':>5}"
+        head = [
+            *(f"  {name} = {value}" for name, value in self.settings.items()),
+            "",
+            "error: relative to the scale of the case; order: of the error in the step",
+            f"{'case':18} {'error':>8} {'limit':>8} {'order':>5}",
+        ]
         rows = [line for result in self.results for line in _lines(result)]
-        return "\n".join([f"{self.name}, {self.steps}", *settings, "", meaning, head, *rows, "", self.told])
+        likely = [f"likely: {each}" for each in self.hints]
+        return "\n".join([f"{self.name}, {self.steps}", *head, *rows, "", *likely, self.told])
 
     def page(self) -> str:
         """Return it as a page of HTML, which needs no other file."""
         folder = resources.files("cointoss.compare.conform")
         environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
         template = environment.from_string((folder / "card.html.j2").read_text(encoding="utf-8"))
-        return template.render(card=self, value=value, error=error_told, order=order_told)
+        return template.render(card=self, value=value, error=error_told, order=order_told, height=height_told)
 
 
 def _as_json(result: Result) -> dict[str, Any]:
@@ -96,6 +108,7 @@ def _run_as_json(run: Run) -> dict[str, Any]:
         "status": str(run.status),
         "found": run.found,
         "error": run.error if run.found else None,
+        "height": run.height if run.found else None,
         "processor_time": run.processor_time,
         "why": run.why,
     }
@@ -106,8 +119,10 @@ def _lines(result: Result) -> list[str]:
     order = order_told(result)
     lines = [f"{case.name:18} {error_told(own):>8} {result.tolerance:>8g} {order:>5}  {own.status}"]
     if own.status == Status.MISSED:
-        lines += [f"  {case.title}", f"  found {value(own.found)}, right {value(case.right)}"]
-        lines += [f"  often: {case.points_to}"]
+        lines += [
+            f"  {case.title}",
+            f"  found {value(own.found)}, right {value(case.right)}{height_told(own)}",
+        ]
     elif own.why:
         lines += [f"  {own.why}"]
     return lines
@@ -125,6 +140,11 @@ def error_told(run: Run) -> str:
     if run.error < ROUNDING:
         return "0"
     return f"{run.error:.1e}" if np.isfinite(run.error) else "-"
+
+
+def height_told(run: Run) -> str:
+    """Return at which height the lowest point touches or lies, as text; "" where that is allowed."""
+    return f"; the lowest point touches or lies at {1e3 * run.height:+.3g} mm" if run.height else ""
 
 
 def order_told(result: Result) -> str:

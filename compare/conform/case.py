@@ -7,6 +7,18 @@ from typing import Any
 from cointoss.compare.conform.tables import tables
 from cointoss.models.scenario import Scenario
 
+HEIGHT = {"event_driven": 1e-3, "stepping": 1e-2}
+"""The largest error of the lowest point's height at a touch and at rest, over the coin's radius.
+
+It is beside the way of the lowest point between two states, and the depth m g/k on a spring whose stiffness
+k the engine names.
+"""
+
+
+def kind_of(dt: float | None) -> str:
+    """Return the name of the tolerance of an engine with a step or without one."""
+    return "event_driven" if dt is None else "stepping"
+
 
 @dataclass(frozen=True, kw_only=True)
 class Case:
@@ -33,8 +45,6 @@ class Case:
     """The largest error that passes, for an `event_driven` engine and for a `stepping` engine."""
     reason: str
     """Why the tolerance has this value."""
-    points_to: str
-    """What a miss often means."""
     full_until: float | None = None
     full_tosses: int | None = None
     full_right: tuple[float, ...] | None = None

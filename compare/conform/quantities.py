@@ -29,20 +29,25 @@ def position_at_the_end(seen: ObservedToss) -> Array:
     return seen.states.position[-1]
 
 
+def way_sideways_at_the_end(seen: ObservedToss) -> Array:
+    """Return the horizontal way of the mass centre, (2,) [m]."""
+    return (seen.states.position[-1] - seen.states.position[0])[:2]
+
+
 def velocity_at_the_end(seen: ObservedToss) -> Array:
     """Return the velocity of the mass centre at the end, space frame, (3,) [m/s]."""
     return seen.states.velocity[-1]
 
 
-def angular_velocity_at_the_end(seen: ObservedToss) -> Array:
-    """Return the angular velocity at the end, body frame, (3,) [rad/s]."""
-    return seen.states.angular_velocity[-1]
+def spin_halfway_and_at_the_end(seen: ObservedToss) -> Array:
+    """Return the angular velocity at half the time and at the end, body frame, (6,) [rad/s]."""
+    return seen.states.angular_velocity[[len(seen.states.time) // 2, -1]].ravel()
 
 
-def attitude_at_the_end(seen: ObservedToss) -> Array:
-    """Return the Euler parameters at the end, of the sign whose largest is positive, (4,)."""
-    e = seen.states.quaternion[-1]
-    return e * np.sign(e[np.argmax(np.abs(e))])
+def attitude_halfway_and_at_the_end(seen: ObservedToss) -> Array:
+    """Return the Euler parameters at half the time and at the end, each with its largest positive, (8,)."""
+    e = seen.states.quaternion[[len(seen.states.time) // 2, -1]]
+    return (e * np.sign(e[[0, 1], np.argmax(np.abs(e), axis=1)])[:, None]).ravel()
 
 
 def period_of_spin(seen: ObservedToss) -> Array:
@@ -115,8 +120,8 @@ def exponent_of_the_fall(seen: ObservedToss) -> Array:
 
 
 def drift(seen: ObservedToss) -> Array:
-    """Return how far the mass centre moves from its release at most [m]."""
-    away = seen.states.position - seen.states.position[0]
+    """Return how far the mass centre moves sideways from its release at most [m]."""
+    away = (seen.states.position - seen.states.position[0])[:, :2]
     return np.array([np.linalg.norm(away, axis=1).max()])
 
 
@@ -131,19 +136,14 @@ def faces(seen: ObservedToss) -> Array:
     return seen.impacts.face.astype(float)
 
 
-def energy_left(seen: ObservedToss) -> Array:
-    """Return the energy at the end over that at the release."""
-    E = energies(seen.scenario.body, seen.states)
-    return np.array([E[-1] / E[0]])
-
-
 QUANTITIES: dict[str, Callable[[ObservedToss], Array]] = {
     each.__name__: each
     for each in (
         position_at_the_end,
+        way_sideways_at_the_end,
         velocity_at_the_end,
-        angular_velocity_at_the_end,
-        attitude_at_the_end,
+        spin_halfway_and_at_the_end,
+        attitude_halfway_and_at_the_end,
         period_of_spin,
         period_of_lean,
         restitution,
@@ -156,11 +156,43 @@ QUANTITIES: dict[str, Callable[[ObservedToss], Array]] = {
         exponent_of_the_fall,
         drift,
         energy_gained_at_a_touch,
-        energy_left,
         faces,
     )
 }
 """The quantities by their names."""
+
+
+def height_at_touches(seen: ObservedToss, tolerance: float) -> float:
+    """Return the height of the lowest point at a touch or at rest that is most beyond what is allowed, or 0.
+
+    The height at a touch, of a coin that came from above, is that at the time at which its change of velocity
+    explains the next position; at rest it is that of the last state of a lasting contact. Allowed are the
+    tolerance, at a touch the way to the next state, by which a step may be late, and the depth m g/k on a
+    spring that the engine names [m].
+    """
+    body, states, (impacts, contacts) = seen.scenario.body, seen.states, seen.stretches
+    above, z, v = gaps(body, states), states.position[:, 2], states.velocity[:, 2]
+    touches = [
+        k
+        for k, ((_, end), (first, _)) in enumerate(zip([(0, 0), *impacts], impacts, strict=False))
+        if above[min(end, first) : first + 1].max() > -tolerance
+    ]
+    a = np.array([impacts[k][0] for k in touches], dtype=int)
+    T, gain, rate = (
+        np.diff(states.time)[a],
+        seen.gains[a, 2],
+        seen.impacts.contact_velocity_before[touches, 2],
+    )
+    by_floor = z[a + 1] - z[a] - v[a] * T + body.gravity * T**2 / 2
+    until = T - np.divide(by_floor, gain, out=np.zeros_like(gain), where=gain > 0)
+    turning = body.radius * np.linalg.norm(states.angular_velocity[a, :2], axis=1)
+    rest = [above[k] for _, k in contacts if seen.is_still(k)]
+    height = np.array([0.0, *(above[a] + rate * np.clip(until, 0.0, T)), *rest])
+    first = np.array([0.0, *above[a], *rest])
+    way = np.array([0.0, *((np.abs(rate) + turning) * T), *(0.0 for _ in rest)])
+    low = -first - way - body.mass * body.gravity / seen.stiffness
+    beyond = np.maximum(first - way, low) - tolerance
+    return float(height[np.argmax(beyond)]) if beyond.max() > 0 else 0.0
 
 
 def error_of(found: Array, right: Array, scale: float) -> float:

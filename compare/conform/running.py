@@ -8,8 +8,13 @@ from queue import SimpleQueue
 
 import numpy as np
 
-from cointoss.compare.conform.case import Case
-from cointoss.compare.conform.quantities import QUANTITIES, NothingSeenError, error_of
+from cointoss.compare.conform.case import HEIGHT, Case, kind_of
+from cointoss.compare.conform.quantities import (
+    QUANTITIES,
+    NothingSeenError,
+    error_of,
+    height_at_touches,
+)
 from cointoss.compare.simulators.answering import EngineError
 from cointoss.compare.simulators.simulator import Simulator
 from cointoss.models.errors import ScenarioError
@@ -44,12 +49,14 @@ class Run:
     """What was measured, in SI."""
     error: float = float("nan")
     """The error of what was measured, over the case's scale."""
+    height: float = 0.0
+    """The height of the lowest point at a touch or at rest [m]; 0 where it is within what is allowed."""
     processor_time: float = 0.0
     """How long the engine took [s]."""
     why: str = ""
     """Why nothing was measured."""
     status: Status
-    """Whether the error is within the tolerance."""
+    """Whether the error is within the tolerance, and the height is allowed."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,15 +123,10 @@ def _result(case: Case, own: float | None, made: dict[tuple[str, float | None], 
     steps = sorted((dt for name, dt in made if name == case.name and dt is not None), reverse=True)
     return Result(
         case=case,
-        tolerance=tolerance_of(case, own),
+        tolerance=case.tolerance[kind_of(own)],
         own=made[case.name, own],
         runs=tuple(made[case.name, dt] for dt in steps),
     )
-
-
-def tolerance_of(case: Case, dt: float | None) -> float:
-    """Return the largest error that passes, of an engine with a step or without one."""
-    return case.tolerance["event_driven" if dt is None else "stepping"]
 
 
 def run_case(engine: Simulator, case: Case, dt: float | None) -> Run:
@@ -145,6 +147,7 @@ def run_case(engine: Simulator, case: Case, dt: float | None) -> Run:
         else:
             seen = [engine.observe(case.scenario, case.until, dt=step, every=case.every)]
             found = QUANTITIES[case.quantity](seen[0])
+        height = height_at_touches(seen[0], HEIGHT[kind_of(dt)] * case.scenario.coin.radius)
     except UnsupportedError as error:
         return Run(dt=dt, why=str(error), status=Status.NOT_REALISABLE)
     except (EngineError, NothingSeenError, ScenarioError) as error:
@@ -154,8 +157,9 @@ def run_case(engine: Simulator, case: Case, dt: float | None) -> Run:
         dt=dt,
         found=tuple(found.tolist()),
         error=error,
+        height=height,
         processor_time=sum(each.processor_time for each in seen),
-        status=Status.MET if error <= tolerance_of(case, dt) else Status.MISSED,
+        status=Status.MET if error <= case.tolerance[kind_of(dt)] and not height else Status.MISSED,
     )
 
 

@@ -11,7 +11,7 @@ from cointoss.compare.metrics.impulses import errors_of_impacts
 from cointoss.compare.metrics.sequences import agreement_horizon
 from cointoss.models.barriers import barrier
 from cointoss.models.certificate import energies, gaps, turned
-from cointoss.models.geometry import lowest_point
+from cointoss.models.geometry import gap, lowest_point
 from cointoss.models.impact_row import write_impact
 from cointoss.models.kernel.vectors import Vector
 from cointoss.models.records import (
@@ -126,6 +126,13 @@ class ObservedToss:
         write_impact(body, vector(body.mass * gain), point, before, after, row)  # pyright: ignore[reportArgumentType]
         row["time"] = states.time[a] + late if self.told is None else self.told[0][number]
 
+    def is_still(self, k: int) -> bool:
+        """Return whether the coin is at rest at a sample."""
+        body, states = self.scenario.body, self.states
+        speed = np.linalg.norm(states.velocity[k]) / (body.gravity * body.radius) ** 0.5
+        spin = np.linalg.norm(states.angular_velocity[k]) * (body.radius / body.gravity) ** 0.5
+        return bool(max(speed, spin) < STILL)
+
     @cached_property
     def spans(self) -> Array:
         """How early or late each touch may be, for the spacing of the times, (n,) [s]."""
@@ -156,9 +163,7 @@ class ObservedToss:
         if low[-1]:
             settled = last - int(np.argmin(low[::-1])) + 1 if not low.all() else 0
             return settled, _face(n_z[-1]), Ending.SETTLED
-        speed = np.linalg.norm(states.velocity[-1]) / (body.gravity * body.radius) ** 0.5
-        spin = np.linalg.norm(states.angular_velocity[-1]) * (body.radius / body.gravity) ** 0.5
-        if max(speed, spin) < STILL and abs(n_z[-1]) < 0.5:
+        if self.is_still(-1) and abs(n_z[-1]) < 0.5:
             return last, Outcome.EDGE, Ending.STANDING
         return last, Outcome.UNDECIDED, Ending.MAX_TIME
 
@@ -279,11 +284,10 @@ def _touch(scenario: Scenario, at: State, span: float) -> tuple[float, State]:
     Where free flight does not touch within a span, or the coin is in the floor, that is at once.
     """
     release = dict(zip(("position", "velocity", "quaternion", "angular_velocity"), at[:4], strict=True))
-    if gaps(scenario.body, _as_states(at))[0] <= 0:
+    if gap(scenario.body, at.position[2], at.R[2]) <= 0:
         return 0.0, at
     first = scenario.replace("release", release, "ending", {"max_impacts": 1, "max_time": span})
-    rows = analytic.toss(first).impacts
-    if not len(rows):
+    if not len(rows := analytic.toss(first).impacts):
         return 0.0, at
     return float(rows.time[0]), state(
         vector(rows.position[0]),
@@ -291,11 +295,6 @@ def _touch(scenario: Scenario, at: State, span: float) -> tuple[float, State]:
         euler_parameters(rows.quaternion[0]),
         vector(rows.angular_velocity_before[0]),
     )
-
-
-def _as_states(at: State) -> States:
-    x, v, e, w = (np.array([part]) for part in at[:4])
-    return States(time=np.zeros(1), position=x, velocity=v, quaternion=e, angular_velocity=w)
 
 
 def _spun_back(inertia: object, w: Array, span: float) -> Vector:

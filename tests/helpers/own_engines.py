@@ -17,20 +17,15 @@ class Newton:
 
     name = "Newton's steps"
 
-    def __init__(
-        self, *, most_spin: float = np.inf, lean: float = 0.0, gain: float = 0.0, dt: float = 1e-3
-    ) -> None:
-        """Plant errors.
+    def __init__(self, *, lean: float = 0.0, dt: float = 1e-3) -> None:
+        """Plant an error.
 
         Args:
-            most_spin: a limit on the size of the angular velocity [rad/s].
             lean: the angle of the impulse from the vertical [rad].
-            gain: relative energy that a touch gives.
             dt: the step [s].
         """
         self.dt, self.settings = dt, {"integrator": "half-implicit Euler"}
-        self.most_spin, self.normal = most_spin, np.array([np.sin(lean), 0.0, np.cos(lean)])
-        self.gain = gain
+        self.normal = np.array([np.sin(lean), 0.0, np.cos(lean)])
 
     def simulate(self, scenario: Any, times: Any) -> dict[str, Any]:
         """Return the states at the steps nearest to the times."""
@@ -61,9 +56,6 @@ class Newton:
                 K = (normal / m + turn @ np.cross(inverse @ lever, point))[2]
                 S = -(1 + floor.restitution) * rate / K
                 v, w = v + S * normal / m, w + S * inverse @ lever
-                v, w = v * (1 + self.gain / 2), w * (1 + self.gain / 2)
-            size = np.linalg.norm(w)
-            w = w * min(1.0, self.most_spin / size) if size else w
             x = x + self.dt * v
             e = _turned(e, w * self.dt)
         return dict(
@@ -103,8 +95,6 @@ class Crashing:
 
 
 right = Newton()
-limited = Newton(most_spin=100.0)
 leaning = Newton(lean=0.05)
-gaining = Newton(gain=1e-4)
 hanging = Hanging()
 crashing = Crashing()

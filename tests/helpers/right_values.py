@@ -34,11 +34,14 @@ def precession(case: Case) -> Any:
     *_, J_xi, J_zeta = moments(case)
     w = np.array(case.scenario.release.angular_velocity)
     L = w * [J_xi, J_xi, J_zeta]
-    size, t = float(np.linalg.norm(L)), case.until
-    about_L = turn(L / size, size * t / J_xi)
-    about_normal = turn([0, 0, 1], (1 - J_zeta / J_xi) * w[2] * t)
-    e = product(case.scenario.release.attitude, product(about_L, about_normal))
-    return e * np.sign(e[np.argmax(np.abs(e))])
+    size, k = float(np.linalg.norm(L)), (1 - J_zeta / J_xi) * w[2]
+    e = [
+        product(
+            case.scenario.release.attitude, product(turn(L / size, size * t / J_xi), turn([0, 0, 1], k * t))
+        )
+        for t in (case.until / 2, case.until)
+    ]
+    return np.concatenate([each * np.sign(each[np.argmax(np.abs(each))]) for each in e])
 
 
 def dzhanibekov(case: Case) -> list[float]:

@@ -15,7 +15,7 @@ from cointoss.models.reading import load
 from cointoss.models.records import Ending, Outcome, UnsupportedError
 from tests.helpers.command_line import python
 from tests.helpers.draws import IMPERFECT, scenario
-from tests.helpers.own_engines import Newton
+from tests.helpers.own_engines import Hanging, Newton
 from tests.helpers.processes import HANGS
 
 TUMBLING = {
@@ -122,13 +122,11 @@ def test_a_caught_coin_and_one_that_stands_end_so():
     assert (len(stopped.impacts), stopped.ending) == (2, Ending.MAX_IMPACTS)
 
 
-def _nan_later(column, _, times):
-    column[times > 0.2] = np.nan
-    return column
-
-
 WRONG = {
-    "NaN": (changed(velocity=_nan_later), r"velocity at t = 0\.2001 s: \[nan nan nan\], accepted: numbers"),
+    "NaN": (
+        changed(velocity=lambda v, _, times: np.where(times[:, None] > 0.2, np.nan, v)),
+        r"velocity at t = 0\.2001 s: \[nan nan nan\], accepted: numbers",
+    ),
     "too few rows": (
         changed(position=lambda x, *_: x[:7]),
         r"position: shape \(7, 3\), accepted: \(3001, 3\)",
@@ -188,6 +186,10 @@ WRONG = {
         changed(impact_time=lambda *_: np.zeros(2), impact_impulse=lambda *_: np.zeros((3, 3))),
         "impact_time: accepted: times in order, and impact_impulse with three numbers for each",
     ),
+    "a spring that pulls": (
+        changed(stiffness=lambda *_: -1.0),
+        r"stiffness: -1\.0 N/m, accepted: a number above 0",
+    ),
     "raises": (
         Answers(lambda *_: 1 / 0),
         r"Answers: ZeroDivisionError: division by zero \(test_simulator\.py:\d+\)",
@@ -199,9 +201,8 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("engine", [one for one, _ in WRONG.values()], ids=WRONG)
-def test_a_wrong_answer_is_refused_in_one_line_that_says_what_it_seems_to_be(engine, tumbling):
-    told = next(words for one, words in WRONG.values() if one is engine)
+@pytest.mark.parametrize(("engine", "told"), WRONG.values(), ids=WRONG)
+def test_a_wrong_answer_is_refused_in_one_line_that_says_what_it_seems_to_be(engine, told, tumbling):
     with pytest.raises(EngineError, match=told) as refusal:
         simulator_of(engine).observe(tumbling, 0.3)
     assert "\n" not in str(refusal.value)
@@ -247,18 +248,13 @@ def test_a_step_is_set_for_a_call_and_put_back(tumbling):
 
 @pytest.mark.parametrize("served", [False, True])
 def test_an_engine_that_hangs_is_ended_and_said(served, tumbling):
-    engine = "tests.helpers.own_engines:hanging" if served else Answers(lambda *_: _for_ever())
+    engine = "tests.helpers.own_engines:hanging" if served else Hanging()
     begun = time.monotonic()
     asked = simulator_of(engine, 2.0)
     with pytest.raises(EngineError, match="no answer within 2 s; ended"):
         asked.observe(tumbling, 0.3)
     assert time.monotonic() - begun < 60
     asked.answering.close()
-
-
-def _for_ever():
-    while True:
-        time.sleep(0.01)
 
 
 def test_an_engine_in_another_process_answers_as_in_this_one(tumbling):
