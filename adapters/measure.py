@@ -2,8 +2,8 @@
 
     python adapters/measure.py [--environments DIR] [NAME[:SETTINGS] ...]
 
-An environment is made where it is missing. A card is what `cointoss conform --json` prints, without what
-cases.toml has too.
+An environment is made where it is missing, of requirements.txt, and of alone.txt without what that requires.
+A card is what `cointoss conform --json` prints, without what cases.toml has too.
 """
 
 import argparse
@@ -17,7 +17,7 @@ from typing import Any
 HERE = Path(__file__).parent
 LIMIT = 900
 """How long one answer may take [s]: some of these engines compile first."""
-KEPT = ("name", "status", "found", "error", "order", "why")
+KEPT = ("name", "status", "found", "error", "height", "order", "why")
 
 
 def python_of(name: str, environments: Path) -> Path:
@@ -26,9 +26,10 @@ def python_of(name: str, environments: Path) -> Path:
     python = folder / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
     if not python.exists():
         venv.create(folder, with_pip=True)
-        subprocess.run(
-            [python, "-m", "pip", "install", "--quiet", "-r", HERE / name / "requirements.txt"], check=True
-        )
+        install = [python, "-m", "pip", "install", "--quiet", "-r"]
+        subprocess.run([*install, HERE / name / "requirements.txt"], check=True)
+        if (alone := HERE / name / "alone.txt").exists():
+            subprocess.run([*install, alone, "--no-deps"], check=True)
     return python
 
 

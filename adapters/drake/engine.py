@@ -20,6 +20,8 @@ from adapters.shared import AIR, RESISTANCE, THRESHOLD, friction_of
 
 ROWS = ("position", "velocity", "quaternion", "angular_velocity")
 THINNEST = 1e-5
+ALLOWANCE = 1e-3
+"""How deep a body lies by default, MultibodyPlantConfig.penetration_allowance [m]."""
 REFUSED = (*AIR, *RESISTANCE, THRESHOLD)
 
 
@@ -78,7 +80,10 @@ class Drake:
                 q, v = turn.ToQuaternion().wxyz(), motion.translational() + np.cross(spin, arm)
                 rows.append((pose.translation() + arm, v, q, turn.inverse() @ spin))
         rows += [tuple(np.full(size, np.nan) for size in (3, 3, 4, 3))] * (len(times) - len(rows))
-        return dict(zip(ROWS, map(np.array, zip(*rows, strict=True)), strict=True))
+        k = self.stiffness or scenario.coin.mass * scenario.gravity / ALLOWANCE
+        return dict(zip(ROWS, map(np.array, zip(*rows, strict=True)), strict=True)) | {
+            "stiffness": np.array(k)
+        }
 
     def _plant(self, scenario: Any, friction: float) -> tuple[Any, Any, Simulator]:
         """Return the plant, the coin and the simulator; the body's frame lies in the geometric centre."""

@@ -84,7 +84,12 @@ class Newton:
         R = rotations(quaternion)
         w = np.einsum("nij,ni->nj", R, w)
         position = p + R @ np.asarray(scenario.coin.center_of_mass)
-        return {"position": position, "velocity": v, "quaternion": quaternion, "angular_velocity": w}
+        k = (
+            {"stiffness": scenario.coin.mass / (2 * self.dt) ** 2}
+            if self.settings["bounce"] == SPRING
+            else {}
+        )
+        return {"position": position, "velocity": v, "quaternion": quaternion, "angular_velocity": w} | k
 
 
 def named(what: str, solver: Callable[..., Any], bounce: str = "coefficient", **options: Any) -> Newton:

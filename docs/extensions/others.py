@@ -19,6 +19,8 @@ PICTURE = "other_engines.png"
 LEVELS = (0.0, 0.01, 0.1, 1.0)
 """Errors at which the colour changes; the last is for all above."""
 COLORS = ("#cfe8dc", "#fff3c9", "#fbd9b4", "#f4b6a6")
+NONE = {"status": "not measured", "error": None, "order": None, "runs": []}
+"""What a card has of a case that is younger."""
 NEAR = 0.01
 """The error whose processor time is shown."""
 TIMED = "tilted"
@@ -83,12 +85,16 @@ def orders(known: list[dict[str, Any]]) -> str:
 
 
 def settings(known: list[dict[str, Any]]) -> str:
-    """Return the settings of each engine."""
+    """Return the settings of each engine, and the causes that its card names."""
     rows = [
-        [card["engine"], ", ".join(f"{name} = {value}" for name, value in card["settings"].items())]
+        [
+            card["engine"],
+            ", ".join(f"{name} = {value}" for name, value in card["settings"].items()),
+            "; ".join(card.get("hints", ())) or "–",
+        ]
         for card in known
     ]
-    return table("engine | settings", rows, words=True)
+    return table("engine | settings | likely", rows, words=True)
 
 
 def asked(card: dict[str, Any]) -> int:
@@ -97,15 +103,16 @@ def asked(card: dict[str, Any]) -> int:
 
 
 def of_case(card: dict[str, Any], name: str) -> dict[str, Any]:
-    """Return what came of a case."""
-    return next(case for case in card["cases"] if case["name"] == name)
+    """Return what came of a case; of one that is younger than the card, nothing."""
+    return next((case for case in card["cases"] if case["name"] == name), NONE)
 
 
 def shown(case: dict[str, Any]) -> str:
-    """Return the error of a case, or why there is none."""
+    """Return the error of a case, with an arrow where the height is off, or why there is none."""
     if case["error"] is None:
-        return {"failed": "failed"}.get(case["status"], "–")
-    return f"{case['error']:.1g}"
+        return {"failed": "failed", "not measured": ""}.get(case["status"], "–")
+    height = case.get("height") or 0.0
+    return f"{case['error']:.1g}{'↓' * (height < 0)}{'↑' * (height > 0)}"
 
 
 def order(case: dict[str, Any]) -> str:
