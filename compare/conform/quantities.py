@@ -120,8 +120,11 @@ def exponent_of_the_fall(seen: ObservedToss) -> Array:
 
 
 def drift(seen: ObservedToss) -> Array:
-    """Return how far the mass centre moves sideways from its release at most [m]."""
-    away = (seen.states.position - seen.states.position[0])[:, :2]
+    """Return how far the mass centre moves at most, but for the depth m g/k on a spring that is named [m]."""
+    away = seen.states.position - seen.states.position[0]
+    away[:, 2] -= np.clip(
+        away[:, 2], -seen.scenario.body.mass * seen.scenario.body.gravity / seen.stiffness, 0
+    )
     return np.array([np.linalg.norm(away, axis=1).max()])
 
 

@@ -104,10 +104,20 @@ def test_a_floor_too_high_is_missed_in_each_case_with_a_touch_and_its_height_is_
         assert_met(simulator_of(wrong), CASES["tilted"])
 
 
-@pytest.mark.parametrize(("part", "missed"), [(1.0, 0), (1.1, 1)])
-def test_an_engine_may_lie_as_deep_as_the_spring_that_it_names(part, missed):
-    spring = resting(3e-4, stiffness=part * 2e-3 * 9.81 / 3e-4)
-    assert len(card_of(spring, "rest").missed) == missed
+WEIGHT = 2e-3 * 9.81
+
+
+@pytest.mark.parametrize(
+    ("engine", "missed"),
+    [
+        (resting(3e-4, stiffness=WEIGHT / 3e-4), 0),
+        (resting(3e-4, stiffness=1.1 * WEIGHT / 3e-4), 1),
+        (resting(-2e-2, stiffness=WEIGHT / 3e-4), 1),
+    ],
+    ids=["as deep as its spring lets it", "deeper", "away from the floor"],
+)
+def test_a_coin_at_rest_may_lie_as_deep_as_the_spring_that_the_engine_names(engine, missed):
+    assert len(card_of(engine, "rest").missed) == missed
 
 
 @pytest.mark.slow
