@@ -123,6 +123,6 @@ def test_more_steps_make_a_springs_restitution_better():
 
 def test_the_example_of_the_docs_rebounds_as_it_says(capsys):
     page = (DOCS / "MUJOCO_MEASURED.md").read_text(encoding="utf-8")
-    (example,) = (code for code in re.findall(r"```python\n(.*?)```", page, re.DOTALL) if "mj_step" in code)
+    (example,) = (code for code in re.findall(r"```python\n(.*?)```", page, re.DOTALL) if "mj_jac" in code)
     exec(example, {})
     assert float(capsys.readouterr().out) == pytest.approx(0.8, abs=1e-5)
