@@ -24,7 +24,7 @@ class Frame:
 
     def __repr__(self) -> str:
         """Return what is shown, and where."""
-        return f"<Frame: {self.title}, {len(self.page) / 1e6:.1f} MB; a notebook shows it>"
+        return f"<Frame: {self.title}; a notebook shows it>"
 
     def _repr_html_(self) -> str:
         """Return the frame."""

