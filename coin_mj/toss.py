@@ -69,7 +69,7 @@ class MujocoRun(NamedTuple):
 def run(machine: Machine, rules: Rules) -> MujocoRun:
     """Toss the coin from its present state until the toss is decided."""
     room, impacts = np.zeros(FIRST_ROOM, IMPACT_ROW), np.zeros(1)
-    with stage("a toss", detail=lambda: reached(int(impacts[0]), machine.data.time)):
+    with stage("tossing by MuJoCo", detail=lambda: reached(int(impacts[0]), machine.data.time)):
         n, rows, knots, contacts, outcome, ending, end_time = toss_coin(
             machine.coin, machine.plastic, rules, machine.settings.budgets, room, True, impacts
         )
