@@ -239,12 +239,12 @@ def _batch(described: Scenario, given: Mapping[str, Any]) -> Batch:
 
 def _components(field: str, value: Any) -> Iterator[tuple[str, Any]]:
     """Yield the components of a list of numbers that varies as a whole; another field as it is."""
-    shape = _shape(value)
-    if field in COMPONENTS and len(shape) > 1:
+    shape, is_named = _shape(value), hasattr(value, "dims")
+    if field in COMPONENTS and (is_named or len(shape) > 1):
         names = COMPONENTS[field]
-        if shape[-1] != len(names):
+        if shape[-1:] != (len(names),):
             raise SweepError(f"{field}: shape {shape}, accepted: (n, {len(names)})")
-        each = value if hasattr(value, "dims") else np.asarray(value)
+        each = value if is_named else np.asarray(value)
         for i, name in enumerate(names):
             yield f"{field}.{name}", each[..., i]
     else:

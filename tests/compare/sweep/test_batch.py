@@ -69,6 +69,12 @@ def test_a_row_is_its_scenario_and_back(name):
             {"release.position": [0.1, 0, 0.5]},
         ),
         (
+            {"release.position": xr.DataArray([0, 0, 40.0], dims="v", attrs={"units": "cm"})},
+            {},
+            0,
+            {"release.position": [0, 0, 0.4]},
+        ),
+        (
             {"release.position": [0, 0, 0.4], "air": Air(normal=0.1)},
             {},
             0,
