@@ -139,16 +139,19 @@ def _no_such_option(error: click.NoSuchOption, group: click.Group) -> str:
     """Return which option a command does not have, and a near one of its own, or which commands have it."""
     asked, command = error.option_name, error.ctx.command if error.ctx else group
     near = difflib.get_close_matches(asked, _options(command), n=1, cutoff=0.75)
+    arguments = [f"--{each.name}" for each in command.params if isinstance(each, click.Argument)]
     every = {name: group.get_command(click.Context(group), name) for name in COMMANDS}
-    others = [f"cointoss {name}" for name, each in every.items() if each and asked in _options(each)]
-    hint = f"; did you mean {near[0]}?" if near else f"; {' and '.join(others)} take it" if others else ""
+    *more, last = [name for name, each in every.items() if each and asked in _options(each)] or [""]
+    takers = f"{', '.join(more)} and {last} take" if more else f"{last} takes"
+    hint = f"; did you mean {near[0]}?" if near else f"; cointoss {takers} it" if last else ""
+    hint = f"; accepted: {asked[2:].upper()} without a name before it" if asked in arguments else hint
     return (
         f"No such option '{asked}'{hint} (see {error.ctx.command_path if error.ctx else 'cointoss'} --help)"
     )
 
 
 def _options(command: click.Command) -> list[str]:
-    return [text for option in command.params for text in option.opts]
+    return [text for option in command.params for text in option.opts if text.startswith("-")]
 
 
 def _lacks_memory(error: BaseException) -> bool:

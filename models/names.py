@@ -9,6 +9,8 @@ SPIN = "release.spin"
 """The size of ω about the scenario's own axis of rotation [rad/s]: it stands for the components of ω."""
 MOST_LISTED = 11
 """Fields of a table that a message lists."""
+_ALIKE = 0.7
+"""From this similarity on one name may be meant by another; "tilt" and "until" have 0.67."""
 _ALIASES = {"height": "release.position.z", "spin": SPIN}
 
 
@@ -50,8 +52,8 @@ def _accepted(name: str, known: list[str], ends: list[str]) -> str:
 def _near(name: str, known: list[str], of_table: list[str]) -> list[str]:
     """Return the field whose name is like a wrong one: of its table, or by its last part; none if none is."""
     rest = {field.partition(".")[2] or field: field for field in of_table or known}
-    if near := difflib.get_close_matches(name.partition(".")[2] or name, rest, n=1):
+    if near := difflib.get_close_matches(name.partition(".")[2] or name, rest, n=1, cutoff=_ALIKE):
         return [rest[near[0]]]
     last = {field.rpartition(".")[2]: field for field in known}
-    near = difflib.get_close_matches(name, [*last, *_ALIASES], n=1)
+    near = difflib.get_close_matches(name, [*last, *_ALIASES], n=1, cutoff=_ALIKE)
     return [last.get(word, _ALIASES.get(word, "")) for word in near]
