@@ -100,14 +100,15 @@ class Hand:
             value = getattr(self, name)
             if not isinstance(value, Real) or isinstance(value, bool):
                 raise FieldError(name, value, "a number")
+        angle = "an angle from 0 to 90 deg; a number without a unit is in rad"
         accepted = {
             "height": (self.height > 0, "a length above 0, such as 1 m"),
             "speed": (self.speed >= 0, "a speed of 0 or more, such as 2 m/s"),
             "spin": (self.spin >= 0, "a spin of 0 or more, such as 120 rad/s"),
-            "psi": (0 <= self.psi <= math.pi / 2, "an angle from 0 to 90 deg"),
+            "psi": (0 <= self.psi <= math.pi / 2, angle),
             "scatter": (0 <= self.scatter <= 0.3, "a part from 0 to 30 %"),
-            "psi_scatter": (0 <= self.psi_scatter <= math.pi / 2, "an angle from 0 to 90 deg"),
-            "tilt": (0 <= self.tilt <= math.pi / 2, "an angle from 0 to 90 deg"),
+            "psi_scatter": (0 <= self.psi_scatter <= math.pi / 2, angle),
+            "tilt": (0 <= self.tilt <= math.pi / 2, angle),
         }
         for name, (is_so, what) in accepted.items():
             if not is_so or not math.isfinite(getattr(self, name)):

@@ -207,6 +207,7 @@ def _print(found: "xr.Dataset", plan: "Plan", scenario: str, as_json: bool) -> N
 
     from cointoss.compare.output.terminal import laid_out
     from cointoss.compare.shares import show
+    from cointoss.compare.sweep.axes import HAND
 
     if as_json:
         print_json({"scenario": scenario, "to": plan.to, **show.as_json(found)}, *plan.engines)
@@ -214,7 +215,9 @@ def _print(found: "xr.Dataset", plan: "Plan", scenario: str, as_json: bool) -> N
     click.echo(laid_out(show.markdown(found), _width()))
     of = "coins that the hand catches, by the side that is up" if plan.catches else "tosses, by how they end"
     click.echo(f"\nshares     of the {of}; in brackets 99 % intervals")
-    click.echo(f"hand       {plan.hand.in_words}")
+    varied = [axis.field for axis in plan.vary if axis.field in HAND]
+    instead = f"; but {' and '.join(varied)} as above" if varied else ""
+    click.echo(f"hand       {plan.hand.in_words}{instead}")
     if plan.unvaried:
         click.echo(f"unvaried   {plan.unvaried}")
     click.echo(f"engine     {' and '.join(plan.engines)}, seed {plan.seed}")

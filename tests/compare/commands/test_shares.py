@@ -43,6 +43,11 @@ def test_hands_and_shares_toss_a_spun_coin_to_the_same_shares(coin):
     assert sum(part["value"] for part in one.values()) == pytest.approx(1)
 
 
+def test_the_line_of_the_hand_names_what_of_it_varies(coin):
+    told = cointoss("shares", coin, "--vary", "hand.tilt=0:0.2:2", "--tosses", 2).stdout
+    assert ", ψ = 90° ± 10°; but hand.tilt as above\n" in told
+
+
 def test_coins_that_are_not_caught_are_left_out_and_counted_apart(coin):
     words = (coin, "--height", "30 cm", "--caught", "50 cm", "--tosses", 300)
     hands, shares = (json.loads(cointoss(one, *words, "--json").stdout) for one in ("hands", "shares"))
