@@ -1,6 +1,7 @@
 """A batch: a scenario some of whose fields vary, each along some dimensions."""
 
 import math
+import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -21,6 +22,7 @@ from cointoss.models.parts import Part
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
+from cointoss.models.unlikely import UnitWarning, unlikely_units
 
 TOSS = "toss"
 """The dimension of arrays of one axis that have no other name for it."""
@@ -183,8 +185,11 @@ def batch_of(scenario: ScenarioSource, vary: Mapping[str, Any] | None = None) ->
     Raises:
         ScenarioError: for a scenario that can't be used.
         SweepError: naming the field, what was given and what is accepted.
+
+    Warns:
+        UnitWarning: for a number that was probably meant in another unit.
     """
-    described = scenario_of(scenario)
+    described = asked = scenario_of(scenario)
     if not isinstance(vary, Mapping | None):
         raise SweepError(
             f'vary: {shown(vary)}, accepted: a dict such as {{"floor.restitution": "0.4:0.9:6"}}'
@@ -197,7 +202,19 @@ def batch_of(scenario: ScenarioSource, vary: Mapping[str, Any] | None = None) ->
     fixed = {field: value for field, value in given.items() if _is_one(field, value)}
     for field, value in fixed.items():
         described = described.replace(field, value)
-    return _batch(described, {field: value for field, value in given.items() if field not in fixed})
+    batch = _batch(described, {field: value for field, value in given.items() if field not in fixed})
+    known = _doubts(asked, {})  # told by whoever made the scenario, as of ranges by their axis
+    arrays = {
+        one.field: one.values.max() for one in batch.varied if not _is_range(one.field, given[one.field])
+    }
+    for field, doubt in _doubts(described, arrays).items():
+        if doubt != known.get(field):
+            warnings.warn(doubt, UnitWarning, stacklevel=3)  # in the line that calls toss_many
+    return batch
+
+
+def _doubts(described: Scenario, largest: Mapping[str, float]) -> dict[str, str]:
+    return unlikely_units(described.gravity, described.coin, described.release, described.ending, largest)
 
 
 def _batch(described: Scenario, given: Mapping[str, Any]) -> Batch:

@@ -97,6 +97,7 @@ def toss_many(
 
     Warns:
         UnusedFieldWarning: for a field that nothing uses.
+        UnitWarning: for a number that was probably meant in another unit.
         ApproximationWarning: for what MuJoCo approximates.
         DeviceWarning: for a card that fails, with the device "auto": the CPU makes the remaining tosses.
     """

@@ -106,7 +106,7 @@ def test_each_toss_is_the_scenario_that_one_would_write(vary, sizes, number, giv
     ],
 )
 def test_a_field_may_be_named_by_what_no_other_is_called(name, field):
-    value = ["smooth"] if field == "floor.contact" else [1.5]
+    value = ["smooth"] if field == "floor.contact" else [0.0015]
     assert batch_of(CASE, {name: value}).varied[0].field == field
 
 

@@ -12,6 +12,7 @@ from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.sweep.batch import batch_of
 from cointoss.compare.sweep.grid import TILE_TOSSES
 from cointoss.models.records import UnsupportedError
+from cointoss.models.unlikely import UnitWarning
 from cointoss.models.unused import UnusedFieldWarning
 from tests.helpers.own_laws import smooth
 
@@ -71,6 +72,15 @@ def test_what_is_no_scenario_is_refused_or_kept():
     assert not kept.outcome_certain[1]
     assert kept.cointoss.counts["refused"] == 1
     assert int(kept.cointoss.shares()["count"].sum()) == 2
+
+
+@pytest.mark.parametrize("height", [20.0, [0.2, 20.0], xr.DataArray([20.0, 0.2], dims="n")])
+def test_a_number_in_another_unit_is_questioned_in_the_line_that_gives_it(height):
+    asked = r'^release\.position\.z = 20 m: is it cm\? write "20 cm"$'
+    with pytest.warns(UnitWarning, match=asked) as told:
+        toss_many(CASE, {"height": height, "max_impacts": 1})
+    assert [one.filename for one in told] == [__file__]
+    toss_many(CASE.replace("release.position.z", 20.0), {"max_impacts": [1, 2]})
 
 
 def test_an_own_law_takes_the_place_of_the_scenarios():
