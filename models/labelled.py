@@ -30,7 +30,7 @@ class EqualByValue:
         """Return whether the other is of this kind, and all fields are equal."""
         names = [item.name for item in fields(cast("Any", self)) if item.compare]
         return type(self) is type(other) and all(
-            np.array_equal(one, two, equal_nan=True) if isinstance(one, np.ndarray) else one == two
+            np.array_equal(one, two, equal_nan=True) if isinstance(one, np.ndarray | float) else one == two
             for one, two in ((getattr(self, name), getattr(other, name)) for name in names)
         )
 

@@ -1,9 +1,8 @@
 """The record of a toss, the same for both engines: its impacts, how it ended, and its path."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, make_dataclass
 from enum import StrEnum
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -145,7 +144,8 @@ _REASONS = {
 class Impacts(EqualByValue):
     """The impacts of a toss, one row each, in order of time; arrays are read-only.
 
-    `impacts[0]` is the first of them, `impacts[-1]` the last, and `impacts[:3]` are the first three.
+    `impacts[0]` is the first of them, `impacts[-1]` the last, and `impacts[:3]` are the first three; so are
+    `impacts[[0, 1, 2]]`, and a mask chooses those where it is true.
     """
 
     time: Array = column(unit="s")
@@ -187,15 +187,18 @@ class Impacts(EqualByValue):
         """Return the number of impacts."""
         return len(self.time)
 
-    def __getitem__(self, index: int | slice) -> Any:
-        """Return one impact, by its number from 0, with the fields of this record; of a slice, a record.
+    def __getitem__(self, index: Any) -> Any:
+        """Return one impact, by its number from 0, as an `Impact`; of a slice, numbers or a mask, a record.
 
         Raises:
-            IndexError: for a number that no impact has.
+            IndexError: for a number that no impact has, numbers that descend, and what is no index.
         """
-        row = {item.name: getattr(self, item.name)[index] for item in fields(self)}
-        is_one = not isinstance(index, slice)
-        return SimpleNamespace(**row | {"face": Face(row["face"])}) if is_one else Impacts(**row)
+        chosen = np.arange(len(self))[index]
+        if chosen.ndim > 1 or np.any(np.diff(np.atleast_1d(chosen)) < 0):
+            accepted = "a number, or a slice, numbers or a mask along the impacts, in order of time"
+            raise IndexError(f"Impacts: index {index!r}, accepted: {accepted}")
+        row = {item.name: getattr(self, item.name)[chosen] for item in fields(self)}
+        return Impacts(**row) if chosen.ndim else Impact(**row | {"face": Face(row["face"])})
 
     @classmethod
     def from_rows(cls, rows: NDArray[Any]) -> "Impacts":
@@ -220,6 +223,15 @@ class Impacts(EqualByValue):
         return table(self, "impact", first=1)
 
 
+Impact = make_dataclass(
+    "Impact",
+    [item.name for item in fields(Impacts)],
+    bases=(EqualByValue,),
+    namespace={"__module__": __name__, "__doc__": "One impact, with the fields of `Impacts`."},
+    frozen=True,
+    kw_only=True,
+    eq=False,
+)
 _ROW = [(item.name, item.metadata["kind"], item.metadata["shape"]) for item in fields(Impacts)]
 IMPACT_ROW = np.dtype((np.record, np.dtype(_ROW, align=True)))
 """One impact as a row: the columns of `Impacts`. A record: to Python, too, its fields are attributes."""

@@ -1,6 +1,8 @@
 """Enums whose members are words to a person, and small integers in arrays and compiled code."""
 
+import operator
 import warnings
+from collections.abc import Callable
 from enum import IntEnum
 from typing import Any
 
@@ -51,20 +53,19 @@ class Word(IntEnum):
 
     def __eq__(self, other: Any) -> Any:
         """Return whether the other is this word, or equals its integer; of an array, for each."""
-        return self._equals(other)
+        return self._compared(operator.eq, other)
 
     def __ne__(self, other: Any) -> Any:
         """Return the opposite of `==`."""
-        found = self._equals(other)
-        return not found if isinstance(found, bool) else ~found
+        return self._compared(operator.ne, other)
 
-    def _equals(self, other: Any) -> Any:
-        """Return what `==` does; warn of a text that is no word of the list, but nearly one."""
-        found = (str(self) if _is_text(other) else int(self)) == other
-        is_no_word = found is False and isinstance(other, str) and other not in map(str, type(self))
-        if is_no_word and (near := meant(other.lower(), map(str, type(self)))):
-            warnings.warn(f"{type(self).__name__} == {other!r}: {near.rstrip()}", stacklevel=3)
-        return found
+    def _compared(self, how: Callable[[Any, Any], Any], other: Any) -> Any:
+        """Return a comparison's result; warn of a text that is no word of the list, but nearly one."""
+        if isinstance(other, str) and other and other not in (words := [*map(str, type(self))]):
+            begun = [word for word in words if word.startswith(other.lower())]  # as H for heads
+            if near := meant(begun[0] if begun else other.lower(), words):
+                warnings.warn(f"{type(self).__name__} == {other!r}: {near.rstrip()}", stacklevel=3)
+        return how(str(self) if _is_text(other) else int(self), other)
 
 
 def _is_text(value: Any) -> bool:

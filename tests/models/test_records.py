@@ -19,6 +19,13 @@ def test_impacts_check_their_shapes_and_order():
     assert impacts.sequence == "HTH"
     assert [(one.time, one.face) for one in impacts] == [(0.1, "heads"), (0.2, "tails"), (0.3, "heads")]
     assert (impacts[-1].time, impacts[1:].sequence) == (0.3, "TH")
+    assert impacts[0] == impacts[0] != impacts[2]
+    assert impacts[0] in impacts
+    assert impacts[[0, 2]] == impacts[impacts.face == 1] == impacts[::2]
+    assert impacts[impacts.face == 2] == impacts[1:2]
+    for index in (3, slice(None, None, -1), [2, 0], None, "time", 0.5, (0, 1)):
+        with pytest.raises(IndexError, match="ind"):
+            impacts[index]
     rows["time"] = [0.1, 0.3, 0.2]
     with pytest.raises(ValueError, match=r"Impacts\.time"):
         Impacts.from_rows(rows)

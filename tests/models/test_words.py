@@ -33,6 +33,7 @@ def test_a_number_in_an_array_equals_its_member():
     assert (Outcome.TAILS == codes).tolist() == [False, False, True]
     assert (codes != Outcome.TAILS).tolist() == [True, True, False]
     assert (Outcome.TAILS != codes).tolist() == [True, True, False]
+    assert (Outcome.TAILS != np.ma.masked) is (Outcome.TAILS == np.ma.masked) is np.ma.masked
     assert codes[1] == Outcome.HEADS == codes[1] == 1
     assert np.full(2, Outcome.EDGE, np.int8).tolist() == [3, 3]
 
@@ -60,6 +61,8 @@ def test_a_text_that_is_nearly_a_word_is_questioned_where_it_is_compared():
     assert told[0].filename == __file__
     with pytest.warns(UserWarning, match="did you mean smooth"):
         assert ContactLaw.COULOMB != "smoth"
+    with pytest.warns(UserWarning, match=r"^Face == 'H': did you mean heads\?$"):
+        assert Face.HEADS != "H"
     assert Outcome.HEADS != "tails"
 
 
