@@ -26,6 +26,7 @@ SCENARIO_HELP = (
 ARGUMENTS = {
     "SCENARIO": "a TOML file, or a name that cointoss scenarios lists, such as fig24a",
     "MODEL.xml": "an XML file of MuJoCo",
+    "ENGINE": "an engine, such as analytic or package.module:name",
     "GEOM": "the name or the number of a geom, twice",
     "MAP.zarr": "a map that cointoss basin made",
     "OBSERVED.csv": "a CSV file with the times of touches, with frames of a film, or with counts of flips",
