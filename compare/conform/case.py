@@ -10,8 +10,8 @@ from cointoss.models.scenario import Scenario
 HEIGHT = {"event_driven": 1e-3, "stepping": 1e-2}
 """The largest error of the lowest point's height at a touch and at rest, over the coin's radius.
 
-It is beside the way of the lowest point between two states, and the depth m g/k on a spring whose stiffness
-k the engine names.
+It is beside the way of the lowest point between two states, of which a part counts without a step, and the
+depth m g/k on a spring whose stiffness k the engine names.
 """
 
 

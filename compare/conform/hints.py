@@ -21,7 +21,7 @@ class Cause:
     """A fault, and the values of an engine that is right but for it; the fields are those of causes.toml."""
 
     words: str
-    """What the fault is; {} is its size."""
+    """What the fault is; {} is its size, {1} its amount, {2} late or early."""
     pattern: dict[str, list[list[float]]]
     """The values of cases, and how they grow with the size, (1 + k, n) each."""
 
@@ -55,12 +55,19 @@ def hints(results: Sequence[Result]) -> list[str]:
 
 
 def _values(result: Result) -> Iterator[tuple[str, Value]]:
-    """Yield the value of a case, and its height with the finest step, by their names in a pattern."""
+    """Yield the value of a case, its limit, and its height with the finest step, by their names."""
     case, own, radius = result.case, result.own, result.case.scenario.coin.radius
-    height, limit = [own, *result.runs][-1].height, HEIGHT[kind_of(own.dt)]
+    coarse, fine = [own, own, *(run for run in result.runs if run.found)][-2:]
+    right, unit = np.array(case.right), case.scale or 1.0
+    limit = (
+        2 * np.array(fine.found) - coarse.found if case.scale else right
+    )  # each step is half the one before
+    off = float(np.linalg.norm(limit - right))
+    height, allowed = abs(fine.height) / radius, HEIGHT[kind_of(own.dt)]
     for name, found, scale, error, most, part in (
-        (case.name, own.found, case.scale or 1.0, own.error, result.tolerance, LEFT),
-        (f"height of {case.name}", [height], radius, abs(height) / radius, limit, OF_HEIGHT),
+        (case.name, own.found, unit, own.error, result.tolerance, LEFT),
+        (f"limit of {case.name}", limit, unit, off / unit, case.tolerance["event_driven"], LEFT),
+        (f"height of {case.name}", [fine.lowest], radius, height, allowed, OF_HEIGHT),
     ):
         size = min(error, float(np.linalg.norm(found)) / scale)
         left = part * size if error > most else most
@@ -77,4 +84,5 @@ def _fitting(cause: Cause, values: Sequence[Value]) -> Iterator[str]:
     left = np.split(off - size @ growth, np.cumsum([len(value.found) for value in values]))
     explained = all(np.linalg.norm(part) <= each.most_left for part, each in zip(left, values, strict=False))
     if explained and any(value.is_missed for value in values):
-        yield cause.words.format(size[0] if len(size) == 1 else np.linalg.norm(size))
+        told = size[0] if len(size) == 1 else np.linalg.norm(size)
+        yield cause.words.format(told, abs(told), "late" if told > 0 else "early")

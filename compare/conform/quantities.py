@@ -165,13 +165,13 @@ QUANTITIES: dict[str, Callable[[ObservedToss], Array]] = {
 """The quantities by their names."""
 
 
-def height_at_touches(seen: ObservedToss, tolerance: float) -> float:
-    """Return the height of the lowest point at a touch or at rest that is most beyond what is allowed, or 0.
+def height_at_touches(seen: ObservedToss, tolerance: float, part: float) -> tuple[float, bool]:
+    """Return the lowest point's height most beyond what is allowed, else the largest, and whether it is beyond.
 
     The height at a touch, of a coin that came from above, is that at the time at which its change of velocity
     explains the next position; at rest it is that of the last state of a lasting contact. Allowed are the
-    tolerance, at a touch the way to the next state, by which a step may be late, and the depth m g/k on a
-    spring that the engine names [m].
+    tolerance, at a touch a part of the way to the next state, the whole where a step may be late, and the
+    depth m g/k on a spring that the engine names [m].
     """
     body, states, (impacts, contacts) = seen.scenario.body, seen.states, seen.stretches
     above, z, v = gaps(body, states), states.position[:, 2], states.velocity[:, 2]
@@ -191,11 +191,12 @@ def height_at_touches(seen: ObservedToss, tolerance: float) -> float:
     turning = body.radius * np.linalg.norm(states.angular_velocity[a, :2], axis=1)
     rest = [above[k] for _, k in contacts if seen.is_still(k)]
     height = np.array([0.0, *(above[a] + rate * np.clip(until, 0.0, T)), *rest])
-    first = np.array([0.0, *above[a], *rest])
-    way = np.array([0.0, *((np.abs(rate) + turning) * T), *(0.0 for _ in rest)])
+    first = height if part < 1 else np.array([0.0, *above[a], *rest])
+    way = part * np.array([0.0, *((np.abs(rate) + turning) * T), *(0.0 for _ in rest)])
     low = -first - way - body.mass * body.gravity / seen.stiffness
     beyond = np.maximum(first - way, low) - tolerance
-    return float(height[np.argmax(beyond)]) if beyond.max() > 0 else 0.0
+    is_beyond = bool(beyond.max() > 0)
+    return float(height[np.argmax(beyond if is_beyond else np.abs(height))]), is_beyond
 
 
 def error_of(found: Array, right: Array, scale: float) -> float:

@@ -81,6 +81,9 @@ TURN = np.cos(np.pi / 360) * np.eye(4) + np.sin(np.pi / 360) * np.kron([[1, 0], 
 """By which attitudes, as rows, are turned by 1° about ξ."""
 PLANTS = {
     "the floor, or a margin around the coin, is at +1 mm, not at 0": touching(lambda _: 1e-3),
+    "the floor, or a margin around the coin, is at -0.2 mm, not at 0": Planted(
+        after=lambda _, __, right: {"position": right["position"] - [0, 0, 2e-4]}
+    ),
     "the shape that touches is not the coin's cylinder: flat it touches at 0, tilted by 45° at -8.55 mm": (
         touching(
             lambda case: (case.coin.thickness / 2 - case.release.position[2] + up(case)) * (up(case) > 1e-4)
@@ -88,22 +91,30 @@ PLANTS = {
     ),
     "the contact yields: the coin touches at 0, and lies at -0.3 mm": resting(3e-4),
     "gravity is off by -0.01 m/s²": of("gravity", lambda g: g - 0.01),
+    "the velocity comes 5e-05 s early, as half a step off, and the position does not": Planted(
+        after=lambda case, t, right: {
+            "velocity": right["velocity"] - [0, 0, case.gravity / 2] * (t[1] - t[0])
+        }
+    ),
     "the states come 0.0001 s late": Planted(
         after=lambda _, __, right: {name: np.roll(column, 1, axis=0) for name, column in right.items()}
     ),
-    "the velocity is damped by 0.0398/s": Planted(
-        after=lambda _, t, right: {
-            "velocity": right["velocity"][0] * np.exp(-0.04 * t)
-            + (right["velocity"] - right["velocity"][0]) * -np.expm1(-0.04 * t) / (0.04 * t + 1e-99),
-            "position": right["position"] - right["velocity"][0] * (np.expm1(-0.04 * t) / 0.04 + t),
+    "the velocity is damped by 0.04/s": Planted(
+        after=lambda case, t, right: {
+            "velocity": right["velocity"] - 0.02 * t * (right["velocity"][0] + right["velocity"]),
+            "position": right["position"]
+            - 0.04 / 6 * t**2 * (2 * right["velocity"][0] + right["velocity"]) * (up(case) > 0.5),
         }
     ),
     "the attitudes are turned by 1°": Planted(
         after=lambda _, __, right: {"quaternion": right["quaternion"] @ TURN}
     ),
-    "the angular velocity is limited to 100 rad/s": spun(
-        lambda w, *_: w * np.minimum(1, 100 / np.maximum(np.linalg.norm(w, axis=1), 1e-9))[:, None]
-    ),
+    **{
+        f"the angular velocity is limited to {most} rad/s": spun(
+            lambda w, *_, most=most: w * np.minimum(1, most / (np.linalg.norm(w, axis=1) + 1e-99))[:, None]
+        )
+        for most in (500, 100)
+    },
     "the angular velocity is damped by 0.0498/s": spun(lambda w, _, t: w * np.exp(-0.05 * t)),
     **{
         f"the gyroscopic moment ω × J ω {words}": Planted(
@@ -136,3 +147,9 @@ PLANTS = {
     },
 }
 """The engines by their hints."""
+UNNAMED = {
+    "a spin shown a part too small": spun(lambda w, *_: 0.95 * w),
+    "half the thickness": of("coin.thickness", lambda thickness: thickness / 2),
+    "less restitution": of("floor.restitution", lambda chi: 0.97 * chi),
+}
+"""Engines whose fault has the pattern of no cause."""
