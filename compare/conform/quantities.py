@@ -166,7 +166,7 @@ QUANTITIES: dict[str, Callable[[ObservedToss], Array]] = {
 
 
 def height_at_touches(seen: ObservedToss, tolerance: float, part: float) -> tuple[float, bool]:
-    """Return the lowest point's height most beyond what is allowed, else the largest, and whether it is beyond.
+    """Return the lowest point's height most beyond what is allowed, or the largest, and whether one is beyond.
 
     The height at a touch, of a coin that came from above, is that at the time at which its change of velocity
     explains the next position; at rest it is that of the last state of a lasting contact. Allowed are the

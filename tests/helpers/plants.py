@@ -150,6 +150,7 @@ PLANTS = {
 UNNAMED = {
     "a spin shown a part too small": spun(lambda w, *_: 0.95 * w),
     "half the thickness": of("coin.thickness", lambda thickness: thickness / 2),
+    "a tenth less thickness": of("coin.thickness", lambda thickness: 0.9 * thickness),
     "less restitution": of("floor.restitution", lambda chi: 0.97 * chi),
 }
 """Engines whose fault has the pattern of no cause."""
