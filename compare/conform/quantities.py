@@ -166,12 +166,12 @@ QUANTITIES: dict[str, Callable[[ObservedToss], Array]] = {
 
 
 def height_at_touches(seen: ObservedToss, tolerance: float, part: float) -> tuple[float, bool]:
-    """Return the lowest point's height most beyond what is allowed, or the largest, and whether one is beyond.
+    """Return the height most beyond what is allowed, or else the largest, and whether it is beyond.
 
-    The height at a touch, of a coin that came from above, is that at the time at which its change of velocity
-    explains the next position; at rest it is that of the last state of a lasting contact. Allowed are the
-    tolerance, at a touch a part of the way to the next state, the whole where a step may be late, and the
-    depth m g/k on a spring that the engine names [m].
+    Heights are of the lowest point. At a touch, of a coin that came from above, it is that at the time at which
+    its change of velocity explains the next position; at rest it is that of the last state of a lasting
+    contact. Allowed are the tolerance, at a touch a part of the way to the next state, the whole where a step
+    may be late, and the depth m g/k on a spring that the engine names [m].
     """
     body, states, (impacts, contacts) = seen.scenario.body, seen.states, seen.stretches
     above, z, v = gaps(body, states), states.position[:, 2], states.velocity[:, 2]
