@@ -18,6 +18,8 @@ FALL = 10.0
 """Speed at which the geoms come together, over what presses them together times dt."""
 SLOPE = 0.01
 """The slope on which the slip is measured, or half of the friction where that is less."""
+SINK = 0.01
+"""A geom that sinks by less than this part of its depth, in the steps that are looked at, does not sink."""
 EVERY = 5
 """Steps between two measurements of the geoms: an odd number, because some geoms hop every other step."""
 SLIDING, AVERAGED = 2000, 500
@@ -34,7 +36,8 @@ class PairRest:
     """Rise along the normal from its lowest to its highest position, without what it sinks [m]; 0 for less
     than a twentieth of the depth."""
     sinking: float
-    """The mean speed along the normal into the other [m/s]."""
+    """The mean speed along the normal into the other [m/s]; 0 where that is less than a hundredth of the
+    depth in that time, below 0 where it rises."""
     drift: float
     """The mean speed along the other's surface, under the model's gravity as it is [m/s]."""
     rocking: float
@@ -98,7 +101,7 @@ def rest_between(pair: Pair) -> PairRest | str:
     return PairRest(
         depth=depth,
         hop=hop,
-        sinking=-float(rise) if abs(rise) * times[-1] > still else 0.0,
+        sinking=-float(rise) if abs(rise) * times[-1] > max(still, SINK * depth) else 0.0,
         drift=drift / float(times[-1]) if drift > still else 0.0,
         rocking=rocking if turns and not rolls else 0.0,
         rolls=rolls,

@@ -21,15 +21,15 @@ def rest_lines(found: PairBounce) -> str:
 
 
 def _rest(rest: PairRest) -> str:
-    if rest.hop:
-        return (
-            f"never still: it hops on, by {1e6 * rest.hop:.3g} um, {1e6 * rest.depth:.3g} um deep in the mean"
-        )
-    if rest.sinking:
-        return f"sinks {1e6 * rest.sinking:.3g} um/s"
-    does = "rolls away" if rest.rolls else "moves along the other geom" if rest.drift else "lies still"
     # A margin holds the geoms apart.
-    return f"{does}, {1e6 * abs(rest.depth):.3g} um {'deep' if rest.depth >= 0 else 'above the other'}"
+    deep = f"{1e6 * abs(rest.depth):.3g} um {'deep' if rest.depth >= 0 else 'above the other'}"
+    if rest.hop:
+        return f"never still: it hops on, by {1e6 * rest.hop:.3g} um, {deep} in the mean"
+    if rest.sinking:
+        does = "sinks" if rest.sinking > 0 else "rises"
+        return f"{does} {1e6 * abs(rest.sinking):.3g} um/s, {deep} in the mean"
+    does = "rolls away" if rest.rolls else "moves along the other geom" if rest.drift else "lies still"
+    return f"{does}, {deep}"
 
 
 def _rocking(rest: PairRest) -> str:

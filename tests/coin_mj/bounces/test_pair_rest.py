@@ -1,5 +1,7 @@
 """Whether a geom lies still on another: closed forms of its depth and its creep, and what cannot rest."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -64,6 +66,8 @@ def test_without_a_stiffness_it_sinks_and_on_the_hardest_spring_it_hops():
     sinking = rest(FLOOR + ball(damped))
     assert sinking.sinking == pytest.approx(LEFT / 900, rel=1e-3)
     assert (sinking.hop, sinking.slope) == (0, 0)
+    at_once = rest(FLOOR + ball(damped.replace("-900", f"{-1 / DT}")))
+    assert at_once.sinking == pytest.approx(LEFT * DT, rel=1e-3)
     stiff, damping = SPRING.solref
     hard = f'solref="{stiff} {damping}" solimp="0.9999 0.9999 0.001" condim="1" priority="1"'
     assert rest(FLOOR + ball(hard), integrator="RK4").hop > 2e-5
@@ -98,6 +102,9 @@ def test_what_rolls_or_creeps_down_a_slope_does_not_lie_still():
     assert "none, but it turns" in rest_lines(rolling)
     assert "rest        moves along the other geom, " in rest_lines(creeping)
     assert rest_lines(creeping).endswith("rocking     none")
+    for sinking, told in (2e-6, "sinks 2 um/s, 5 um deep"), (-2e-6, "rises 2 um/s, 5 um deep"):
+        moving = replace(rolling.rest, sinking=sinking, depth=5e-6)
+        assert f"rest        {told}" in rest_lines(replace(rolling, rest=moving))
 
 
 @pytest.mark.parametrize(
@@ -119,10 +126,13 @@ def test_a_coin_that_rises_and_falls_by_a_hundredth_of_its_depth_does_not_hop(mo
     coin = '<geom name="b" type="cylinder" size="0.012 0.001" mass="0.005"/>'
     bodies = '<geom name="a" type="box" size="0.4 0.4 0.025"/>' + BOX.replace(BLOCK, coin)
     lying = rest(bodies)
-    assert lying.hop == 0
+    assert (lying.hop, lying.sinking) == (0, 0)
     assert lying.depth == pytest.approx(1.1e-4, rel=0.15)
     monkeypatch.setattr(pair_rest, "HOP", 0)
-    assert 0.005 < rest(bodies).hop / lying.depth < 0.02
+    monkeypatch.setattr(pair_rest, "SINK", 0)
+    moving = rest(bodies)
+    assert 0.005 < moving.hop / lying.depth < 0.02
+    assert moving.sinking != 0
 
 
 def test_what_rolls_off_the_other_on_a_slope_has_no_slip():
