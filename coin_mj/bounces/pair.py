@@ -36,6 +36,8 @@ MISSED = 60
 """Geoms that have not touched after so many steps do not touch."""
 SHARE = 0.1
 """A speed may differ at the touch by this part from the speed asked for and from that a step beside it."""
+DEEP = 0.05
+"""Geoms are deep in each other from this part of half the thickness of the thinner one."""
 
 
 class PairOutcome(StrEnum):
@@ -52,6 +54,8 @@ class PairOutcome(StrEnum):
     MISSES = "do not touch"
     TURNED = "meet at a turned normal"
     """The normal of the first contact is not that along which they came: one is already deep in the other."""
+    ASIDE = "are pushed aside"
+    """They are not deep in each other, and MuJoCo's normal is not, or does not stay, that of the approach."""
     OTHER_SPEED = "come at another speed"
     """Something else brakes or accelerates them by more than `SHARE` of their speed on the way."""
     CHANGES = "change speed in a step"
@@ -258,8 +262,13 @@ def _come(pair: Pair, speed: float) -> _Come | PairOutcome:
     if abs(found - speed) <= SHARE * speed + _weight(pair) * model.opt.timestep:
         return _Come(points, found, _kinetic_energy(model, apart))
     if (points.normals @ pair.normal).mean() < 1 - SHARE:
-        return PairOutcome.TURNED
+        return _if_deep(pair, -min(contact.dist for contact in touches.values()), PairOutcome.TURNED)
     return PairOutcome.CHANGES if math.isnan(found) else PairOutcome.OTHER_SPEED
+
+
+def _if_deep(pair: Pair, depth: float, outcome: PairOutcome) -> PairOutcome:
+    """Return an outcome of geoms that are deep in each other, or at a lesser depth [m] that of an edge."""
+    return outcome if depth > DEEP * pair.thinnest else PairOutcome.ASIDE
 
 
 def _part(pair: Pair, came: _Come) -> _Touch:
@@ -293,7 +302,7 @@ def _part(pair: Pair, came: _Come) -> _Touch:
             left = came.points.speed_at_touch(data)
             return ended(PairOutcome.CHANGES if math.isnan(left) else PairOutcome.REBOUNDS, left / came.speed)
         if free > 1 and not touches and gap < last:
-            return ended(PairOutcome.PASSES if gap < 0 else PairOutcome.CHANGES)
+            return ended(_if_deep(pair, depth, PairOutcome.PASSES) if gap < 0 else PairOutcome.CHANGES)
         last = gap
         mujoco.mj_step(model, data)
     # What trembles on, or creeps, stays.

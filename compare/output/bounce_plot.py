@@ -18,6 +18,7 @@ MEANINGS = {
     PairOutcome.PASSES: "the geoms part on the wrong sides, or pass each other's middle within a step",
     PairOutcome.MISSES: "the approach starts against a force of the model, such as a spring, that ends it",
     PairOutcome.TURNED: "after a step they are so deep in each other that the contact pushes aside",
+    PairOutcome.ASIDE: "MuJoCo's normal is not that of the approach, or turns from it, as at an edge",
     PairOutcome.OTHER_SPEED: f"something else changes the speed by more than {100 * SHARE:g} % on the way",
     PairOutcome.CHANGES: f"the point's speed changes by more than {100 * SHARE:g} %; take a shorter step",
 }

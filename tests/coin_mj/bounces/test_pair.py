@@ -186,13 +186,27 @@ def test_a_block_that_can_fall_freely_is_thrown_straight_whatever_its_joints(how
     assert found.turning == 0
 
 
-def test_geoms_that_are_deep_in_each_other_after_a_step_meet_at_a_turned_normal(monkeypatch):
-    monkeypatch.setattr(pair, "SPEEDS", (5.0,))
-    bodies = (
-        '<geom name="a" type="capsule" size="0.01 0.2" euler="90 0 0"/><body pos="0 0 1"><freejoint/>'
-        '<geom name="b" type="cylinder" size="0.012 0.001" euler="0 40 0"/></body>'
-    )
-    assert "8 of 8 meet at a turned normal" in bounce_table(bounce(model(bodies), "a", "b"))
+@pytest.mark.parametrize(
+    ("speed", "bodies", "told"),
+    [
+        (
+            5.0,
+            '<geom name="a" type="capsule" size="0.01 0.2" euler="90 0 0"/><body pos="0 0 1"><freejoint/>'
+            '<geom name="b" type="cylinder" size="0.012 0.001" euler="0 40 0"/></body>',
+            "8 of 8 meet at a turned normal",
+        ),
+        (
+            0.1,
+            '<geom name="a" type="box" size="0.3 0.3 0.02" pos="0 0 0.3"/><body pos="0.5 0 0.8"><freejoint/>'
+            '<geom name="b" type="box" size="0.02 0.03 0.04" mass="0.5"/></body>',
+            "8 of 8 are pushed aside",
+        ),
+    ],
+    ids=["deep after a step", "0.05 mm deep at an edge"],
+)
+def test_geoms_at_whose_touch_the_normal_is_not_that_of_the_approach(monkeypatch, speed, bodies, told):
+    monkeypatch.setattr(pair, "SPEEDS", (speed,))
+    assert told in bounce_table(bounce(model(bodies), "a", "b"))
 
 
 def test_a_contact_pushes_from_the_margins_on_and_not_from_the_gaps():
