@@ -110,6 +110,6 @@ def _axis(name: str, given: str | tuple[Any, ...] | Mapping[str, Any], described
     if isinstance(given, tuple) and len(given) == 4:
         return axis_given(given[0], given[1:], described)
     if not isinstance(given, Mapping) or len(given) != 1:
-        raise SweepError(f"{name}: {given!r}, accepted: {FORM}, or a tuple or a dict that says so")
+        raise SweepError(f'{name}: {given!r}, accepted: {FORM}, or a tuple such as ("spin", 20, 60, 4)')
     ((field, values),) = given.items()
     return axis_given(field, values, described)
