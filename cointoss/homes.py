@@ -29,8 +29,9 @@ def brought(homes: dict[str, tuple[str, str]], name: str, module: str) -> Any:
     if name not in homes:
         from cointoss.models.errors import meant
 
+        told = meant(name, homes).strip() or f"accepted: {', '.join(sorted(homes))}"
         raise AttributeError(
-            f"{module} has no {name}; {meant(name, homes)}accepted: {', '.join(sorted(homes))}"
-        )
+            f"{module} has no {name}; {told}", obj=None
+        )  # of a module, Python would ask "Did you mean" once more
     home, name_there = homes[name]
     return getattr(import_module(home), name_there)
