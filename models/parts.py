@@ -88,9 +88,24 @@ class Part(BaseModel):
         Raises:
             AttributeError: always, naming the way to a changed scenario.
         """
-        raise AttributeError(
-            f"{type(self).__name__}.{name} = {shown(value)}: is frozen; accepted: a scenario with another "
-            'value, as of scenario.replace("coin.mass", 0.01)'
+        raise self._frozen(f"{type(self).__name__}.{name} = {shown(value)}", name, shown(value))
+
+    def __delattr__(self, name: str) -> None:
+        """Refuse to take a field away.
+
+        Raises:
+            AttributeError: always, naming the way to a changed scenario.
+        """
+        raise self._frozen(f"del {type(self).__name__}.{name}", name)
+
+    def _frozen(self, done: str, name: str, value: str = "...") -> AttributeError:
+        """Return that a field can't be changed; a name that is none has the first field for its example."""
+        part = type(self)
+        field, given = (name, value) if name in part.model_fields else (next(iter(part.model_fields)), "...")
+        table = {"Scenario": "", "EndingCriteria": "ending."}.get(part.__name__, f"{part.__name__.lower()}.")
+        return AttributeError(
+            f"{done}: is frozen; accepted: a scenario with another value, as of "
+            f'scenario.replace("{table}{field}", {given})'
         )
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
