@@ -331,6 +331,7 @@ def _rest(rest: "Rest", solimp: str) -> str:
     bound = "at most " if shallow < deep else "at least " if shallow > deep else ""
     if rest.hop:
         return f"never still: it hops on, by {1e6 * rest.hop:.3g} um"
-    if rest.sinking:
+    if rest.sinking > 0:
         return f"sinks {1e6 * rest.sinking:.3g} um/s, n times as fast under n times its weight"
-    return f"lies still, {1e6 * rest.depth:.3g} um deep; {bound}n times as deep under n times its weight"
+    does = f"rises {-1e6 * rest.sinking:.3g} um/s" if rest.sinking else "lies still"
+    return f"{does}, {1e6 * rest.depth:.3g} um deep; {bound}n times as deep under n times its weight"

@@ -209,3 +209,12 @@ def test_a_thousand_bounces_in_a_row_lose_no_energy():
         bounces += data.qvel[2] > 0 and not rising
         rising = data.qvel[2] > 0
     assert data.energy.sum() == pytest.approx(before, rel=0.1)
+
+
+def test_what_still_comes_up_from_its_bounces_rises():
+    """It was said to sink, at a speed below 0."""
+    given = ["--solimp", "0.9999 0.9999 0.001", "--integrator", "implicitfast"]
+    assert (
+        "rest        rises 14.6 um/s, 277 um deep"
+        in cointoss("solref", "--of", "-30 -500", "--dt", 2e-3, *given).stdout
+    )
