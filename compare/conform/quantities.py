@@ -168,8 +168,8 @@ QUANTITIES: dict[str, Callable[[ObservedToss], Array]] = {
 def height_at_touches(seen: ObservedToss, tolerance: float, part: float) -> tuple[float, bool]:
     """Return the height most beyond what is allowed, or else the largest, and whether it is beyond.
 
-    Heights are of the lowest point. At a touch, of a coin that came from above, it is that at the time at which
-    its change of velocity explains the next position; at rest it is that of the last state of a lasting
+    Heights are of the lowest point. At a touch, of a coin that came from above, it is that at the time at
+    which its change of velocity explains the next position; at rest it is that of the last state of a lasting
     contact. Allowed are the tolerance, at a touch a part of the way to the next state, the whole where a step
     may be late, and the depth m g/k on a spring that the engine names [m].
     """
