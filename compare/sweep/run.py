@@ -127,7 +127,5 @@ def _memory() -> float:
 
 def _bytes(count: float) -> str:
     """Return a number of bytes in the unit that shows it."""
-    unit, size = next(
-        ((unit, size) for unit, size in (("GB", 1e9), ("MB", 1e6)) if count >= size), ("kB", 1e3)
-    )
+    unit, size = ("GB", 1e9) if count >= 1e9 else ("MB", 1e6) if count >= 1e6 else ("kB", 1e3)
     return f"{count / size:,.1f} {unit}"

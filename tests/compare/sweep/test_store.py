@@ -321,10 +321,16 @@ def test_an_empty_folder_and_a_link_to_one_are_places_for_a_map(tmp_path):
 
 def test_a_grid_beyond_disk_or_memory_is_refused_with_its_need(coin, tmp_path, monkeypatch):
     usage = shutil.disk_usage(tmp_path)
-    monkeypatch.setattr(shutil, "disk_usage", lambda _: usage._replace(free=5000))
-    said = refused("basin", coin, *AXES, "--out", tmp_path / "map.zarr")
-    assert "48 by 40 tosses need up to 9.6 kB of disk; accepted: a grid for the 5.0 kB that are free" in said
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: usage._replace(free=5_000_000))
+    said = refused(
+        "basin",
+        coin,
+        *(axis.replace(":48", ":1200").replace(":40", ":1600") for axis in AXES),
+        "--out",
+        tmp_path / "map.zarr",
+    )
+    assert "1200 by 1600 tosses need up to 9.6 MB of disk; accepted: a grid for the 5.0 MB that" in said
     monkeypatch.undo()
     monkeypatch.setattr(os, "sysconf", lambda _: 100)
     said = refused("basin", coin, *AXES, "--out", tmp_path / "map.zarr", "--png", tmp_path / "map.png")
-    assert "of memory; accepted: a grid for" in said
+    assert "of memory; accepted: a grid for the 10.0 kB" in said
