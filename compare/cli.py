@@ -6,6 +6,7 @@ import sys
 from functools import cached_property
 from importlib import import_module
 from io import TextIOWrapper
+from mmap import mmap
 from typing import Any, NoReturn
 
 import click
@@ -36,6 +37,8 @@ COMMANDS = {
 """The commands, each in a module of its name, which is imported when it is called; and what each does."""
 NO_MEMORY = "out of memory, or of threads; accepted: more of them for this process, see ulimit -a"
 """What is said where memory ends."""
+_ROOM = 160 << 20
+"""Address space that every command takes [bytes]; pydantic's Rust code aborts the process where it ends."""
 _LACKING = (
     "can't start new thread",
     "failed to map segment",
@@ -57,6 +60,7 @@ class _Commands(click.Group):
 
     def main(self, *args: Any, **extra: Any) -> NoReturn:
         try:
+            mmap(-1, _ROOM).close()
             status = super().main(*args, **{"prog_name": "cointoss", **extra, "standalone_mode": False})
             if sys.stdout is not None:  # None where the shell has closed it
                 sys.stdout.flush()
