@@ -137,7 +137,6 @@ results: $(VENV)/.ready-docs opengl engines
 
 # The exact versions installed here, with which the numbers of the pages can be made again.
 lock: $(VENV)/.ready-lint
-	@$(MAKE) --no-print-directory $(VENV)/.ready-docs
 	$(BIN)/python -m pip freeze --exclude-editable > constraints.txt
 
 $(MADE)/pages/explorer.html: $(READY) $(CODE) docs/conf.py $(wildcard docs/extensions/*.py) | engines
@@ -177,7 +176,7 @@ $(READY): pyproject.toml
 # too; types are checked of all that the tests import.
 $(TESTED): $(READY) reproduction/pyproject.toml
 $(VENV)/.ready-slow $(VENV)/.ready-docs: $(TESTED)
-$(VENV)/.ready-lint: $(VENV)/.ready-slow
+$(VENV)/.ready-lint: $(VENV)/.ready-slow $(VENV)/.ready-docs
 $(VENV)/.ready-test $(VENV)/.ready-slow $(VENV)/.ready-lint $(VENV)/.ready-docs: $(VENV)/.ready-%:
 	@$(STEP) "pip: installing what make $* needs" $(PIP) --group $* $(if $(filter test,$*),--no-build-isolation --editable reproduction)
 	@touch $@
