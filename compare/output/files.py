@@ -14,6 +14,8 @@ from cointoss.compare.output.interruption import undoing
 
 PREFIX, LOCK = ".cointoss-", ".lock"
 """What the name of a folder aside begins with, and the file in it that is locked while its process lives."""
+PAGES = (".md", ".html")
+"""How the names of pages end, which show what lies beside them."""
 
 
 class UnwritableError(OSError):
@@ -157,57 +159,39 @@ def written_whole(path: Path) -> Iterator[Path]:
 
 @contextmanager
 def written_together(folder: Path, names: tuple[str, ...]) -> Iterator[Path]:
-    """Yield a folder inside `folder` to write to; when all went well, move its files up to `folder`.
+    """Yield a folder to write to; when all went well, it becomes `folder`, or its files go where that exists.
 
-    Of `names`, those that were not written are removed from `folder`: they belong to what is replaced.
-    `folder` is made if missing. When something goes wrong, everything is as before. Only SIGKILL between two
-    of the moves leaves files of both, each whole.
+    A new folder appears whole, with the parents that it lacks. In one that exists each file is replaced by a
+    rename, the pages last; then those of `names` that were not written are removed, as they belong to what is
+    replaced. Until all are written, everything is as before. What ends the process between two of the renames
+    leaves files of both, each whole.
 
     Raises:
         UnwritableError: naming the folder or the file in the way, and why, for every error of the system.
     """
     require_folder(folder, names)
-    made = [part for part in (folder, *folder.parents) if not os.path.lexists(part)]
+    made = [part for part in folder.parents if not os.path.lexists(part)]
     with naming(folder), undoing(lambda: _remove_empty(made)):
-        folder.mkdir(parents=True, exist_ok=True)
-        with aside_in(folder) as aside:
-            yield aside
-            _move_together(aside, folder, names)
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        with aside_in(folder if folder.exists() else folder.parent) as aside:
+            written = aside / "made"
+            written.mkdir()
+            yield written
+            if folder.exists():
+                _move_files(written, folder, names)
+            else:
+                _move(written, folder)
 
 
-def _move_together(aside: Path, folder: Path, names: tuple[str, ...]) -> None:
-    """Move files from one folder to another, and remove the others of `names` there: all or none."""
+def _move_files(written: Path, folder: Path, names: tuple[str, ...]) -> None:
+    """Move those of `names` that were written to a folder, and remove the others there."""
     replaced = require_folder(folder, names)
-    new = [name for name in names if (aside / name).exists()]
-    earlier, is_done = aside / ".earlier", False
-
-    def undo() -> None:
-        if not is_done:
-            for name in new:
-                if not (aside / name).exists() and folder / name not in replaced:
-                    (folder / name).unlink(missing_ok=True)
-            for path in replaced:
-                if (earlier / path.name).exists():
-                    (earlier / path.name).replace(path)
-
-    with undoing(undo):
-        earlier.mkdir()
-        for path in replaced:
-            _keep(path, earlier / path.name)
-        for name in new:
-            _move(aside / name, folder / name)
-        for path in replaced:
-            if path.name not in new:
-                path.unlink()
-        is_done = True
-
-
-def _keep(path: Path, kept: Path) -> None:
-    """Give a file a second name, or copy it where the file system has no second names."""
-    try:
-        kept.hardlink_to(path)
-    except OSError:
-        shutil.copy2(path, kept)
+    new = [name for name in names if (written / name).exists()]
+    for name in sorted(new, key=lambda name: name.endswith(PAGES)):
+        _move(written / name, folder / name)
+    for path in replaced:
+        if path.name not in new:
+            path.unlink()
 
 
 @contextmanager

@@ -34,8 +34,8 @@ def write_report(
 
     Args:
         comparison: of the tosses.
-        folder: where to write, made if missing; an earlier report there is replaced as a whole before the
-            film is drawn.
+        folder: where to write, made if missing; the files of an earlier report there are replaced, the page
+            last, before the film is drawn.
         no_video: why no video can be drawn, or None.
         maps: what the report also shows.
 

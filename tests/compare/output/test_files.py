@@ -27,11 +27,12 @@ def test_a_failed_write_leaves_what_was_there(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["kept.txt"]
 
 
-NAMES = ("a.txt", "b.txt", "c.txt", "d.txt")
+NAMES = ("page.html", "b.txt", "c.txt", "d.txt")
+OLD = dict.fromkeys(NAMES[1:], "old")
 
 
 def write_anew(folder, meanwhile=lambda: None):
-    """Write a.txt to c.txt together, in place of b.txt to d.txt."""
+    """Write page.html to c.txt together, in place of b.txt to d.txt."""
     with written_together(folder, NAMES) as aside:
         meanwhile()
         for name in NAMES[:3]:
@@ -41,7 +42,7 @@ def write_anew(folder, meanwhile=lambda: None):
 @pytest.fixture
 def earlier(tmp_path):
     """A folder with b.txt to d.txt."""
-    for name in NAMES[1:]:
+    for name in OLD:
         (tmp_path / name).write_text("old")
         (tmp_path / name).chmod(0o640)
     return tmp_path
@@ -51,88 +52,45 @@ def held(folder):
     return {path.name: path.is_file() and path.read_text() for path in folder.iterdir()}
 
 
-OLD = dict.fromkeys(NAMES[1:], "old")
-
-
-@pytest.mark.parametrize("links", [True, False])
-def test_files_that_belong_together_are_replaced_together(earlier, monkeypatch, links):
-    if not links:
-        monkeypatch.setattr(Path, "hardlink_to", failing(0, Path.hardlink_to))
-    write_anew(earlier)
-    assert held(earlier) == dict.fromkeys(NAMES[:3], "new")
+def test_files_of_a_folder_are_replaced_and_what_else_is_there_stays(earlier):
+    (earlier / "notes.txt").write_text("mine")
+    write_anew(earlier, meanwhile=lambda: (earlier / "later.txt").write_text("mine"))
+    mine = {"notes.txt": "mine", "later.txt": "mine"}
+    assert held(earlier) == dict.fromkeys(NAMES[:3], "new") | mine
     assert (earlier / "b.txt").stat().st_mode & 0o777 == 0o640
+
+
+@pytest.mark.parametrize("makes", [False, True])
+def test_a_new_folder_appears_when_all_its_files_are_written(tmp_path, makes):
+    """Unless another program makes it meanwhile."""
+    new, was_there = tmp_path / "deep" / "new", []
+    write_anew(new, meanwhile=lambda: new.mkdir() if makes else was_there.append(new.exists()))
+    assert held(new) == dict.fromkeys(NAMES[:3], "new")
+    assert held(tmp_path / "deep") == {"new": False}
+    assert not any(was_there)
 
 
 def test_a_folder_in_the_place_of_one_file_leaves_all_as_they_were(earlier):
     (earlier / "c.txt").unlink()
-    (earlier / "c.txt").mkdir()
-    with pytest.raises(UnwritableError, match=r"c\.txt: is a folder"):
-        write_anew(earlier)
-    assert held(earlier) == OLD | {"c.txt": False}
-    (earlier / "c.txt").rmdir()
-    with pytest.raises(UnwritableError, match=r"c\.txt: is a folder"):
-        write_anew(earlier, meanwhile=(earlier / "c.txt").mkdir)
-    assert held(earlier) == OLD | {"c.txt": False}
+    for meanwhile in ((earlier / "c.txt").mkdir, lambda: None):
+        with pytest.raises(UnwritableError, match=r"c\.txt: is a folder"):
+            write_anew(earlier, meanwhile)
+        assert held(earlier) == OLD | {"c.txt": False}
 
 
-def failing(number, method):
-    """Return a method of a path whose call of that number, from 0, fails as on a full disk."""
-    calls = itertools.count()
+@pytest.mark.parametrize("moved", range(3))
+def test_a_full_disk_leaves_each_file_whole_and_the_page_to_the_last(earlier, monkeypatch, moved):
+    calls, replace = itertools.count(), Path.replace
 
-    def fail(*arguments, **named):
-        if next(calls) == number:
+    def fail(*paths):
+        if next(calls) == moved:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-        return method(*arguments, **named)
+        return replace(*paths)
 
-    return fail
-
-
-@pytest.mark.parametrize(
-    ("method", "number"),
-    [
-        *((name, number) for name in ("replace", "chmod") for number in range(3)),
-        ("unlink", 0),
-        ("mkdir", 2),
-    ],
-)
-def test_a_move_that_fails_leaves_all_files_as_they_were(earlier, monkeypatch, method, number):
-    before = {path: path.stat().st_ino for path in earlier.iterdir()}
-    with monkeypatch.context() as patched:
-        patched.setattr(Path, method, failing(number, getattr(Path, method)))
-        with pytest.raises(UnwritableError, match="No space left on device"):
-            write_anew(earlier)
-    assert held(earlier) == OLD
-    assert {path: path.stat().st_ino for path in earlier.iterdir()} == before
-
-
-@pytest.mark.parametrize("moves", [1, 2, 3])
-def test_a_signal_between_two_moves_leaves_all_files_as_they_were(earlier, moves):
-    script = f"""
-import os, signal, sys
-from pathlib import Path
-from cointoss.compare.output.files import written_together
-from cointoss.compare.output.interruption import run_to_exit
-move, left = Path.replace, [{moves}]
-
-def replace(*paths):
-    moved = move(*paths)
-    left[0] -= 1
-    if left[0] == 0:
-        os.kill(os.getpid(), signal.SIGTERM)
-    return moved
-
-Path.replace = replace
-
-def command():
-    with written_together(Path({str(earlier)!r}), {NAMES}) as aside:
-        for name in {NAMES[:3]}:
-            (aside / name).write_text("new")
-
-run_to_exit(command)
-"""
-    ended = python("-c", script)
-    assert (ended.returncode, ended.stderr) == (143, "cointoss: interrupted by SIGTERM\n")
-    assert held(earlier) == OLD
+    monkeypatch.setattr(Path, "replace", fail)
+    with pytest.raises(UnwritableError, match="No space left on device"):
+        write_anew(earlier)
+    assert held(earlier) == OLD | dict.fromkeys(NAMES[1 : 1 + moved], "new")
 
 
 def test_what_a_killed_process_left_is_removed_and_what_a_live_one_writes_is_not(tmp_path):
