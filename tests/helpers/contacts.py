@@ -1,5 +1,8 @@
 """Sustained contact a step at a time, at the tolerance of flights, and coins upright on the floor."""
 
+from collections.abc import Mapping, Sequence
+from typing import Any
+
 import numpy as np
 
 from cointoss.analytic.contact.automaton import (
@@ -23,6 +26,7 @@ from cointoss.models.body import Body
 from cointoss.models.geometry import evaluate_gap
 from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.records import Array
+from tests.helpers.draws import ZLOTY
 
 step_contact = by_numba(step_contact)
 
@@ -68,19 +72,54 @@ def follow_step(body: Body, friction: FloorFriction, mode: int, y: Array, dt: fl
 
 
 def follow_for(
-    body: Body, friction: FloorFriction, mode: int, y: Array, time: float, longest: float = np.inf
+    body: Body,
+    friction: FloorFriction,
+    mode: int,
+    y: Array,
+    time: float,
+    longest: float = np.inf,
+    *,
+    least: float = 0.0,
+    error: float = STEP_ERROR,
 ) -> tuple[Array, Array]:
-    """Return the states and times after every step, at most `longest`, of a contact that goes on so long."""
+    """Return the states and times after every step, at most `longest`, of a contact that goes on so long.
+
+    Or down to the tilt `least` [rad]; `error` is that of a step.
+    """
     y, states, times, dt = y.copy(), [y.copy()], [0.0], np.inf
     stages = contact_work(held(body, friction, mode, y), y)
-    while times[-1] < time:
+    while times[-1] < time and tilts_of(states[-1]) > least:
         contact, most = held(body, friction, mode, y), min(dt, longest, time - times[-1])
-        step = step_contact(contact, y, most, STEP_ERROR, stages)
+        step = step_contact(contact, y, most, error, stages)
         assert not step.is_over
         dt = step.next_dt
         states.append(y.copy())
         times.append(times[-1] + step.elapsed)
     return np.array(states), np.array(times)
+
+
+def tilts_of(y: Array) -> Array:
+    """Return the tilts of coins up to 90 degrees, (..., 13) to (...) [rad]."""
+    e = y[..., 6:10]
+    return np.arcsin(np.minimum(2 * np.hypot(e[..., 0], e[..., 3]) * np.hypot(e[..., 1], e[..., 2]), 1.0))
+
+
+def eulers_disk(tilt: float) -> Array:
+    """Return the state of the thin zloty that rolls round its fixed mass centre at a small tilt.
+
+    Ω² sin α = 4 g/r for the thin disc; ω lies along the diameter through A, with |ω| = Ω sin α.
+    """
+    r, sine = ZLOTY["radius"], np.sin(tilt)
+    turn = 2 * (9.81 * sine / r) ** 0.5
+    return np.array([0, 0, r * sine, 0, 0, 0, *quaternion_from_angles((0.0, tilt, 0.0)), 0, turn, 0])
+
+
+def set_upright(
+    coin: Mapping[str, Any] = ZLOTY, speed: float = 0.0, spin: Sequence[float] = (0.0, 0.0, 0.0)
+) -> Array:
+    """Return the state of a balanced coin upright on the floor; ζ is along -y, and η upwards."""
+    attitude = quaternion_from_angles((0.0, np.pi / 2, 0.0))
+    return np.array([0, 0, coin["radius"], speed, 0, 0, *attitude, *spin])
 
 
 def touching(body: Body, speed: float) -> Array:

@@ -1,30 +1,23 @@
-"""Losses as the contact point runs round the rim: power, moments, closed forms of Euler's disk, and rest."""
+"""Losses as the contact point runs round the rim: closed forms of Euler's disk and of a wheel, and rest."""
 
 import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.analytic.contact.automaton import Mode, flow
-from cointoss.analytic.contact.contact import lower_rim_of
-from cointoss.analytic.contact.integrator import contact_work, step_contact
+from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.rest import rests
-from cointoss.analytic.contact.rim_contact import both_rims, rim_contact
-from cointoss.analytic.contact.sampling import floor_force
+from cointoss.analytic.contact.rim_contact import both_rims
 from cointoss.analytic.numerics.tolerances import CONTACT_STEP_ERROR
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.body import resists
 from cointoss.models.contour import Contour, air_moment_per_spin, contour_per_force, leaning, longest_arm
-from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.records import Ending, Outcome
-from tests.helpers.contacts import assert_lowest_point_stays, follow_for, held, put_on_floor
+from tests.helpers.contacts import eulers_disk, follow_for, held, put_on_floor, set_upright, tilts_of
 from tests.helpers.draws import THIN, ZLOTY, draw_coin, scenario
-
-step_contact = by_numba(step_contact)
 
 G, R, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
 UNIT = (G / R) ** 0.5
-LOSSES = (Contour(2e-5), Contour(0.0, 3e-7), Contour(0.0, 0.0, 2e-5), Contour(1e-5, 1e-7, 2e-5))
 
 
 def classical_state(angles, rates):
@@ -50,97 +43,13 @@ def test_the_spin_along_the_lean_is_the_rate_of_phi_times_the_sine_of_the_tilt(s
     assert Rm[2] @ lean == pytest.approx(0, abs=1e-15)
 
 
-def contact_states(seed):
-    """Give states in each mode, with the rate of φ, the coin's body and the floor's friction."""
-    rng = np.random.default_rng(seed)
-    coin = draw_coin(rng)
-    body = scenario(coin=coin).body
-    for contour in LOSSES:
-        mu, rolling, pivoting = rng.uniform((0.1, 0.0, 0.0), (0.9, 1e-4, 1e-4))
-        friction = FloorFriction(mu, rolling, pivoting, contour)
-        for mode in (Mode.SLIDING, Mode.INCIPIENT_SLIP, Mode.STICKING, Mode.UPRIGHT):
-            tilt = np.pi / 2 if mode == Mode.UPRIGHT else rng.uniform(0.1, 1.4)
-            if mode == Mode.UPRIGHT and not coin["thickness"]:
-                continue
-            angles = (rng.uniform(0, 6), tilt, rng.uniform(0, 6))
-            y = classical_state(angles, rng.uniform(-20, 20, 3))
-            y[3:6] = rng.uniform(-0.3, 0.3, 3)
-            put_on_floor(body, friction, mode, y)
-            up = np.array(rotation_matrix(tuple(y[6:10])))[2]
-            sine = np.hypot(up[0], up[1])
-            yield body, friction, mode, y, np.dot(leaning(tuple(up)), y[10:13]) / sine, sine
-
-
-def power_of(body, dy, y):
-    return M * np.dot(y[3:6], dy[3:6]) + M * G * y[5] + y[10:13] @ np.array(body.inertia) @ dy[10:13]
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_energy_is_lost_at_the_rate_of_the_law(seed):
-    """DE/dt = F · v_A - N (δ |ω_h| + p |ω_z| + c |φ'| + c_v φ'²) - (π/4) η r³ φ'²/sin θ."""
-    largest = 0.0
-    for body, friction, mode, y, rate, sine in contact_states(seed):
-        if mode == Mode.UPRIGHT:
-            continue
-        dy, w = np.empty(13), np.array(rotation_matrix(tuple(y[6:10]))) @ y[10:13]
-        contact, contour = held(body, friction, mode, y), friction.contour
-        flow(contact, y, dy)
-        F = np.array(floor_force(contact, y))
-        taken = F[2] * (friction.rolling * np.hypot(w[0], w[1]) + friction.pivoting * abs(w[2]))
-        on_rim = F[2] * (contour.friction * abs(rate) + contour.viscosity * rate**2)
-        on_rim += np.pi / 4 * contour.air * R**3 * rate**2 / sine
-        taken += on_rim - F @ np.array(rim_contact(body, y, lower_rim_of(y)).velocity)
-        assert power_of(body, dy, y) == pytest.approx(-taken, abs=1e-12)
-        largest = max(largest, abs(on_rim))
-    assert largest > 1e-6
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_an_upright_coin_loses_what_its_roll_does(seed):
-    """Without slip friction and other resistance: ω_ζ is the rate of φ, and both rims carry the weight."""
-    for body, friction, mode, y, rate, _ in contact_states(seed):
-        if mode == Mode.UPRIGHT:
-            dy, contour = np.empty(13), friction.contour
-            contact = held(body, FloorFriction(0.0, 0.0, 0.0, contour), mode, y)
-            flow(contact, y, dy)
-            N = floor_force(contact, y)[2]
-            on_rim = N * (contour.friction * abs(rate) + contour.viscosity * rate**2)
-            on_rim += np.pi / 4 * contour.air * R**3 * rate**2
-            assert rate == pytest.approx(y[12], abs=1e-6)
-            assert power_of(body, dy, y) == pytest.approx(-on_rim, abs=1e-12)
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_the_lowest_point_stays_on_the_floor(seed):
-    for body, friction, mode, y, _, _ in contact_states(seed):
-        if mode != Mode.UPRIGHT:
-            assert_lowest_point_stays(body, friction, mode, y)
-
-
-def euler_disk(tilt):
-    """Return the state of a thin disc that rolls round its fixed mass centre at a small tilt.
-
-    Ω² sin α = 4 g/r for the thin disc; ω lies along the diameter through A, with |ω| = Ω sin α.
-    """
-    y = np.array([0, 0, R * np.sin(tilt), 0, 0, 0, *quaternion_from_angles((0.0, tilt, 0.0)), 0, 0, 0])
-    y[11] = 2 * UNIT * np.sin(tilt) ** 0.5
-    return y
-
-
 def fall(contour, mode, tilt, least, longest=np.inf):
     """Return times, tilts and rates of φ of Euler's disk on its way down to a tilt, or up to a time."""
-    body, friction = scenario(coin=THIN).body, FloorFriction(50.0 if mode == Mode.STICKING else 0.0)
-    friction = friction._replace(contour=contour)
-    y, dt, time, seen = euler_disk(tilt), np.inf, 0.0, []
-    stages = contact_work(held(body, friction, mode, y), y)
-    while not seen or (seen[-1][1] > least and time < longest):
-        step = step_contact(held(body, friction, mode, y), y, dt, CONTACT_STEP_ERROR, stages)
-        assert not step.is_over
-        dt, time = step.next_dt, time + step.elapsed
-        up = np.array(rotation_matrix(tuple(y[6:10])))[2]
-        sine = np.hypot(up[0], up[1])
-        seen.append((time, np.arcsin(sine), np.dot(leaning(tuple(up)), y[10:13]) / sine))
-    return np.array(seen).T
+    friction = FloorFriction(50.0 if mode == Mode.STICKING else 0.0, contour=contour)
+    start, body = eulers_disk(tilt), scenario(coin=THIN).body
+    y, times = follow_for(body, friction, mode, start, longest, least=least, error=CONTACT_STEP_ERROR)
+    along = [np.dot(leaning(rotation_matrix(tuple(one[6:10]))[2]), one[10:13]) for one in y]
+    return times, tilts_of(y), np.array(along) / np.sin(tilts_of(y))
 
 
 FALLS = {
@@ -204,16 +113,11 @@ def test_a_flat_unbalanced_coin_is_pressed_in_one_way(seed):
         assert np.linalg.eigvalsh((K + K.T) / 2)[0] > 0
 
 
-def upright_state(spin, speed=0.0):
-    """Return the state of a balanced coin upright on the floor; ζ is along -y, and η upwards."""
-    return np.array([0, 0, R, speed, 0, 0, *quaternion_from_angles((0.0, np.pi / 2, 0.0)), *spin])
-
-
 def test_an_upright_disc_that_rolls_is_slowed_at_each_laws_rate():
     """(J_ζ + m r²) dω_ζ/dt is -c m g, -c_v m g ω_ζ or -(π/4) η r³ ω_ζ."""
     body, speed = scenario(coin=THIN).body, 0.3
     inertia = body.inertia[2][2] + M * R * R
-    start = upright_state((0.0, 0.0, -speed / R), speed)
+    start = set_upright(THIN, speed, (0.0, 0.0, -speed / R))
     friction = FloorFriction(50.0, contour=Contour(1e-3))
     states, times = follow_for(body, friction, Mode.STICKING, start, 0.4)
     assert states[:, 3] == pytest.approx(speed - 1e-3 * M * G * R / inertia * times, abs=1e-9 * speed)
@@ -228,13 +132,13 @@ def test_contour_friction_holds_a_coin_on_both_rims_from_rolling_and_none_on_one
     c, thick = 1e-4, {**ZLOTY, "thickness": 4e-3}
     for share in (0.5, 0.9, 1.1):
         body = scenario(coin={**thick, "center_of_mass": [share * c, 0, 0]}).body
-        y = upright_state((0.0, 0.0, 0.0))
+        y = set_upright()
         friction = FloorFriction(0.3, contour=Contour(c))
         put_on_floor(body, friction, Mode.UPRIGHT, y)
         assert rests(held(body, friction, Mode.UPRIGHT, y), y) == (share < 1)
         assert not rests(held(body, FloorFriction(0.3), Mode.UPRIGHT, y), y)
         assert not rests(held(body, FloorFriction(0.3, contour=Contour(0.0, c)), Mode.UPRIGHT, y), y)
-    thin, y = scenario(coin=THIN).body, upright_state((0.0, 0.0, 0.0))
+    thin, y = scenario(coin=THIN).body, set_upright()
     assert rests(held(thin, FloorFriction(0.3, c), Mode.STICKING, y), y)
     assert not rests(held(thin, friction, Mode.STICKING, y), y), "a coin on one rim point may fall"
 
