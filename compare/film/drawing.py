@@ -6,8 +6,9 @@
 import itertools
 import math
 from collections.abc import Sequence
+from contextlib import ExitStack
 from enum import StrEnum
-from typing import NamedTuple, Self
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -90,7 +91,7 @@ def box_of(plays: Sequence[Play]) -> Box:
     return Box(np.array([low[0], low[1], -2 * r]), high)
 
 
-class Drawer:
+class Drawer(ExitStack):
     """Draws one toss; it holds an OpenGL context until its `with` statement ends."""
 
     def __init__(self, play: Play, camera: Camera, box: Box, *, height: int, width: int) -> None:
@@ -117,20 +118,13 @@ class Drawer:
         self._data = mujoco.MjData(self._model)
         self._trail_times = np.linspace(0, play.toss.end_time, TRAIL_CORNERS)
         self._trail = play.toss.sample(self._trail_times).position
-        self._renderer = mujoco.Renderer(self._model, height, width)
-
-    def __enter__(self) -> Self:
-        """Return the drawer itself."""
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        """Free the OpenGL context."""
-        self._renderer.close()
+        super().__init__()
+        self._renderer = self.enter_context(mujoco.Renderer(self._model, height, width))
 
     def draw(self, i: int) -> np.ndarray:
         """Draw the picture at one of the times, (height, width, 3) of uint8."""
         position = self._play.states.position[i]
-        self._data.qpos[:] = self._play.qpos(i)
+        self._data.qpos[:] = self._play.qpos[i]
         mujoco.mj_forward(self._model, self._data)
         if self._follows:
             self._camera.lookat[:] = position
@@ -161,7 +155,7 @@ class Drawer:
         alpha = min(1.0, (play.times[i] - play.toss.end_time + before) / fades_in)
         comes_down = np.all(play.states.position[i:, 2] >= play.states.position[-1, 2])
         if alpha > 0 and comes_down:
-            below = play.lowest_point(len(play.times) - 1)[2] - HAND_SIZE[1] * r
+            below = play.lowest_points[-1, 2] - HAND_SIZE[1] * r
             add_geom(
                 self._renderer.scene,
                 mujoco.mjtGeom.mjGEOM_CYLINDER,
@@ -180,7 +174,7 @@ class Drawer:
             part /= max(1.0, float(np.linalg.norm(part)))
             size = float(np.linalg.norm(part))
             # It pushes from below: it ends at the point where the floor supports the coin.
-            start = play.lowest_point(i) - PUSHES * self._longest * part
+            start = play.lowest_points[i] - PUSHES * self._longest * part
             self._add_arrow(start, PUSHES * part, FORCE_COLOR, FAINTEST + (1 - FAINTEST) * size)
 
     def _add_arrow(self, start: Array, part: Array, color: Color, alpha: float) -> None:

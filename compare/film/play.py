@@ -6,13 +6,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.coin_mj.model.state import of_release
 from cointoss.compare.film.filmed import Filmed
 from cointoss.models.attitude import rotation_matrix
-from cointoss.models.geometry import lowest_point
-from cointoss.models.parts import Release
 from cointoss.models.records import Array, Ending, States, Toss
-from cointoss.models.scenario import vector
 
 SHOWN_FOR = 0.015
 """How long after an impact its impulse is shown [s]."""
@@ -45,6 +41,10 @@ class Play:
     """The floor's forces in sustained contacts; 0 elsewhere and on a still coin; space frame, (n, 3) [N]."""
     largest_impulse: float
     """The largest impulse of the toss [N s]."""
+    qpos: Array
+    """MuJoCo's coordinates of the coin at these times, (n, 7)."""
+    lowest_points: Array
+    """The coin's lowest points at these times, space frame, (n, 3) [m]."""
 
     @property
     def toss(self) -> Toss:
@@ -70,18 +70,6 @@ class Play:
             for k in first + np.flatnonzero(size > WEAKEST * self.largest_impulse)
         ]
 
-    def lowest_point(self, i: int) -> Array:
-        """Return the coin's lowest point at one of the times, space frame, (3,) [m]."""
-        states = self.states
-        up = rotation_matrix(states.quaternion[i])[2]
-        point, _ = lowest_point(self.toss.scenario.body, up, vector(states.angular_velocity[i]))
-        return self._in_space(states.position[i], states.quaternion[i], np.array(point))
-
-    def qpos(self, i: int) -> Array:
-        """Return MuJoCo's coordinates of the coin at one of the times, (7,)."""
-        state = {"position": self.states.position[i], "quaternion": self.states.quaternion[i]}
-        return of_release(self.toss.scenario.body, Release.model_validate(state))[0]
-
     def _in_space(self, position: Array, quaternion: Array, point: Array) -> Array:
         """Return where a point of the coin, from B in the body frame, is in space."""
         return position + np.array(rotation_matrix(quaternion)) @ (point - self.toss.scenario.body.center)
@@ -104,10 +92,13 @@ def play_of(filmed: Filmed, times: Array) -> Play:
     moves = ~_is_still(motion, times)
     forces = np.zeros((len(times), 3))
     forces[moves] = motion.floor_force(times[moves])
+    states = motion.sample(times)
     return Play(
         filmed=filmed,
         times=times,
-        states=motion.sample(times),
+        states=states,
         forces=forces,
         largest_impulse=float(np.linalg.norm(motion.impacts.impulse, axis=1).max(initial=0.0)),
+        qpos=states.to_mujoco(motion.scenario)[0],
+        lowest_points=states.lowest_points(motion.scenario),
     )

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.compare.film.back_end import drawing_problem
-from cointoss.models.parts import Release
 from cointoss.models.records import States
 from cointoss.models.scenario import Scenario
 
@@ -31,24 +30,20 @@ def stills(scenario: Scenario, states: States) -> Stills | str:
 
     import mujoco
 
-    from cointoss.coin_mj.model.state import of_release
     from cointoss.compare.film.shadow import add_shadow
     from cointoss.compare.film.visual_model import build_visual_model
 
-    body = scenario.body
-    positions = states.position
-    low, high = positions.min(axis=0), positions.max(axis=0)
-    span = float(np.linalg.norm(high - low)) + 4 * body.radius
-    model = build_visual_model(scenario, extent=span, tile=2 * body.radius)
+    r, low, high = scenario.coin.radius, states.position.min(axis=0), states.position.max(axis=0)
+    span = float(np.linalg.norm(high - low)) + 4 * r
+    model = build_visual_model(scenario, extent=span, tile=2 * r)
     data = mujoco.MjData(model)
     camera = mujoco.MjvCamera()
     camera.lookat[:] = (low + high) / 2
     camera.distance, camera.azimuth, camera.elevation = 1.1 * span, 90, -25
     drawn = []
     with mujoco.Renderer(model, HEIGHT, WIDTH) as renderer:
-        for x, e in zip(positions, states.quaternion, strict=True):
-            release = Release.model_validate({"position": x, "quaternion": e})
-            data.qpos[:], data.qvel[:] = of_release(body, release)
+        for qpos in states.to_mujoco(scenario)[0]:
+            data.qpos[:] = qpos
             mujoco.mj_forward(model, data)
             renderer.update_scene(data, camera)
             add_shadow(renderer.scene, data, scenario.coin)

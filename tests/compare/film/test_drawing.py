@@ -6,6 +6,7 @@ The tosses are made by formulas, and drawn small.
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
 
+from dataclasses import replace
 from unittest.mock import patch
 
 import numpy as np
@@ -198,11 +199,11 @@ def test_the_longest_arrows_stay_clear_of_the_caption(width):
     path, impacts = MadePath(position=(0, 0, 0.001), force=(0, 0, 1.0)), [(0.5, 1e-3)]
     settled = made(path, impacts=impacts, end=0.5)
     goes_on = made(path, impacts=impacts, contacts=[(0.5, 0.51)], end=0.51, ending=Ending.MAX_TIME)
-    play = play_of(Filmed(toss=settled, motion=goes_on), np.array([0.5, 0.51]))
     behind = np.array([0, ZLOTY["radius"], 0])
+    play = play_of(Filmed(toss=settled, motion=goes_on), np.array([0.5, 0.51]))
+    play = replace(play, lowest_points=np.tile(behind, (2, 1)))
     impulse = Shown(point=behind, impulse=np.array([0, 0, 1e-3]), freshness=1.0)
     with (
-        patch.object(Play, "lowest_point", lambda *_: behind),
         patch.object(Play, "impulses", lambda *_: [impulse]),
         Drawer(play, Camera.CLOSE_UP, box_of([play]), height=180, width=width) as drawer,
     ):
