@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from queue import Empty, SimpleQueue
-from typing import Any, BinaryIO, Protocol, cast
+from typing import Any, BinaryIO, cast
 
 import numpy as np
 
@@ -23,28 +23,6 @@ Message = Mapping[str, Any]
 
 class EngineError(UnusableEngineError):
     """An engine that fails, does not answer in time, or answers what can't be; one line names it and why."""
-
-
-class Answering(Protocol):
-    """Answers for an engine."""
-
-    @property
-    def about(self) -> Message:
-        """Its `name`, its step `dt` [s] or None, and its `settings`."""
-        ...
-
-    def states(self, scenario: Scenario, times: Array, dt: float | None) -> Message:
-        """Return the arrays of `States` that the engine gives, by name.
-
-        Raises:
-            UnsupportedError: for what the engine says that it can't do.
-            EngineError: where it fails, or takes too long.
-        """
-        ...
-
-    def close(self) -> None:
-        """End what was started for it."""
-        ...
 
 
 class Called:
@@ -60,7 +38,12 @@ class Called:
         self.about = worker.about(engine)
 
     def states(self, scenario: Scenario, times: Array, dt: float | None) -> Message:
-        """Return the engine's states; see `Answering`."""
+        """Return the arrays of `States` that the engine gives, by name.
+
+        Raises:
+            UnsupportedError: for what the engine says that it can't do.
+            EngineError: where it fails, or takes too long.
+        """
 
         def call() -> Message:
             try:
@@ -101,7 +84,7 @@ class Served:
             raise
 
     def states(self, scenario: Scenario, times: Array, dt: float | None) -> Message:
-        """Return the engine's states; see `Answering`."""
+        """Return the engine's states; see `Called.states`."""
         if self._process.poll() is not None:
             self.close()
             self._start()
@@ -137,6 +120,10 @@ class Served:
         """End the process."""
         with suppress(BrokenPipeError):  # of what it did not read
             self._open.close()
+
+
+Answering = Called | Served
+"""Answers for an engine: its `about` has the `name`, the step `dt` [s] or None, and the `settings`."""
 
 
 @contextmanager
