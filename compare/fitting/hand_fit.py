@@ -27,6 +27,7 @@ from cointoss.models.devices import Device
 from cointoss.models.hand import Hand
 from cointoss.models.records import Array, Outcome
 from cointoss.models.scenario import Scenario
+from cointoss.models.writing import toml
 
 LARGEST = math.pi / 2
 """The largest |90° - ψ| [rad]."""
@@ -121,7 +122,7 @@ class HandFit:
         """Return the file of the hand, with what is not as by default."""
         usual = {item.name: item.default for item in fields(Hand)}
         own = {name: value for name, value in asdict(self.hand).items() if value != usual[name]}
-        return "".join(f"{name} = {_in_toml(value)}\n" for name, value in own.items())
+        return toml(own)
 
 
 def fit_flips(
@@ -143,7 +144,8 @@ def fit_flips(
         for name, same, count in zip(flips.people, flips.same.tolist(), flips.flips.tolist(), strict=True)
     )
     chances, scatter = _chances_of_shares(flips, side), None
-    fitted = replace(usual, psi=_known(each[0].psi.value, usual.psi), psi_scatter=0.0)
+    psi = each[0].psi.value
+    fitted = replace(usual, psi=usual.psi if math.isnan(psi) else psi, psi_scatter=0.0)
     if len(each) > 1:
         people = fit_people(flips, wobbling(side))
         low, high = spread_interval(flips, people)
@@ -230,14 +232,5 @@ def _without_intervals(found: HandFit) -> HandFit:
     return replace(found, people=people, scatter=found.scatter and bare(found.scatter))
 
 
-def _known(value: float, otherwise: float) -> float:
-    return otherwise if math.isnan(value) else value
-
-
 def _ends(one: Estimate) -> dict[str, float]:
     return {"value": one.value, "low": one.low, "high": one.high}
-
-
-def _in_toml(value: Any) -> str:
-    """Return a field of a hand as its file has it."""
-    return f'"{value}"' if isinstance(value, str) else repr(value)
