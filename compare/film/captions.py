@@ -13,7 +13,7 @@ from cointoss.compare.film.drawing import FORCE_COLOR, IMPULSE_COLOR
 from cointoss.compare.film.play import Play
 from cointoss.compare.output.style import HEADS, TAILS
 from cointoss.models.ending import face_up
-from cointoss.models.records import Ending, Face, Outcome
+from cointoss.models.records import Ending, Outcome
 
 Color = tuple[int, int, int]
 
@@ -78,7 +78,7 @@ def caption_of(play: Play, i: int) -> Caption:
     count = int(np.searchsorted(toss.impacts.time, play.times[i], side="right"))
     height = 100 * states.position[i, 2]
     lines = [Line(f"{count} impact{'' if count == 1 else 's'}, height {height:.1f} cm")]
-    outcome = {Face.HEADS: Outcome.HEADS, Face.TAILS: Outcome.TAILS}[face_up(states.normal[i, 2])]
+    outcome = Outcome(face_up(states.normal[i, 2]))
     label = f"{outcome} up"
     told = play.filmed.toss
     if play.times[i] >= told.end_time:

@@ -11,6 +11,7 @@ from cointoss.compare.metrics.impulses import errors_of_impacts
 from cointoss.compare.metrics.sequences import agreement_horizon
 from cointoss.models.barriers import barrier
 from cointoss.models.certificate import energies, gaps, turned
+from cointoss.models.ending import face_up
 from cointoss.models.geometry import gap, lowest_point
 from cointoss.models.impact_row import write_impact
 from cointoss.models.kernel.vectors import Vector
@@ -153,7 +154,7 @@ class ObservedToss:
             down = (states.position[:-1, 2] > caught) & (states.position[1:, 2] <= caught)
             if down.any():
                 last = int(np.argmax(down)) + 1
-                return last, _face(n_z[last]), Ending.CAUGHT
+                return last, Outcome(face_up(n_z[last])), Ending.CAUGHT
             return last, Outcome.UNDECIDED, Ending.MAX_TIME
         passes = np.array([barrier(body, 1.0), barrier(body, -1.0)])
         low = energies(body, states) < np.where(n_z > 0, *passes)
@@ -162,7 +163,7 @@ class ObservedToss:
             return last, Outcome.EDGE, Ending.STANDING
         if low[-1]:
             settled = last - int(np.argmin(low[::-1])) + 1 if not low.all() else 0
-            return settled, _face(n_z[-1]), Ending.SETTLED
+            return settled, Outcome(face_up(n_z[-1])), Ending.SETTLED
         if self.is_still(-1) and abs(n_z[-1]) < 0.5:
             return last, Outcome.EDGE, Ending.STANDING
         return last, Outcome.UNDECIDED, Ending.MAX_TIME
@@ -229,14 +230,13 @@ class Samples:
     def sample(self, times: Array) -> States:
         """Return the states at `times` [s]."""
         known = self.states
-        i = np.clip(np.searchsorted(known.time, times, side="right") - 1, 0, len(known.time) - 2)
-        part = ((times - known.time[i]) / (known.time[i + 1] - known.time[i]))[:, None]
+        turns_sign = np.sum(known.quaternion[1:] * known.quaternion[:-1], axis=1) < 0
+        signs = np.cumprod(np.where(np.append(False, turns_sign), -1.0, 1.0))
 
         def between(column: Array) -> Array:
-            return (1 - part) * column[i] + part * column[i + 1]
+            return np.column_stack([np.interp(times, known.time, part) for part in column.T])
 
-        e, after = known.quaternion[i], known.quaternion[i + 1]
-        mixed = (1 - part) * e + part * np.where(np.sum(e * after, axis=1)[:, None] < 0, -after, after)
+        mixed = between(known.quaternion * signs[:, None])
         return States(
             time=times,
             position=between(known.position),
@@ -305,7 +305,3 @@ def _spun_back(inertia: object, w: Array, span: float) -> Vector:
         half = w - span / steps / 2 * np.linalg.solve(J, np.cross(J @ w, w))
         w = w - span / steps * np.linalg.solve(J, np.cross(J @ half, half))
     return vector(w)
-
-
-def _face(n_z: float) -> Outcome:
-    return Outcome.HEADS if n_z > 0 else Outcome.TAILS
