@@ -1,14 +1,16 @@
 """An engine is asked for states alone; what they show, and what is refused of them."""
 
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from cointoss import analytic
+from cointoss.compare.metrics.trajectories import attitude_angle
 from cointoss.compare.simulators.answering import EngineError
-from cointoss.compare.simulators.observed import ObservedToss
+from cointoss.compare.simulators.observed import ObservedToss, Samples
 from cointoss.compare.simulators.simulator import simulator_of
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.reading import load
@@ -344,3 +346,11 @@ def test_a_name_that_is_no_engine_is_refused(given, words):
         simulator_of(given)
     with pytest.raises(EngineError, match=r"can't be run .*; accepted: a Python"):
         simulator_of("/no/python -m some:engine")
+
+
+def test_between_samples_an_attitude_is_the_same_by_either_sign():
+    known = analytic.toss("fig24a").sample(np.linspace(0, 0.2, 201))
+    turned = replace(known, quaternion=known.quaternion * np.where(np.arange(201) % 3, 1, -1)[:, None])
+    times, none = np.linspace(0, 0.2, 999), np.zeros((200, 3))
+    angles = attitude_angle(Samples(turned, none).sample(times), analytic.toss("fig24a").sample(times))
+    assert angles.max() < 1e-3
