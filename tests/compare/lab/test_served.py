@@ -15,9 +15,8 @@ from cointoss.models.batch import rows_of
 from cointoss.models.devices import Device
 from cointoss.models.fields import FIELDS
 from cointoss.models.rows import row_of
-from tests.helpers.cards import with_card, without_card
+from tests.helpers.cards import with_card
 from tests.helpers.command_line import cointoss as command
-from tests.helpers.command_line import refused
 from tests.helpers.explored import asked, got, serving
 
 CASE = cointoss.load("fig24a").replace("ending.max_impacts", 4)
@@ -145,6 +144,3 @@ def test_the_command_serves_the_page_where_a_device_is_named(monkeypatch):
     assert (answered.exit_code, answered.stderr) == (0, "")
     assert answered.stdout == f"{opened[0]}\n"
     assert opened[0].startswith("http://127.0.0.1:")
-    without_card(monkeypatch)
-    told = refused("lab", "--device", "cuda")
-    assert told == "cointoss: --device cuda: no NVIDIA driver was found; accepted: cpu, auto\n"

@@ -1,16 +1,13 @@
 """Batches and maps on a card, for which a stand-in tosses: the same results, and who tossed them."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 
 import cointoss
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep import grid, pieces
-from cointoss.models.devices import DeviceError, DeviceWarning
+from cointoss.models.devices import DeviceWarning
 from cointoss.models.processor import LEAST_TOSSES
-from cointoss.models.records import UnsupportedError
 from tests.helpers.basin_runs import AXES, SMALL, assert_same, basin, pixels
 from tests.helpers.cards import with_card, without_card
 from tests.helpers.command_line import refused
@@ -68,25 +65,6 @@ def test_auto_is_the_cpu_for_few_tosses_by_mujoco_and_without_a_card(monkeypatch
     asked = without_card(monkeypatch)
     assert cointoss.toss_many(CASE, MANY, device="auto").attrs["device"] == "cpu"
     assert len(asked) == 1
-
-
-def test_what_no_card_tosses_is_refused_before_the_first_toss(monkeypatch, tmp_path):
-    card, store = with_card(monkeypatch), tmp_path / "none.zarr"
-    air = {"air.exponent": [0.0, 0.5], "air.normal": 0.1}
-    how: dict[str, Any]
-    for how, words in (
-        ({"vary": air}, r"^air.exponent = 0.5: accepted with `device` cuda: 0;"),
-        ({"vary": FEW, "engine": "mujoco"}, r"^`device` cuda: accepted by the MuJoCo engine: cpu, auto$"),
-    ):
-        with pytest.raises(UnsupportedError, match=words):
-            cointoss.toss_many(CASE, **how, device="cuda", out=store)
-    with pytest.raises(ValueError, match=r"^device: 'gpu', accepted: cpu, cuda, auto$"):
-        cointoss.toss_many(CASE, FEW, device="gpu")
-    without_card(monkeypatch)
-    with pytest.raises(DeviceError, match="no NVIDIA driver was found"):
-        cointoss.toss_many(CASE, FEW, device="cuda", out=store)
-    assert not store.exists()
-    assert not card.given
 
 
 def test_a_map_whose_card_is_lost_keeps_its_tiles_and_goes_on_by_the_cpu(monkeypatch, coin, tmp_path):
