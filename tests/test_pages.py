@@ -14,7 +14,7 @@ import pytest
 import cointoss as package
 from cointoss.compare.cli import COMMANDS, main
 from cointoss.models.reading import parse
-from tests.helpers.command_line import cointoss
+from tests.helpers.command_line import cointoss, printed
 from tests.helpers.pages import (
     DOCS,
     PAGES,
@@ -233,7 +233,6 @@ def test_an_answer_that_is_not_the_one_shown_is_seen(tmp_path, page, departs):
 @pytest.mark.parametrize("name", sorted(COMMANDS))
 def test_every_command_has_a_help_that_names_all_its_options(name):
     assert subcommand(name).get_short_help_str(limit=1000) == COMMANDS[name]
-    answered = cointoss(name, "--help")
-    assert answered.exit_code == 0
+    answered = printed(name, "--help")
     assert len(options(subcommand(name))) > 1
-    assert all(option in answered.stdout for option in options(subcommand(name)))
+    assert all(option in answered for option in options(subcommand(name)))

@@ -10,7 +10,7 @@ import pytest
 from cointoss.models.laws import ContactLaw
 from cointoss.models.reading import parse
 from cointoss.models.records import Impacts
-from tests.helpers.command_line import cointoss
+from tests.helpers.command_line import printed
 
 RECORDS = Path(__file__).parent / "reference"
 LAWS = [str(law) for law in ContactLaw]
@@ -30,9 +30,7 @@ VECTORS = (
 
 
 def tossed(law, engine):
-    answered = cointoss("toss", RECORDS / f"{law}.toml", "--json", "--engine", engine)
-    assert answered.exit_code == 0
-    return json.loads(answered.stdout)
+    return json.loads(printed("toss", RECORDS / f"{law}.toml", "--json", "--engine", engine))
 
 
 def recorded(law):

@@ -34,6 +34,13 @@ def cointoss(*arguments: object) -> Result:
     return CliRunner().invoke(main, [str(part) for part in arguments], catch_exceptions=False)
 
 
+def printed(*arguments: object) -> str:
+    """Return what `cointoss` prints for those arguments, with exit status 0."""
+    answered = cointoss(*arguments)
+    assert answered.exit_code == 0, answered.stderr
+    return answered.stdout
+
+
 def refused(*arguments: object) -> str:
     """Return the one line that `cointoss` answers to those arguments, with exit status 2 and nothing else."""
     answered = cointoss(*arguments)

@@ -13,7 +13,7 @@ from cointoss import Flips, Hand, HandFit, fit, load_hand
 from cointoss.compare.fitting.hand_answer import as_lines
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.hand import same_side_probability
-from tests.helpers.command_line import cointoss
+from tests.helpers.command_line import cointoss, printed
 
 COIN = """
 [coin]
@@ -172,9 +172,7 @@ def counts(tmp_path, monkeypatch):
 
 def test_the_command_answers_as_python(counts):
     found = fit(counts)
-    answered = cointoss("fit", counts, "--json", "--out", "found.toml")
-    told = json.loads(answered.stdout)
-    assert answered.exit_code == 0
+    told = json.loads(printed("fit", counts, "--json", "--out", "found.toml"))
     assert [one["person"] for one in told["people"]] == ["Anna", "Ben"]
     assert told["people"][0]["psi"]["value"] == found["Anna"].psi.value
     assert told["scatter"]["value"] == load_hand("found.toml").psi_scatter == found.hand.psi_scatter

@@ -25,8 +25,8 @@ from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.compare.sweep.store import opened
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
-from tests.helpers.basin_runs import SCENARIO, basin, sweep_of
-from tests.helpers.command_line import cointoss, python
+from tests.helpers.basin_runs import SCENARIO, sweep_of
+from tests.helpers.command_line import cointoss, printed, python
 from tests.helpers.made_maps import halves
 
 COIN = f"{SCENARIO}[ending]\nmax_impacts = 2\n"
@@ -59,9 +59,10 @@ def shown_of(section, folder):
 def test_the_report_has_the_numbers_of_both_maps_and_the_command(coin, tmp_path, contact):
     out, report, png = tmp_path / "map.zarr", tmp_path / "new" / "report", tmp_path / "map.png"
     asked = ("--x", X, "--y", Y, "--after", 1, "--compare", "--contact", contact, "--out", out)
-    answered = basin(coin, *asked, "--report", report, "--png", png, "--palette", "safe", "--dpi", 60)
-    assert answered.exit_code == 0, answered.stderr
-    assert answered.stdout.endswith(f"picture    {png}\nreport     {report}/report.html\n")
+    drawn = ("--report", report, "--png", png, "--palette", "safe", "--dpi", 60)
+    assert printed("basin", coin, *asked, *drawn).endswith(
+        f"picture    {png}\nreport     {report}/report.html\n"
+    )
     require_folder(report, str(coin))
     found = json.loads((report / "numbers.json").read_text(encoding="utf-8"))
     stores = [xr.open_zarr(tmp_path / name, chunks=None) for name in ("map.zarr", "map-mujoco.zarr")]
@@ -89,8 +90,7 @@ def test_the_report_has_the_numbers_of_both_maps_and_the_command(coin, tmp_path,
 def test_the_report_hatches_what_the_analytic_engine_cannot_be_trusted_with(coin, tmp_path):
     out, report = tmp_path / "map.zarr", tmp_path / "report"
     asked = ("--x", X, "--y", Y, "--trust", "--compare", "--out", out, "--report", report)
-    answered = basin(coin, *asked)
-    assert answered.exit_code == 0, answered.stderr
+    printed("basin", coin, *asked)
     numbers = json.loads((report / "numbers.json").read_text(encoding="utf-8"))["map"]
     found = tossed_map_at(out)
     assert found.untrusted is not None
