@@ -121,39 +121,21 @@ def test_a_toss_passes_through_its_modes_in_time_and_ends_once(changed):
     assert {Mode.FLIGHT, Mode.SLIDING, Mode.STICKING, Mode.ENDED} <= seen
 
 
-ON_EDGE = {
-    "coin": IMPERFECT,
-    "air": AIR,
-    "floor": {"contact": "smooth", "restitution": 0.3},
-    "release": {
-        "position": [0.0, 0.0, 0.0145],
-        "velocity": [0.0, 0.0, 0.0],
-        "angles": [0.0, 1.57, 4.7],
-        "angular_velocity": [-2.0, 2.0, -50.0],
-    },
-}
-
-
-def test_a_spent_budget_of_contact_steps_ends_a_toss_by_its_name():
-    tossed = analytic.toss(scenario(**ON_EDGE), settings=AnalyticSettings(contact_steps=3))
-    assert (tossed.outcome, tossed.ending) == (Outcome.UNDECIDED, Ending.CONTACT_STEPS)
-    assert "contact_steps" in tossed.ending.sentence
-    assert analytic.toss(scenario(**ON_EDGE)).outcome != Outcome.UNDECIDED
-
-
-def test_a_coin_whose_losses_could_be_judged_when_its_steps_are_spent_is_in_a_long_transient():
-    def tossed(steps: int) -> tuple[Outcome, Ending]:
-        toss = analytic.toss(scenario(**LONG_TRANSIENT), settings=AnalyticSettings(contact_steps=steps))
-        return toss.outcome, toss.ending
-
-    assert tossed(100) == (Outcome.UNDECIDED, Ending.CONTACT_STEPS)
-    assert tossed(6000) == tossed(8000) == (Outcome.TRANSIENT, Ending.TRANSIENT)
-    assert tossed(20_000) == (Outcome.TAILS, Ending.SETTLED)
-
-
-def test_a_coin_whose_face_is_settled_when_its_steps_are_spent_has_that_face():
-    """`lying` waits until it lies, which its steps may not reach."""
-    case = scenario(
+STEPPED = {
+    "on its edge": scenario(
+        coin=IMPERFECT,
+        air=AIR,
+        floor={"contact": "smooth", "restitution": 0.3},
+        release={
+            "position": [0.0, 0.0, 0.0145],
+            "velocity": [0.0, 0.0, 0.0],
+            "angles": [0.0, 1.57, 4.7],
+            "angular_velocity": [-2.0, 2.0, -50.0],
+        },
+    ),
+    "in a long transient": scenario(**LONG_TRANSIENT),
+    # `lying` waits until it lies, which its steps may not reach.
+    "settled before it lies": scenario(
         coin=THIN,
         floor={"contact": "coulomb", "restitution": 0.35211072081587824, "friction": 0.5235770795992176},
         release={
@@ -168,13 +150,27 @@ def test_a_coin_whose_face_is_settled_when_its_steps_are_spent_has_that_face():
             "angular_velocity": [-34.12213505541779, 28.643114495841388, 26.30384567812179],
         },
         ending={"test": "lying"},
-    )
-    for steps, outcome, ending in (
-        (1000, Outcome.UNDECIDED, Ending.CONTACT_STEPS),
-        (20_000, Outcome.HEADS, Ending.PAPER),
-    ):
-        tossed = analytic.toss(case, settings=AnalyticSettings(contact_steps=steps))
-        assert (tossed.outcome, tossed.ending) == (outcome, ending)
+    ),
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "steps", "outcome", "ending"),
+    [
+        ("on its edge", 3, Outcome.UNDECIDED, Ending.CONTACT_STEPS),
+        ("on its edge", 250_000, Outcome.EDGE, Ending.STANDING),
+        ("in a long transient", 100, Outcome.UNDECIDED, Ending.CONTACT_STEPS),
+        ("in a long transient", 6000, Outcome.TRANSIENT, Ending.TRANSIENT),
+        ("in a long transient", 8000, Outcome.TRANSIENT, Ending.TRANSIENT),
+        ("in a long transient", 20_000, Outcome.TAILS, Ending.SETTLED),
+        ("settled before it lies", 1000, Outcome.UNDECIDED, Ending.CONTACT_STEPS),
+        ("settled before it lies", 20_000, Outcome.HEADS, Ending.PAPER),
+    ],
+)
+def test_a_toss_whose_contact_steps_are_spent_ends_as_is_known_by_then(name, steps, outcome, ending):
+    tossed = analytic.toss(STEPPED[name], settings=AnalyticSettings(contact_steps=steps))
+    assert (tossed.outcome, tossed.ending) == (outcome, ending)
+    assert "contact_steps" in Ending.CONTACT_STEPS.sentence
 
 
 def test_steps_of_flights_and_events_after_the_first_contact_are_counted_and_none_before():
