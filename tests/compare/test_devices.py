@@ -1,14 +1,19 @@
-"""Shares and searches on a card, for which a stand-in tosses: the same counts, and what is refused."""
+"""What a card tosses, for which a stand-in does: the same results, who tossed them, and what is refused."""
 
 from collections.abc import Callable
 from functools import partial
 from typing import Any
 
+import numpy as np
 import pytest
 
 import cointoss
-from cointoss.models.devices import DeviceError
+from cointoss.compare.engines import Engine
+from cointoss.compare.sweep import grid, pieces
+from cointoss.models.devices import DeviceError, DeviceWarning
+from cointoss.models.processor import LEAST_TOSSES
 from cointoss.models.records import UnsupportedError
+from tests.helpers.basin_runs import AXES, SMALL, assert_same, basin, pixels
 from tests.helpers.cards import with_card, without_card
 from tests.helpers.command_line import cointoss as command
 from tests.helpers.command_line import refused
@@ -17,12 +22,14 @@ CASE = cointoss.load("fig24a").replace("ending.max_impacts", 2)
 WINDOW = {"height": (0.2, 0.6), "spin": (20, 60)}
 AIR = {"air.exponent": [0.0, 0.5], "air.normal": 0.1}
 FEW = {"height": "0.2:0.6:30"}
+MANY = {"height": "0.2:0.6:60", "spin": "20:60:70"}
+HELD = ("device", "handed_over")
 HEARD = cointoss.Observed(touch_times=[0.3], touch_sd=1e-4)
 BY_MUJOCO = r"^`device` cuda: accepted by the MuJoCo engine: cpu, auto$"
 REFUSED: dict[str, tuple[Callable[[Any], Any], str]] = {
     "air": (
         lambda out: cointoss.toss_many(CASE, AIR, device="cuda", out=out),
-        "^air.exponent = 0.5: accepted w",
+        "^air.exponent = 0.5: accepted with `device` cuda: 0;",
     ),
     "many": (lambda out: cointoss.toss_many(CASE, FEW, engine="mujoco", device="cuda", out=out), BY_MUJOCO),
     "shares": (lambda _: cointoss.shares(CASE, engine="mujoco", device="cuda"), BY_MUJOCO),
@@ -113,3 +120,84 @@ def test_a_fit_is_made_by_the_cpu(monkeypatch):
     found, due = (cointoss.fit(observed, flat, **asked, device=one) for one in ("auto", "cpu"))
     assert found.values == due.values
     assert not card.given
+
+
+def assert_same_tosses(found, due):
+    assert found.drop_attrs(deep=False).identical(due.drop_attrs(deep=False))
+
+
+@pytest.mark.parametrize("device", ["cuda", "auto"])
+def test_a_batch_on_a_card_is_that_of_the_cpu(monkeypatch, tmp_path, device):
+    monkeypatch.setattr(pieces, "LEAST_ON_CARD", 1000)
+    card, due = with_card(monkeypatch), cointoss.toss_many(CASE, MANY)
+    assert (due.attrs["device"], due.attrs["handed_over"]) == ("cpu", 0)
+    found = cointoss.toss_many(CASE, MANY, device=device)
+    assert_same_tosses(found, due)
+    # Pieces are large from the second on.
+    first, *others, _ = card.given
+    assert first == pieces.FIRST
+    assert others
+    assert min(others) >= 1000
+    assert sum(card.given) == 4200
+    assert (found.attrs["device"], found.attrs["handed_over"]) == (
+        "Stand-in",
+        sum(n // 3 for n in card.given),
+    )
+    assert {name: one for name, one in found.attrs.items() if name not in HELD} == {
+        name: one for name, one in due.attrs.items() if name not in HELD
+    }
+    kept = cointoss.toss_many(CASE, FEW, device=device, out=tmp_path / "kept.zarr")
+    assert kept.attrs["device"] == ("Stand-in" if device == "cuda" else "cpu")
+
+
+def test_auto_is_the_cpu_for_few_tosses_by_mujoco_and_without_a_card(monkeypatch):
+    card = with_card(monkeypatch)
+    assert LEAST_TOSSES > 30
+    assert cointoss.toss_many(CASE, FEW, device="auto").attrs["device"] == "cpu"
+    with monkeypatch.context() as patched:
+        patched.setattr("cointoss.models.processor.LEAST_TOSSES", 1)
+        found = cointoss.toss_many(CASE, {"height": "0.2:0.21:2"}, engine="mujoco", device="auto")
+        assert found.attrs["device"] == "cpu"
+    assert not card.given
+    asked = without_card(monkeypatch)
+    assert cointoss.toss_many(CASE, MANY, device="auto").attrs["device"] == "cpu"
+    assert len(asked) == 1
+
+
+def test_a_map_whose_card_is_lost_keeps_its_tiles_and_goes_on_by_the_cpu(monkeypatch, coin, tmp_path):
+    monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, SMALL)
+    basin(coin, *AXES, "--out", tmp_path / "cpu.zarr")
+    due, out = pixels(tmp_path / "cpu.zarr"), tmp_path / "card.zarr"
+    with_card(monkeypatch, calls=3)
+    told = refused("basin", coin, *AXES, "--out", out, "--device", "cuda")
+    assert told == "cointoss: --device cuda: the card was lost; accepted: cpu, auto\n"
+    assert np.sum(pixels(out)["outcome"] >= 0) == 3 * SMALL
+    answered = basin(coin, *AXES, "--out", out, "--resume")
+    assert (answered.exit_code, answered.stderr.count("\n")) == (0, 0)
+    assert_same(out, due)
+
+
+def test_a_command_says_which_card_tossed_and_prints_the_same(monkeypatch, coin, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    card, asked = with_card(monkeypatch), (coin, "--x", "spin=20:60:100", "--y", "height=0.2:0.6:60")
+    due = basin(*asked, "--out", "map.zarr")
+    found = basin(*asked, "--out", "map.zarr", "--overwrite", "--device", "auto")
+    assert found.stdout == due.stdout
+    handed = sum(n // 3 for n in card.given)
+    said = f"cointoss: map.zarr: tossed by Stand-in, {handed:,d} of 6,000 tosses handed over to the CPU\n"
+    assert found.stderr == said
+    with_card(monkeypatch, calls=1)
+    lost = basin(*asked, "--out", "map.zarr", "--overwrite", "--device", "auto")
+    assert (lost.exit_code, lost.stdout) == (0, due.stdout)
+    first, second = lost.stderr.splitlines()
+    assert first == f"cointoss: {coin}: device: the card was lost; the CPU tosses what is left"
+    assert second.startswith("cointoss: map.zarr: tossed by Stand-in, ")
+
+
+def test_a_card_that_is_lost_is_warned_of_once(monkeypatch):
+    with_card(monkeypatch, calls=1)
+    due = cointoss.toss_many(CASE, MANY)
+    with pytest.warns(DeviceWarning) as warned:
+        found = cointoss.toss_many(CASE, MANY, device="auto")
+    assert len(warned) == 1
+    assert_same_tosses(found, due)
