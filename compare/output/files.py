@@ -53,7 +53,7 @@ def require_file(path: Path, suffixes: tuple[str, ...], source: str | None, *rea
     """
     require_name(path, suffixes)
     with naming(path):
-        target = _target(path)
+        target = Path(os.path.realpath(path))
         if target.exists():
             require_replaceable(target, source, *read)
         with tempfile.TemporaryFile(dir=target.parent):
@@ -150,7 +150,7 @@ def written_whole(path: Path) -> Iterator[Path]:
         UnwritableError: naming the file and why, for every error of the system on the way.
     """
     with naming(path):
-        target = _target(path)
+        target = Path(os.path.realpath(path))
         with aside_in(target.parent) as aside:
             made = aside / f"made{target.suffix.lower()}"
             yield made
@@ -240,10 +240,6 @@ def naming(path: Path) -> Iterator[None]:
         raise UnwritableError(f"{path}: can't be written ({error.strerror or error})") from None
 
 
-def _target(path: Path) -> Path:
-    return Path(os.path.realpath(path))
-
-
 def _is_stdout(path: Path) -> bool:
     try:
         return os.path.samestat(path.stat(), os.fstat(1))
@@ -252,14 +248,9 @@ def _is_stdout(path: Path) -> bool:
 
 
 def _move(aside: Path, target: Path) -> None:
-    """Rename a file or a folder to what it replaces, with the mode of that, or with a new one's."""
+    """Rename a file or a folder to what it replaces, with the mode of that, if it is there."""
     if target.exists():
-        mode = stat.S_IMODE(target.stat().st_mode)
-    else:
-        mask = os.umask(0)
-        os.umask(mask)
-        mode = (0o777 if aside.is_dir() else 0o666) & ~mask
-    aside.chmod(mode)
+        aside.chmod(stat.S_IMODE(target.stat().st_mode))
     if aside.is_dir() and target.is_dir():
         target.rmdir()  # Windows replaces no folder, not even one that is empty
     aside.replace(target)

@@ -67,6 +67,7 @@ def test_a_new_folder_appears_when_all_its_files_are_written(tmp_path, makes):
     write_anew(new, meanwhile=lambda: new.mkdir() if makes else was_there.append(new.exists()))
     assert held(new) == dict.fromkeys(NAMES[:3], "new")
     assert held(tmp_path / "deep") == {"new": False}
+    assert new.stat().st_mode == new.parent.stat().st_mode
     assert not any(was_there)
 
 
