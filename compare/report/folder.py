@@ -1,10 +1,7 @@
 """Write a report's folder: the page, the video, the numbers and the paths."""
 
-import io
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from cointoss.compare.output import answer
 from cointoss.compare.output.files import written_together
@@ -60,6 +57,8 @@ def write_report(
         (aside / "report.html").write_text(page, encoding="utf-8")
     if no_video is None:
         with written_together(folder, OF_THE_FILM) as aside:
+            from mediapy import compress_image
+
             from cointoss.compare.film.drawing import Camera
             from cointoss.compare.film.encodings import SMALL
             from cointoss.compare.film.video import write_video
@@ -67,7 +66,7 @@ def write_report(
             filmed = comparison.filmed
             with stage("drawing the film", "frames") as progress:
                 poster = write_video(filmed, Camera.CLOSE_UP, SMALL, aside / "toss.mp4", progress)
-            film = (aside / "toss.mp4").read_bytes(), _jpeg(poster)
+            film = (aside / "toss.mp4").read_bytes(), compress_image(poster, fmt="jpeg", quality=80)
             (aside / "report.html").write_text(render(comparison, film=film, maps=maps), encoding="utf-8")
     return folder / "report.html"
 
@@ -92,12 +91,3 @@ def _compared(pair: Against) -> dict[str, Any]:
         "impulse_difference": pair.differences.impulse,
         "angular_velocity_difference": pair.differences.angular_velocity,
     }
-
-
-def _jpeg(picture: np.ndarray) -> bytes:
-    """Return a picture, (height, width, 3) of uint8, as the bytes of a JPEG file."""
-    from PIL import Image
-
-    written = io.BytesIO()
-    Image.fromarray(picture).save(written, format="jpeg", quality=80)
-    return written.getvalue()
