@@ -2,12 +2,28 @@
 
 import time
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
+import pytest
+
+from cointoss.models.scenario import Scenario
 
 RATES: dict[str, np.ndarray] = {}
 """Tosses in a second, and in a second of processor time, by whom."""
+
+
+def _numbers_for_heyoka(case: Scenario) -> Any:
+    """Return what heyoka's integrators take of a scenario; skip the test where there is no heyoka."""
+    pytest.importorskip("heyoka", reason="heyoka has wheels for Linux on x86-64 only")
+    from tests.helpers.extended import Extended
+
+    return Extended(case)
+
+
+numbers_for_heyoka: Any = cache(_numbers_for_heyoka)
+"""Makes them of a scenario once, as what times a toss must not time them."""
 
 
 def report(

@@ -15,7 +15,7 @@ from cointoss.models.batch import rows_from_states
 from cointoss.models.records import Array, Ending
 from cointoss.models.scenario import Scenario
 from tests.benchmarks.one_coin import mechanics
-from tests.benchmarks.rates import report
+from tests.benchmarks.rates import numbers_for_heyoka, report
 from tests.helpers.corpus import CLASSES, CoinClass
 from tests.helpers.many import as_parts
 
@@ -68,13 +68,10 @@ def bouncing(kind: CoinClass, number: int) -> tuple[Scenario, Array]:
 @pytest.mark.parametrize("batch", [False, True], ids=["one by one", "batch mode"])
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
 def test_first_impacts_by_heyoka(benchmark, capsys, kind, batch):
-    pytest.importorskip("heyoka", reason="heyoka has wheels for Linux on x86-64 only")
-    from tests.benchmarks import heyoka_toss
-    from tests.helpers.extended import Extended
-
     scenario, starts = bouncing(kind, number_of_tosses(benchmark))
     coin = mechanics(scenario)
-    numbers = [Extended(scenario.replace("release", as_parts(start))) for start in starts]
+    numbers = [numbers_for_heyoka(scenario.replace("release", as_parts(start))) for start in starts]
+    from tests.benchmarks import heyoka_toss
 
     def toss():
         if batch:

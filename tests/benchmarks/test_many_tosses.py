@@ -20,7 +20,7 @@ from cointoss.models.rows import row_of
 from cointoss.models.scenario import Scenario
 from tests.benchmarks import scipy_toss
 from tests.benchmarks.one_coin import OneCoin, mechanics
-from tests.benchmarks.rates import report
+from tests.benchmarks.rates import numbers_for_heyoka, report
 from tests.helpers.draws import AIR, THIN, scenario
 
 fly = by_numba(fly)
@@ -53,16 +53,8 @@ def coin() -> OneCoin:
     return mechanics(IN_AIR[0])
 
 
-@cache
-def numbers_for_heyoka() -> list[Any]:
-    pytest.importorskip("heyoka", reason="heyoka has wheels for Linux on x86-64 only")
-    from tests.helpers.extended import Extended
-
-    return [Extended(case) for case in IN_AIR]
-
-
 def by_heyoka() -> list[tuple[list[float], list[int]]]:
-    numbers = numbers_for_heyoka()
+    numbers = [numbers_for_heyoka(case) for case in IN_AIR]
     from tests.benchmarks import heyoka_toss
 
     return [heyoka_toss.toss(one, coin(), 10.0) for one in numbers]

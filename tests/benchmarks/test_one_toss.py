@@ -5,8 +5,6 @@ of them still make the same toss.
 """
 
 from collections.abc import Callable
-from functools import cache
-from typing import Any
 
 import numpy as np
 import pytest
@@ -17,6 +15,7 @@ from cointoss.analytic.toss import state_at_release
 from cointoss.models.reading import load
 from tests.benchmarks import scipy_toss
 from tests.benchmarks.one_coin import mechanics
+from tests.benchmarks.rates import numbers_for_heyoka
 
 FIG24A = load("fig24a")
 COIN = mechanics(FIG24A)
@@ -40,16 +39,8 @@ def by_scipy() -> Answer:
     return scipy_toss.toss(FIG24A, COIN)
 
 
-@cache
-def numbers_for_heyoka() -> Any:
-    pytest.importorskip("heyoka", reason="heyoka has wheels for Linux on x86-64 only")
-    from tests.helpers.extended import Extended
-
-    return Extended(FIG24A)
-
-
 def by_heyoka() -> Answer:
-    numbers = numbers_for_heyoka()
+    numbers = numbers_for_heyoka(FIG24A)
     from tests.benchmarks import heyoka_toss
 
     return heyoka_toss.toss(numbers, COIN, FIG24A.ending.max_time)
