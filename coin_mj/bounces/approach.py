@@ -70,7 +70,13 @@ class Pair:
             geom for geom in (one, two) if all(self._straight(geom, way) is not None for way in np.eye(3))
         ]
         self._close()
-        self._bring_to(-1e-3 * self.size)
+        if -self.margin > self.thinnest:
+            raise self._apart(
+                f"their margin is {self.margin:g} m, and the contact would push only from beyond the middle "
+                "of the thinner one on"
+            )
+        # Below 0 a margin is the depth from which the contact pushes.
+        self._bring_to(min(self.margin, 0.0) - 1e-3 * self.size)
         self.contact = self._contact()
         approach = self._bring_to(self.contact.includemargin + 1e-3 * self.size)
         self.start = self.data.qpos.copy()
@@ -141,11 +147,7 @@ class Pair:
         """Return a contact of both geoms where they overlap."""
         for _, contact in self._between():
             return copy.copy(contact)
-        raise self._apart(
-            f"their margin + gap is {self.margin + self.gap:g} m, and MuJoCo finds no contact below 0"
-            if self.margin + self.gap < 0
-            else "MuJoCo lets them pass (contype and conaffinity, exclude, or parent and child)"
-        )
+        raise self._apart("MuJoCo lets them pass (contype and conaffinity, exclude, or parent and child)")
 
     def _bring_to(self, distance: float) -> Array:
         """Bring the geoms to a distance [m]; return the velocity that brings them nearer at 1 m/s, (nv,)."""

@@ -8,7 +8,7 @@ import math
 from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
-from typing import Any, NamedTuple, SupportsIndex
+from typing import NamedTuple, SupportsIndex
 
 import mujoco
 import numpy as np
@@ -17,6 +17,7 @@ from cointoss.coin_mj.bounces.approach import Pair
 from cointoss.coin_mj.bounces.contact import INTEGRATORS
 from cointoss.coin_mj.bounces.inverse import TWO
 from cointoss.coin_mj.bounces.pair_rest import PairRest, rest_between
+from cointoss.coin_mj.bounces.points import SHARE, Instant, Points, gravity_in
 from cointoss.coin_mj.bounces.unlogged import unlogged
 from cointoss.coin_mj.bounces.user_model import geom_of, load_model, require_measurable
 from cointoss.models.errors import FieldError
@@ -34,8 +35,6 @@ SLOW, LYING = 1e-3, 100
 """Geoms slower than this part of their speed for so many steps lie on each other, or stick in each other."""
 MISSED = 60
 """Geoms that have not touched after so many steps do not touch."""
-SHARE = 0.1
-"""A speed may differ at the touch by this part from the speed asked for and from that a step beside it."""
 DEEP = 0.05
 """Geoms are deep in each other from this part of half the thickness of the thinner one."""
 
@@ -44,7 +43,7 @@ class PairOutcome(StrEnum):
     """The result of a touch of two geoms."""
 
     REBOUNDS = "rebound"
-    """They part; only then the restitution is a number above 0."""
+    """They part."""
     STAYS = "stay"
     """They do not part: they lie on each other, or stick in each other."""
     LASTS = "touch on and on"
@@ -59,7 +58,7 @@ class PairOutcome(StrEnum):
     OTHER_SPEED = "come at another speed"
     """Something else brakes or accelerates them by more than `SHARE` of their speed on the way."""
     CHANGES = "change speed in a step"
-    """The points' speed changes by more than `SHARE` in a step beside the touch, and is not defined."""
+    """They part, and in the step in which they meet or part their speed changes by more than `SHARE`."""
     UNSTABLE = "become unstable"
 
 
@@ -88,7 +87,8 @@ class PairBounce:
     """The speeds at which the geoms come together, (n,) [m/s]."""
     restitutions: Array
     """Without gravity: the normal speed of the points that touched first, where both geoms touch, after over
-    before, (n, `PHASES`). 0 where they stay; NaN where they neither rebound nor stay."""
+    before, (n, `PHASES`), at the instants at which these points meet and part. 0 where the geoms stay; NaN
+    where they neither part nor stay."""
     with_gravity: Array
     """The restitutions under the model's gravity, (n, `PHASES`)."""
     outcomes: tuple[tuple[PairOutcome, ...], ...]
@@ -96,8 +96,9 @@ class PairBounce:
     outcomes_with_gravity: tuple[tuple[PairOutcome, ...], ...]
     """What came of each touch under the model's gravity, (n, `PHASES`)."""
     energy_kept: Array
-    """Share of the model's kinetic energy that is left after the contact, without gravity, (n, `PHASES`);
-    NaN if the geoms do not part. For a turning body it shows what the restitution of a point does not."""
+    """Share of the model's kinetic energy that is left at the instant of the restitution, without gravity,
+    (n, `PHASES`); NaN if the geoms do not part. For a turning body it shows what the restitution of a point
+    does not."""
     durations: Array
     """The time for which the geoms push, without gravity, (n, `PHASES`) [s]."""
     depths: Array
@@ -217,9 +218,7 @@ def _touch(pair: Pair, speed: float, phase: float) -> _Touch:
     """Return what comes of one touch."""
     pair.set_apart(speed, AHEAD + phase)
     came = _come(pair, speed)
-    if isinstance(came, PairOutcome):
-        return _nothing(came)
-    return _part(pair, came)
+    return _nothing(came) if isinstance(came, PairOutcome) else _part(pair, *came)
 
 
 def _nothing(outcome: PairOutcome) -> _Touch:
@@ -227,20 +226,10 @@ def _nothing(outcome: PairOutcome) -> _Touch:
     return _Touch(outcome, math.nan, math.nan, math.nan, math.nan)
 
 
-class _Come(NamedTuple):
-    """Two geoms where they first touch."""
-
-    points: "_Points"
-    speed: float
-    """The speed at which the geoms come together [m/s]."""
-    energy: float
-    """Kinetic, a step before [J]."""
-
-
-def _come(pair: Pair, speed: float) -> _Come | PairOutcome:
-    """Step until both geoms touch, at about a speed [m/s]; return the touch, or why there is none."""
+def _come(pair: Pair, speed: float) -> tuple[Points, Instant] | PairOutcome:
+    """Step until both geoms touch, at about a speed [m/s]; return where and how, or why there is no touch."""
     model, data = pair.model, pair.data
-    apart, has_flown = copy.copy(data), False
+    apart = None
     for _ in range(MISSED):
         mujoco.mj_forward(model, data)
         touches = pair.touches()
@@ -248,22 +237,21 @@ def _come(pair: Pair, speed: float) -> _Come | PairOutcome:
             break
         if pair.has_passed():
             return PairOutcome.PASSES
-        mujoco.mj_copyData(apart, model, data)
-        has_flown = True
+        apart = copy.copy(data)
         mujoco.mj_step(model, data)
     else:
         return PairOutcome.UNSTABLE if _is_unstable(pair) else PairOutcome.MISSES
-    if not has_flown:
+    if apart is None:
         return PairOutcome.OTHER_SPEED
-    points = _Points(pair, list(touches.values()))
-    if (points.normals @ pair.normal).mean() < 0:
+    points = Points(pair, list(touches.values()))
+    along = (points.normals @ pair.normal).mean()
+    if along < 0:
         return PairOutcome.PASSES
-    found = -points.speed_at_touch(apart)
-    if abs(found - speed) <= SHARE * speed + _weight(pair) * model.opt.timestep:
-        return _Come(points, found, _kinetic_energy(model, apart))
-    if (points.normals @ pair.normal).mean() < 1 - SHARE:
+    if along < 1 - SHARE:
         return _if_deep(pair, -min(contact.dist for contact in touches.values()), PairOutcome.TURNED)
-    return PairOutcome.CHANGES if math.isnan(found) else PairOutcome.OTHER_SPEED
+    met = points.at_touch(apart, points.speed(data))
+    allowed = SHARE * speed + gravity_in(model) * model.opt.timestep
+    return (points, met) if abs(met.speed + speed) <= allowed else PairOutcome.OTHER_SPEED
 
 
 def _if_deep(pair: Pair, depth: float, outcome: PairOutcome) -> PairOutcome:
@@ -271,118 +259,46 @@ def _if_deep(pair: Pair, depth: float, outcome: PairOutcome) -> PairOutcome:
     return outcome if depth > DEEP * pair.thinnest else PairOutcome.ASIDE
 
 
-def _part(pair: Pair, came: _Come) -> _Touch:
-    """Step until both geoms part, and return what they did."""
-    model, data, dt = pair.model, pair.data, float(pair.model.opt.timestep)
-    depth, pushing, free, slow, kept = 0.0, 0, 0, 0, math.nan
-    last = deep = middle = math.nan
+def _part(pair: Pair, points: Points, met: Instant) -> _Touch:
+    """Step until both geoms part, and return what they did.
 
-    def ended(outcome: PairOutcome, restitution: float = math.nan) -> _Touch:
+    A geom that rolls pushes on after the points that touched first have parted.
+    """
+    model, data, dt = pair.model, pair.data, float(pair.model.opt.timestep)
+    depth, pushing, slow, parted = 0.0, 0, 0, None
+    last = rate = deep = middle = math.nan
+
+    def ended(outcome: PairOutcome, restitution: float = math.nan, kept: float = math.nan) -> _Touch:
         if _is_unstable(pair):
             return _nothing(PairOutcome.UNSTABLE)
         return _Touch(outcome, restitution, kept, pushing * dt, depth)
 
     for step in range(LONGEST):
         mujoco.mj_forward(model, data)
-        touches, gap, before = pair.touches(), came.points.gap(data), deep
+        touches, gap, before = pair.touches(), points.gap(data), deep
         # This compares the geoms, not the points that touched first: a geom that rolls stays.
         deep = max((-float(contact.dist) for contact in touches.values()), default=-gap)
         depth = max(depth, deep) if touches else depth
         middle = deep if step == LONGEST // 2 else middle
-        slow = slow + 1 if abs(deep - before) < SLOW * came.speed * dt else 0
-        if pair.push(touches) > 0:
-            pushing, free = pushing + 1, 0
-        else:
-            free += 1
-        if free <= 1 and not _weight(pair):
-            kept = _kinetic_energy(model, data) / came.energy
+        slow = slow + 1 if abs(deep - before) < SLOW * -met.speed * dt else 0
+        pushes = pair.push(touches) > 0
+        pushing += pushes
         if slow == LYING:
             return ended(PairOutcome.STAYS, 0.0)
-        if pushing and free and gap > -dt * came.points.speed(data) and (gap > 0 or not _weight(pair)):
-            left = came.points.speed_at_touch(data)
-            return ended(PairOutcome.CHANGES if math.isnan(left) else PairOutcome.REBOUNDS, left / came.speed)
-        if free > 1 and not touches and gap < last:
-            return ended(_if_deep(pair, depth, PairOutcome.PASSES) if gap < 0 else PairOutcome.CHANGES)
-        last = gap
+        if parted is None and pushing and gap > 0:
+            parted = points.at_touch(data, rate)
+        if parted is not None and not pushes:
+            is_coarse = met.is_coarse or parted.is_coarse
+            outcome = PairOutcome.CHANGES if is_coarse else PairOutcome.REBOUNDS
+            return ended(outcome, -parted.speed / met.speed, parted.energy / met.energy)
+        if not touches and gap < last:
+            return ended(_if_deep(pair, depth, PairOutcome.PASSES))
+        last, rate = gap, (gap - last) / dt
         mujoco.mj_step(model, data)
     # What trembles on, or creeps, stays.
-    stays = abs(deep - middle) < SLOW * came.speed * dt * LONGEST / 2
+    stays = abs(deep - middle) < SLOW * -met.speed * dt * LONGEST / 2
     return ended(PairOutcome.STAYS, 0.0) if stays else ended(PairOutcome.LASTS)
 
 
 def _is_unstable(pair: Pair) -> bool:
     return any(warning.number for warning in pair.data.warning)
-
-
-def _weight(pair: Pair) -> float:
-    """Return the gravity [m/s²]."""
-    return float(np.linalg.norm(pair.model.opt.gravity))
-
-
-def _kinetic_energy(model: mujoco.MjModel, data: mujoco.MjData) -> float:
-    """Return the kinetic energy of the whole model [J]."""
-    momentum = np.zeros(model.nv)
-    mujoco.mj_mulM(model, data, momentum, data.qvel)
-    return float(momentum @ data.qvel) / 2
-
-
-class _Points:
-    """Where both bodies touched first: points that stay with them, and the normals, which stay in space."""
-
-    def __init__(self, pair: Pair, touches: list[Any]) -> None:
-        self.model = pair.model
-        self.bodies = [int(pair.model.geom_bodyid[geom]) for geom in (pair.one, pair.two)]
-        gaps = np.array([contact.dist - contact.includemargin for contact in touches])
-        # What overlaps by less came later: corners of a tilted box, edges between the prisms of a field.
-        first = gaps <= gaps.min() / 2
-        touches = [contact for contact, chosen in zip(touches, first, strict=True) if chosen]
-        # MuJoCo's normal leads from the first geom of the contact to the second.
-        signs = [-1.0 if int(contact.geom[0]) == pair.one else 1.0 for contact in touches]
-        self.normals = np.array([s * c.frame[:3] for s, c in zip(signs, touches, strict=True)])
-        at = np.array([contact.pos for contact in touches])
-        self.places = [
-            (at - pair.data.xpos[body]) @ pair.data.xmat[body].reshape(3, 3) for body in self.bodies
-        ]
-        self.overlap = float(gaps[first].mean())
-
-    def speed_at_touch(self, data: mujoco.MjData) -> float:
-        """Return the speed at which the points part where the geoms touch [m/s], within a step of a state.
-
-        It is that at constant acceleration, J q̈ + J̇ q̇ without constraints. Integrators but RK4 have the q̇
-        of half a step before a state. NaN where it differs from that of the state by more than `SHARE` of it
-        and what the model's gravity does in two steps.
-        """
-        speed, forced = self.speed(data), float(self._mean(data, mujoco.mj_jac) @ data.qacc_smooth)
-        acceleration = forced + float(self._mean(data, mujoco.mj_jacDot) @ data.qvel)
-        step, rk4 = float(self.model.opt.timestep), int(mujoco.mjtIntegrator.mjINT_RK4)
-        late = 0.0 if self.model.opt.integrator == rk4 else forced * step / 2
-        square = (speed + late) ** 2 - 2 * acceleration * self.gap(data)
-        found = math.copysign(math.sqrt(max(square, 0.0)), speed)
-        allowed = SHARE * abs(found) + 2 * step * float(np.linalg.norm(self.model.opt.gravity))
-        return found if abs(found - speed) <= allowed else math.nan
-
-    def speed(self, data: mujoco.MjData) -> float:
-        """Return the mean speed at which the points part [m/s]."""
-        return float(self._mean(data, mujoco.mj_jac) @ data.qvel)
-
-    def gap(self, data: mujoco.MjData) -> float:
-        """Return how far the points have parted, in the mean, from where the geoms touch [m]."""
-        one, two = self._now(data)
-        return float(np.einsum("ij,ij->i", self.normals, one - two).mean()) + self.overlap
-
-    def _mean(self, data: mujoco.MjData, jacobian_of: Any) -> Array:
-        """Return the mean row of the points' Jacobian along the normals, or of its rate of change, (nv,)."""
-        total = np.zeros(self.model.nv)
-        for body, points, sign in zip(self.bodies, self._now(data), (1.0, -1.0), strict=True):
-            for normal, point in zip(self.normals, points, strict=True):
-                jacobian = np.zeros((3, self.model.nv))
-                jacobian_of(self.model, data, jacobian, None, point, body)
-                total += sign * (normal @ jacobian)
-        return total / len(self.normals)
-
-    def _now(self, data: mujoco.MjData) -> list[Array]:
-        """Return the points of each body in the space frame, each (n, 3) [m]."""
-        return [
-            data.xpos[body] + places @ data.xmat[body].reshape(3, 3).T
-            for body, places in zip(self.bodies, self.places, strict=True)
-        ]

@@ -4,7 +4,8 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from cointoss.coin_mj.bounces.pair import LONGEST, SHARE, PairBounce, PairOutcome
+from cointoss.coin_mj.bounces.pair import LONGEST, PairBounce, PairOutcome
+from cointoss.coin_mj.bounces.points import SHARE
 from cointoss.compare.output.style import BLUE, STYLE, VERMILION
 from cointoss.models.records import Array
 
@@ -12,6 +13,8 @@ DEEP = "*"
 """Marks a depth that may let a body through."""
 GAINS = "+"
 """Marks an energy that is more after the contact than before."""
+COARSE = "~"
+"""Marks a restitution that is likely to be another with a shorter step."""
 MEANINGS = {
     PairOutcome.STAYS: "the geoms do not part; they lie on or stick in each other, as deep as shown",
     PairOutcome.LASTS: f"the contact goes on for more than {LONGEST} steps, and the geoms still move",
@@ -20,7 +23,8 @@ MEANINGS = {
     PairOutcome.TURNED: "after a step they are so deep in each other that the contact pushes aside",
     PairOutcome.ASIDE: "MuJoCo's normal is not that of the approach, or turns from it, as at an edge",
     PairOutcome.OTHER_SPEED: f"something else changes the speed by more than {100 * SHARE:g} % on the way",
-    PairOutcome.CHANGES: f"the point's speed changes by more than {100 * SHARE:g} %; take a shorter step",
+    PairOutcome.CHANGES: f"{COARSE} the points' speed changes by more than {100 * SHARE:g} % in the step in "
+    "which they meet or part; take a shorter step",
 }
 """What outcomes mean, where a line needs it."""
 
@@ -77,11 +81,13 @@ def bounce_table(found: PairBounce) -> str:
 
 
 def _range(values: Array, outcomes: tuple[PairOutcome, ...]) -> str:
-    """Return the mean and the range over the phases of a step, or how many do something else than rebound."""
-    others = [outcome for outcome in PairOutcome if outcome != PairOutcome.REBOUNDS and outcome in outcomes]
+    """Return the mean and the range over the phases of a step, or how many do not part."""
+    parted = (PairOutcome.REBOUNDS, PairOutcome.CHANGES)
+    others = [outcome for outcome in PairOutcome if outcome not in parted and outcome in outcomes]
     if others:
         return ", ".join(f"{outcomes.count(outcome)} of {len(outcomes)} {outcome}" for outcome in others)
-    return f"{values.mean():.4f} [{values.min():.4f}, {values.max():.4f}]"
+    mark = COARSE if PairOutcome.CHANGES in outcomes else ""
+    return f"{values.mean():.4f} [{values.min():.4f}, {values.max():.4f}]{mark}"
 
 
 def _mean(values: Array, how: str) -> str:
