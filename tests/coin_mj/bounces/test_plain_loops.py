@@ -7,10 +7,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from cointoss.coin_mj import bounce
 from cointoss.coin_mj.bounces import pair
 from cointoss.coin_mj.bounces.approach import Pair
-from cointoss.compare.output.bounce_plot import bounce_table
 from tests.helpers.two_geoms import FLOOR, model
 
 SOFT = 'name="b" condim="3" friction="0.7" solref="0.04 0.5"'
@@ -128,12 +126,3 @@ def test_a_ball_on_a_damped_slide_has_the_restitution_of_its_equation():
     text = MODELS["a damped slide"][0].replace(SOFT, contact)
     found = in_the_limit(measured, model(text), 2.5e-4)
     assert found == pytest.approx((e, e**2), rel=3e-5)
-
-
-def test_a_coarse_step_is_marked():
-    soft, fine = model(MODELS["a toe"][0]), model(MODELS["a head"][0])
-    soft.opt.timestep = 5e-3
-    coarse = bounce_table(bounce(soft, "a", "b"))
-    assert "]~ " in coarse
-    assert "~ the points' speed changes by more than 10 % in the step in which they meet" in coarse
-    assert "~" not in bounce_table(bounce(fine, "a", "b"))
