@@ -60,7 +60,7 @@ class Pair:
         self.one, self.two = one, two
         fields = [geom for geom in (one, two) if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_HFIELD]
         self.field = fields[0] if fields else None
-        self.data = mujoco.MjData(self.model)
+        self.data, self.apart, self.spare = (mujoco.MjData(self.model) for _ in range(3))
         mujoco.mj_forward(self.model, self.data)
         bounds = [float(r) for r in self.model.geom_rbound[[one, two]] if r > 0]
         if not bounds:

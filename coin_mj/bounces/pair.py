@@ -3,7 +3,6 @@
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
 
-import copy
 import math
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -229,7 +228,6 @@ def _nothing(outcome: PairOutcome) -> _Touch:
 def _come(pair: Pair, speed: float) -> tuple[Points, Instant] | PairOutcome:
     """Step until both geoms touch, at about a speed [m/s]; return where and how, or why there is no touch."""
     model, data = pair.model, pair.data
-    apart = None
     for _ in range(MISSED):
         mujoco.mj_forward(model, data)
         touches = pair.touches()
@@ -237,11 +235,11 @@ def _come(pair: Pair, speed: float) -> tuple[Points, Instant] | PairOutcome:
             break
         if pair.has_passed():
             return PairOutcome.PASSES
-        apart = copy.copy(data)
+        mujoco.mj_copyData(pair.apart, model, data)
         mujoco.mj_step(model, data)
     else:
         return PairOutcome.UNSTABLE if _is_unstable(pair) else PairOutcome.MISSES
-    if apart is None:
+    if data.time == 0:
         return PairOutcome.OTHER_SPEED
     points = Points(pair, list(touches.values()))
     along = (points.normals @ pair.normal).mean()
@@ -249,7 +247,7 @@ def _come(pair: Pair, speed: float) -> tuple[Points, Instant] | PairOutcome:
         return PairOutcome.PASSES
     if along < 1 - SHARE:
         return _if_deep(pair, -min(contact.dist for contact in touches.values()), PairOutcome.TURNED)
-    met = points.at_touch(apart, points.speed(data))
+    met = points.at_touch(pair.apart, points.speed(data))
     allowed = SHARE * speed + gravity_in(model) * model.opt.timestep
     return (points, met) if abs(met.speed + speed) <= allowed else PairOutcome.OTHER_SPEED
 

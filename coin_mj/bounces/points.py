@@ -3,7 +3,6 @@
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
 
-import copy
 import math
 from typing import Any, NamedTuple
 
@@ -33,7 +32,7 @@ class Points:
 
     def __init__(self, pair: Pair, touches: list[Any]) -> None:
         """Take the contacts between both geoms, at their first touch, that overlap the most."""
-        self.model = pair.model
+        self.model, self.spare = pair.model, pair.spare
         self.bodies = [int(pair.model.geom_bodyid[geom]) for geom in (pair.one, pair.two)]
         gaps = np.array([contact.dist - contact.includemargin for contact in touches])
         # What overlaps by less came later: corners of a tilted box, edges between the prisms of a field.
@@ -58,8 +57,9 @@ class Points:
             apart: the state.
             overlapping: the speed of the points on the other side of the gap, a step before or after [m/s].
         """
-        model, step, there = self.model, float(self.model.opt.timestep), copy.copy(apart)
+        model, step, there = self.model, float(self.model.opt.timestep), self.spare
         rk4 = model.opt.integrator == int(mujoco.mjtIntegrator.mjINT_RK4)
+        mujoco.mj_copyData(there, model, apart)
         mujoco.mj_step(model, there)
         row, gap, speed = self._row(apart), self.gap(apart), self.speed(apart)
         # RK4's step may meet the contact; the others' implicit damping takes less than their q̈ says.
