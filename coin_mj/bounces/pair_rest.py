@@ -33,8 +33,8 @@ class PairRest:
     depth: float
     """The greatest depth of a contact, in the mean over the steps [m]."""
     hop: float
-    """Rise along the normal from its lowest to its highest position, without what it sinks [m]; 0 for less
-    than a twentieth of the depth."""
+    """Rise along the normal from its lowest to its highest position, without what it sinks [m]; while they
+    touch, that of the deepest contact where it is less; 0 for less than a twentieth of the depth."""
     sinking: float
     """The mean speed along the normal into the other [m/s]; 0 where that is less than a hundredth of the
     depth in that time, below 0 where it rises."""
@@ -88,11 +88,14 @@ def rest_between(pair: Pair) -> PairRest | str:
         return f"the geoms do not touch any more after {STEPS} steps"
     still, normal = STILL * pressing * dt**2, _normal(pair)
     places = np.array([pose.place for pose in poses])
-    heights, times = places @ normal, EVERY * dt * np.arange(len(poses))
+    along, depths = places @ normal, np.array([pose.depth for pose in poses])
+    # While they touch, the middle of a geom that turns rises and sinks, and its deepest contact changes.
+    heights = min((along, -depths) if depths.all() else (along,), key=np.ptp)
+    times = EVERY * dt * np.arange(len(poses))
     rise, start = np.polyfit(times, heights, 1)
-    hop, depth = float(np.ptp(heights - rise * times - start)), float(np.mean([pose.depth for pose in poses]))
+    hop, depth = float(np.ptp(heights - rise * times - start)), float(depths.mean())
     hop = hop if hop > max(still, HOP * depth) else 0.0
-    steps = np.diff(places - heights[:, None] * normal, axis=0)
+    steps = np.diff(places - along[:, None] * normal, axis=0)
     drift, path = float(np.linalg.norm(steps.sum(axis=0))), float(np.linalg.norm(steps, axis=1).sum())
     rocking = _rocking(np.array([pose.attitude for pose in poses]), normal)
     turns = rocking * pair.size > still
