@@ -50,7 +50,7 @@ class Points:
     def at_touch(self, apart: mujoco.MjData, overlapping: float) -> Instant:
         """Return the motion where the points' gap is 0, within a step of a state in which they are apart.
 
-        It is that at the state's acceleration, without constraints where the contact takes a single step.
+        It is that at the state's acceleration; without constraints, where the points turn about in this step.
         Integrators but RK4 have the q̇ of half a step before a state.
 
         Args:
@@ -64,7 +64,7 @@ class Points:
         row, gap, speed = self._row(apart), self.gap(apart), self.speed(apart)
         # RK4's step may meet the contact; the others' implicit damping takes less than their q̈ says.
         change = apart.qacc if rk4 else (there.qvel - apart.qvel) / step
-        if not abs(overlapping - speed) <= SHARE * abs(speed):
+        if not overlapping * speed > 0:
             change = apart.qacc_smooth
         velocity = apart.qvel + (0.0 if rk4 else step / 2) * change
         now = float(row @ velocity)
