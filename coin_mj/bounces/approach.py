@@ -9,6 +9,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from cointoss.coin_mj.bounces.jacobian import jacobian_of
 from cointoss.models.errors import FieldError
 from cointoss.models.records import Array
 
@@ -318,12 +319,9 @@ class Pair:
 
     def _row(self, normal: Array, point: Array, of: Any = mujoco.mj_jac) -> Array:
         """Return the Jacobian of the speed at which both geoms part, or its rate of change, (nv,)."""
-        total = np.zeros(self.model.nv)
-        for geom, sign in ((self.one, 1.0), (self.two, -1.0)):
-            jacobian = np.zeros((3, self.model.nv))
-            of(self.model, self.data, jacobian, None, point, self.model.geom_bodyid[geom])
-            total += sign * (normal @ jacobian)
-        return total
+        bodies = self.model.geom_bodyid[[self.one, self.two]]
+        one, two = (jacobian_of(self.model, self.data, point, body, of) for body in bodies)
+        return normal @ (one - two)
 
     def _apart(self, why: str) -> FieldError:
         names = [self.model.geom(geom).name or str(geom) for geom in (self.one, self.two)]

@@ -11,6 +11,7 @@ import mujoco
 import numpy as np
 
 from cointoss.coin_mj.bounces.approach import Pair
+from cointoss.coin_mj.bounces.jacobian import jacobian_of
 from cointoss.coin_mj.bounces.rest import HOP, LOOKED_AT, STEPS, STILL
 from cointoss.models.records import Array
 
@@ -173,10 +174,7 @@ def _slip_now(pair: Pair) -> float:
     """Return the mean speed at which the points that touch slip [m/s]; NaN where none touches."""
     model, data, found = pair.model, pair.data, []
     for contact in pair.touches().values():
-        total = np.zeros((3, model.nv))
-        for geom, sign in ((pair.one, 1.0), (pair.two, -1.0)):
-            jacobian = np.zeros((3, model.nv))
-            mujoco.mj_jac(model, data, jacobian, None, contact.pos, int(model.geom_bodyid[geom]))
-            total += sign * jacobian
-        found.append(float(np.linalg.norm(contact.frame[3:].reshape(2, 3) @ (total @ data.qvel))))
+        bodies = model.geom_bodyid[[pair.one, pair.two]]
+        one, two = (jacobian_of(model, data, contact.pos, body) for body in bodies)
+        found.append(float(np.linalg.norm(contact.frame[3:].reshape(2, 3) @ ((one - two) @ data.qvel))))
     return float(np.mean(found)) if found else math.nan

@@ -10,6 +10,7 @@ import mujoco
 import numpy as np
 
 from cointoss.coin_mj.bounces.approach import Pair
+from cointoss.coin_mj.bounces.jacobian import jacobian_of
 from cointoss.models.records import Array
 
 SHARE = 0.1
@@ -89,13 +90,11 @@ class Points:
 
     def _row(self, data: mujoco.MjData) -> Array:
         """Return the mean row of the points' Jacobian along the normals, (nv,)."""
-        total = np.zeros(self.model.nv)
-        for body, points, sign in zip(self.bodies, self._now(data), (1.0, -1.0), strict=True):
-            for normal, point in zip(self.normals, points, strict=True):
-                jacobian = np.zeros((3, self.model.nv))
-                mujoco.mj_jac(self.model, data, jacobian, None, point, body)
-                total += sign * (normal @ jacobian)
-        return total / len(self.normals)
+        one, two = (
+            [jacobian_of(self.model, data, point, body) for point in points]
+            for body, points in zip(self.bodies, self._now(data), strict=True)
+        )
+        return np.einsum("ij,ijk->k", self.normals, np.subtract(one, two)) / len(self.normals)
 
     def _now(self, data: mujoco.MjData) -> list[Array]:
         """Return the points of each body in the space frame, each (n, 3) [m]."""

@@ -12,6 +12,7 @@ import numpy as np
 
 from cointoss.coin_mj.bounces.bodies import BALL, FlatBody
 from cointoss.coin_mj.bounces.contact import ContactSettings
+from cointoss.coin_mj.bounces.jacobian import jacobian_of
 from cointoss.coin_mj.bounces.unlogged import unlogged
 
 STEPS = 20_000
@@ -51,9 +52,7 @@ def depth_at_rest(contact: ContactSettings, body: FlatBody = BALL) -> float:
 
 def _response(model: mujoco.MjModel, data: mujoco.MjData, touch: Any) -> float:
     """Return J M⁻¹ Jᵀ of a contact of the body and the plane [1/kg]."""
-    jacobian, moved = np.zeros((3, model.nv)), np.zeros((1, model.nv))
-    mujoco.mj_jac(model, data, jacobian, None, touch.pos, 1)
-    row = touch.frame[:3] @ jacobian
+    row, moved = touch.frame[:3] @ jacobian_of(model, data, touch.pos, 1), np.zeros((1, model.nv))
     mujoco.mj_solveM(model, data, moved, row[None])
     return float(row @ moved[0])
 
