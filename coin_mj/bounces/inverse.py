@@ -13,8 +13,9 @@ import mujoco
 from cointoss.coin_mj.bounces.bodies import BALL, body_of
 from cointoss.coin_mj.bounces.contact import DEFAULT, GRAVITY, INTEGRATORS, ContactSettings, text_of
 from cointoss.coin_mj.bounces.drops import SPEED, drops_of
+from cointoss.coin_mj.bounces.measured import Measured
 from cointoss.coin_mj.bounces.recipe import require, require_numbers, require_timestep, require_weight
-from cointoss.coin_mj.bounces.rest import Rest, rest_of
+from cointoss.coin_mj.bounces.rest import rest_of
 from cointoss.coin_mj.model.settings import contact_duration, restitution_of
 
 TWO = "two numbers as in a <geom>: both above 0, or both at most 0, such as 0.02 1 or -1000 -10"
@@ -44,22 +45,9 @@ class Formula:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rebounds:
+class Rebounds(Measured):
     """The bounces and the rest of a body on a plane, with given settings of MuJoCo."""
 
-    solref: tuple[float, float]
-    """The solref that MuJoCo mixes from those of both geoms."""
-    solimp: str
-    """The solimp that MuJoCo mixes from those of both geoms."""
-    timestep: float
-    """The step of the simulation [s]."""
-    integrator: str
-    body: str
-    """The body that comes down flat on a plane: its type and size in a <geom>."""
-    mass: float
-    """The mass of the body [kg]."""
-    gravity: float
-    """Downward [m/s²]."""
     restitution: float
     """Mean restitution of `PHASES` touches at `SPEED` without weight, anywhere between two steps."""
     lowest: float
@@ -69,10 +57,6 @@ class Rebounds:
     """Mean restitution of a body that touches at `SPEED` under `gravity`."""
     duration: float
     """Mean duration of a contact without weight [s]."""
-    depth: float
-    """The greatest depth at 1 m/s without weight [m]."""
-    rest: Rest
-    """What the body does when its bounces have ended."""
     formula: Formula | None
     """The prediction of theory for one point under the mass centre; None without a formula, as for one-step
     contacts by RK4 or discrete."""

@@ -20,8 +20,9 @@ from cointoss.coin_mj.bounces.contact import (
 )
 from cointoss.coin_mj.bounces.drops import LONGEST, SPEED, drops_of
 from cointoss.coin_mj.bounces.flight import energy_change
+from cointoss.coin_mj.bounces.measured import Measured
 from cointoss.coin_mj.bounces.other_engines import FIRMEST, genesis_settings, newton_settings
-from cointoss.coin_mj.bounces.rest import Rest, rest_of
+from cointoss.coin_mj.bounces.rest import rest_of
 from cointoss.models.errors import FieldError
 from cointoss.models.records import ApproximationWarning
 
@@ -39,36 +40,20 @@ STEP_ACCEPTED = "a number of seconds from 1e-7 to 0.1, such as 0.002"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Bounce:
+class Bounce(Measured):
     """Settings of MuJoCo that give a restitution, and the measured motion of a body with them."""
 
     restitution: float
     """The restitution asked for, e."""
     spring: bool
     """Whether a contact is a spring that lasts several steps."""
-    timestep: float
-    """The step of the simulation [s]."""
-    integrator: str
-    solref: tuple[float, float]
-    """-stiffness and -damping."""
-    solimp: str
     backend: Backend
     """The back end for which the settings are. MuJoCo itself measured the numbers below."""
-    body: str
-    """The body that comes down flat on a plane: its type and size in a <geom>."""
-    mass: float
-    """The mass of the body [kg]."""
-    gravity: float
-    """Downward [m/s²]."""
     error: float
     """Largest |e' - e| over `PHASES` touches without weight, anywhere between two steps."""
     error_with_weight: float
     """Largest error of a body that touches at `SPEED` under `gravity`, by its heights; at other speeds v the
     error goes as 1/v, see `weight_cost`."""
-    depth: float
-    """The depth to which a body goes into the floor at 1 m/s, at most, whatever its mass [m]."""
-    rest: Rest
-    """The rest of the body after its bounces."""
     flight: float
     """Change of a tumbling brick's energy, over itself, in half a second at ten turns a second."""
 
