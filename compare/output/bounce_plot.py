@@ -82,12 +82,16 @@ def bounce_table(found: PairBounce) -> str:
 
 def _range(values: Array, outcomes: tuple[PairOutcome, ...]) -> str:
     """Return the mean and the range over the phases of a step, or how many do not part."""
-    parted = (PairOutcome.REBOUNDS, PairOutcome.CHANGES)
-    others = [outcome for outcome in PairOutcome if outcome not in parted and outcome in outcomes]
+    others = [
+        end
+        for end in PairOutcome
+        if end not in {PairOutcome.REBOUNDS, PairOutcome.CHANGES} and end in outcomes
+    ]
     if others:
         return ", ".join(f"{outcomes.count(outcome)} of {len(outcomes)} {outcome}" for outcome in others)
-    mark = COARSE if PairOutcome.CHANGES in outcomes else ""
-    return f"{values.mean():.4f} [{values.min():.4f}, {values.max():.4f}]{mark}"
+    return f"{values.mean():.4f} [{values.min():.4f}, {values.max():.4f}]" + (
+        COARSE if PairOutcome.CHANGES in outcomes else ""
+    )
 
 
 def _mean(values: Array, how: str) -> str:
