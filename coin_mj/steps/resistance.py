@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
-from cointoss.coin_mj.steps.coulomb import STEADY, force_in_cone
+from cointoss.coin_mj.steps.coulomb import force_in_cone
 from cointoss.models.contour import air_moment_per_spin, contour_per_force, has_contour, leaning, longest_arm
 from cointoss.models.geometry import FACE_SINE, tilt_sine_of
 from cointoss.models.kernel.arrays import Array
@@ -29,6 +29,8 @@ TURN = 0.25
 """A motion that changes by less than this part of itself keeps to its mean direction."""
 SWEEPS, SAME = 400, 1e-12
 """Most rounds over the three laws in a part, and the change, against the largest of each, that ends them."""
+STEADY = 0.1
+"""A motion below this part of what the floor can stop in the step may stop in it anywhere."""
 STOPPED = 1e-9
 """A motion below this part of what the floor can stop in the step has been stopped."""
 _LAWS = ((0, 1), (3, 4), (5, 2), (6, 2))

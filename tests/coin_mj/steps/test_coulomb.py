@@ -1,5 +1,7 @@
 """Coulomb's force in MuJoCo's contacts: closed forms, then impacts against the law `coulomb`."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -38,6 +40,13 @@ def test_slip_that_stops_within_a_step_ends_at_nothing():
     assert slip[0] + 3.5 * f[0] * 1e-3 == pytest.approx(0, abs=1e-15)
 
 
+def test_slip_that_is_driven_back_turns_round_within_a_step():
+    """A friction of 0.5 N stops the slip after a time v/(a + 3.5 · 0.5), and then acts the other way."""
+    slip, driven = 1e-3, 2.5
+    f = coulomb_force(BALL, 0.05, 10.0, (slip, 0.0), (slip - driven * 1e-3, 0.0), 1e-3)
+    assert f == pytest.approx((0.5 - slip / (driven + 1.75) / 1e-3, 0), rel=1e-3)
+
+
 def test_the_normal_force_gives_way_to_friction():
     """With N = N_0 - g f and f = -mu N s: f = -mu N_0/(1 - mu g) for s = 1."""
     K = np.array([[2.0, 0, 0.6], [0, 2.0, 0], [0.6, 0, 1.2]])
@@ -64,6 +73,21 @@ def test_in_axes_turned_about_the_vertical_friction_is_turned(angle, slip):
     before, after = vector(turn @ before), vector(turn @ after)
     f_turned = coulomb_force(turn @ K @ turn.T, 0.3, 10.0, before[:2], after[:2], 1e-3)
     assert f_turned == pytest.approx(turn[:2, :2] @ f, rel=1e-9)
+
+
+def test_a_step_is_the_sum_of_512_steps():
+    """Where the slip stops, turns, or turns back. Measured over 600: 5e-4 at worst, 3e-6 in the median."""
+    rng = np.random.default_rng(67)
+    for _ in range(20):
+        A, mu = rng.normal(size=(3, 6)), float(rng.choice([0.02, 0.2, 0.5]))
+        K = A @ A.T
+        G = K[:2, :2] - np.outer(K[:2, 2], K[2, :2]) / K[2, 2]
+        slip, driven = rng.normal(size=(2, 2)) * mu * np.linalg.norm(K) * 10 ** rng.uniform(-3, 0.5, (2, 1))
+        f, v, mean = coulomb_force(K, mu, 1.0, tuple(slip), tuple(slip + driven), 1.0), slip, np.zeros(2)
+        for _ in range(512):
+            part = coulomb_force(K, mu, 1.0, tuple(v), tuple(v + driven / 512), 1 / 512)
+            v, mean = v + (driven + G @ part) / 512, mean + np.array(part) / 512
+        assert f == pytest.approx(mean, abs=5e-4 * math.hypot(*mean))
 
 
 def errors_and_kinds(rng, count, **settings):
