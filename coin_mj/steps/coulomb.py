@@ -10,8 +10,10 @@ PARTS = 4096
 """No part of a step, in which the slip keeps nearly to its direction, is shorter than the step over this."""
 BEND = 1e-3
 """Most that the turn of the slip in a part, times its change against the slip itself, may be."""
-CHANGE = 0.5
+CHANGE = 1.0
 """Largest change of the slip in a part, against the slip itself."""
+STILL = 1e-4
+"""A slip below this part of what would drive it in the rest of the step is none."""
 ROUNDS = 60
 """Most rounds in which the friction of a part is found."""
 SAME = 1e-13
@@ -41,11 +43,12 @@ def coulomb_force(K: Array, mu: float, normal: float, slip: Pair, slip_free: Pai
     g = (K[0, 2] / K[2, 2], K[1, 2] / K[2, 2])
     xx, yy, xy = K[0, 0] - g[0] * K[0, 2], K[1, 1] - g[1] * K[1, 2], K[0, 1] - g[0] * K[1, 2]
     driven = ((slip_free[0] - slip[0]) / dt, (slip_free[1] - slip[1]) / dt)
-    stopping = stopping_rate(g, (xx, yy, xy), mu, normal, driven)
+    still = STILL * math.sqrt(driven[0] * driven[0] + driven[1] * driven[1])
+    stopping = max(stopping_rate(g, (xx, yy, xy), mu, normal, driven), still)
     left, v, sum_x, sum_y = dt, slip, 0.0, 0.0
     while left > 0:
         part = left
-        if math.sqrt(v[0] * v[0] + v[1] * v[1]) > max(stopping * left, 0.0):
+        if math.sqrt(v[0] * v[0] + v[1] * v[1]) > stopping * left:
             part = min(left, max(steady_time(g, (xx, yy, xy), mu, normal, v, driven), dt / PARTS))
         free = (v[0] + driven[0] * part, v[1] + driven[1] * part)
         f_x, f_y = force_in_cone(g, (xx * part, yy * part, xy * part), mu, normal, v, free)

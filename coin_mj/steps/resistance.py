@@ -166,7 +166,8 @@ def _solve(laws: Laws, normal: float, start: Array, free: Array, f: Array) -> No
             f[i], f[j] = force_in_cone(
                 (g[i], g[j]), (G[i, i], across, G[i, j]), most, left, (start[i], start[j]), (free_i, free_j)
             )
-            change = max(change, math.hypot(f[i] - old_i, f[j] - old_j) / most)
+            square = (f[i] - old_i) * (f[i] - old_i) + (f[j] - old_j) * (f[j] - old_j)
+            change = max(change, math.sqrt(square) / most)
         if not change > SAME * normal:
             break
 
