@@ -41,10 +41,9 @@ def test_slip_that_stops_within_a_step_ends_at_nothing():
 
 
 def test_slip_that_is_driven_back_turns_round_within_a_step():
-    """A friction of 0.5 N stops the slip after a time v/(a + 3.5 · 0.5), and then acts the other way."""
-    slip, driven = 1e-3, 2.5
-    f = coulomb_force(BALL, 0.05, 10.0, (slip, 0.0), (slip - driven * 1e-3, 0.0), 1e-3)
-    assert f == pytest.approx((0.5 - slip / (driven + 1.75) / 1e-3, 0), rel=1e-3)
+    """A friction of 0.5 N stops 1 mm/s after 1/(2.5 + 3.5 · 0.5) ms, and then acts the other way."""
+    f = coulomb_force(BALL, 0.05, 10.0, (1e-3, 0.0), (-1.5e-3, 0.0), 1e-3)
+    assert f == pytest.approx((0.5 - 1 / 4.25, 0), rel=1e-3)
 
 
 def test_the_normal_force_gives_way_to_friction():
