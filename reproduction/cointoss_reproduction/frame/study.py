@@ -6,7 +6,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from cointoss.study import Progress
+from cointoss.study import Progress, paragraphs
 from cointoss_reproduction.frame.declared import Findings, declared, result
 from cointoss_reproduction.frame.files import TABLE, said_by
 from cointoss_reproduction.frame.result import Reproduction, Result
@@ -32,7 +32,8 @@ def study(
     Args:
         module: its full name.
         parts: cells with the axes that they are computed over.
-        found: gives what the claims name and no measure selects, from the table.
+        found: gives what the claims name and no measure selects, from the table; and `tables` after those of
+            the file.
         draw: the pictures that are more than lines, by name, each drawn from the table.
     """
     from cointoss_reproduction.frame.cells import read_table, table_of
@@ -48,8 +49,9 @@ def study(
 
     def findings(cells: "pd.DataFrame", **sizes: Any) -> Findings:
         measures = {name: measured(cells, one) for name, one in said.get("measure", {}).items()}
-        tables = tables_of(cells, said.get("table", ()))
-        return Findings(data=cells, **{"tables": tables, **usual, **sizes, **measures, **found(cells)})
+        own = {"tables": "", **found(cells)}
+        own["tables"] = paragraphs(tables_of(cells, said.get("table", ())), own["tables"])
+        return Findings(data=cells, **{**usual, **sizes, **measures, **own})
 
     def make(progress: Progress, *, kept: Path | None = None, **sizes: Any) -> Findings:
         # A cell may name `out`, the folder of all results, to be held against another study's.
