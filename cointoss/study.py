@@ -157,7 +157,6 @@ if TYPE_CHECKING:
     from cointoss.models.processor import usual as usual
     from cointoss.models.records import Array as Array
     from cointoss.models.records import raised_flags as raised_flags
-    from cointoss.models.rows import row_of as row_of
     from cointoss.models.scenario import vector as vector
     from cointoss.models.stages import Progress as Progress
     from cointoss.models.stages import stage as stage

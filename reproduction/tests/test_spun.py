@@ -6,18 +6,15 @@ import pytest
 from cointoss import Hand, Outcome, Scenario, analytic
 from cointoss.study import rows_from_states
 from cointoss_reproduction.frame.cells import read_table
-from cointoss_reproduction.studies.spun.study import COIN, spun
+from cointoss_reproduction.setups.general_coins import cent
+from cointoss_reproduction.studies.spun.study import spun
 from saved import missed, saved
 
 
 def test_a_coin_turned_over_with_its_mass_centre_shows_the_other_side():
     """A half turn about a diameter swaps the sides; ζ of C changes its sign, and so does the vertical's."""
-    coin, floor = (
-        {**COIN["coin"], "thickness": 0.4e-3},
-        {**COIN["floor"], "contact": "coulomb", "friction": 0.3},
-    )
     one, other = (
-        Scenario.model_validate({**COIN, "floor": floor, "coin": {**coin, "center_of_mass": [0, 0, zeta]}})
+        Scenario.model_validate(cent(0.4e-3, offset=zeta, contact="coulomb", friction=0.3))
         for zeta in (1e-4, -1e-4)
     )
     hand = Hand(spun=True, psi_scatter=float(np.radians(10)), up="either")

@@ -1,4 +1,4 @@
-"""General coins: 16 classes of coin, air and floor, and the releases by which they are timed."""
+"""Coins that several studies toss: 16 classes with air and floor, and a cent that is spun on its edge."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -10,18 +10,41 @@ from cointoss.study import Array
 
 SEED = 15
 PAPER_OFFSET, THICKNESS = (-1e-3, -1e-3, -2e-4), 2e-3
-"""C from B of the paper's imperfect coin, and how thick it is [m]; a thin coin has its ζ at 0."""
+"""C from B of the paper's imperfect coin, and how thick it is [m]; ζ is in proportion to the thickness."""
 AIR = {"normal": 0.8, "tangential": 0.2}
 
 
-def paper_coin(*, thick: bool, imperfect: bool) -> dict[str, Any]:
-    """Return the paper's coin as a scenario describes it."""
-    xi, eta, zeta = PAPER_OFFSET if imperfect else (0.0, 0.0, 0.0)
+def paper_coin(thickness: float, *, imperfect: bool = False) -> dict[str, Any]:
+    """Return the paper's coin of some thickness [m] as a scenario describes it."""
+    # A thin coin's ζ is 0, not -0.
+    offset = (*PAPER_OFFSET[:2], 0.0 - thickness / 10) if imperfect else (0.0, 0.0, 0.0)
     return {
         "mass": 2e-3,
         "radius": 1.25e-2,
-        "thickness": THICKNESS if thick else 0.0,
-        "center_of_mass": (xi, eta, zeta if thick else 0.0),
+        "thickness": thickness,
+        "center_of_mass": offset,
+    }
+
+
+def cent(thickness: float, *, offset: float = 1e-4, **floor: Any) -> dict[str, Any]:
+    """Return a cent that is spun on its edge, its air and its floor as a scenario describes them.
+
+    Args:
+        thickness: of the coin [m].
+        offset: of its mass centre towards heads [m].
+        floor: what its floor has beside a restitution and resistance to rolling and pivoting.
+    """
+    return {
+        "coin": {
+            "mass": 2.5e-3,
+            "radius": 9.525e-3,
+            "thickness": thickness,
+            "center_of_mass": (0.0, 0.0, offset),
+        },
+        "air": AIR,
+        "floor": {"restitution": 0.3, "rolling_friction": 2e-5, "pivoting_friction": 1e-4, **floor},
+        "release": {"position": (0.0, 0.0, 1.0)},
+        "ending": {"max_time": 120.0},
     }
 
 
@@ -39,7 +62,7 @@ class CoinClass:
         """What is tossed."""
         return Scenario.model_validate(
             {
-                "coin": paper_coin(thick=self.thick, imperfect=self.imperfect),
+                "coin": paper_coin(THICKNESS if self.thick else 0.0, imperfect=self.imperfect),
                 "air": AIR if self.air else {},
                 "floor": {
                     "restitution": 0.6,

@@ -1,107 +1,252 @@
-"""How thousands of random tosses end, by coin, floor and air, and how far both engines agree in it."""
+"""How random tosses end by each engine, in classes of coin, floor and air, and which classes differ."""
 
-from collections.abc import Iterator
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
+from scipy.stats import norm
 
-from cointoss import Engine, Outcome, Scenario
-from cointoss.study import GREY, row_of
+from cointoss import Engine, Hand, Outcome, Scenario, analytic, coin_mj
+from cointoss.study import (
+    GREY,
+    INK,
+    LEVEL,
+    VERMILION,
+    Array,
+    Estimate,
+    in_words,
+    paragraphs,
+    rows_from_states,
+    scenario_of_row,
+    table,
+)
 from cointoss.study import OUTCOMES as COLORS
 from cointoss_reproduction.frame.cells import Cells
-from cointoss_reproduction.frame.selection import selected
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.ends import OUTCOMES, tally
-from cointoss_reproduction.setups.general_coins import AIR, paper_coin
+from cointoss_reproduction.setups.general_coins import AIR, cent, paper_coin
 
-SEED = 2008
+SEED, PERMUTATIONS = 2008, 20_000
 ENGINES = tuple(map(str, Engine))
-COINS, THICKNESSES, MEDIA = ("ideal", "imperfect"), ("thin", "thick"), ("vacuum", "air")
-ENERGETIC = "coulomb, energetic"
-"""A floor that MuJoCo does not realise."""
-FLOORS = {"smooth": (0.1, 0.95), "coulomb, kinematic": (0.1, 0.7), ENERGETIC: (0.1, 0.95)}
-"""Range of the restitution, by the contact law and the kind of its restitution."""
-Kind = tuple[str, str, str]
-"""The kind of a toss: thickness, floor and medium."""
+HEIGHTS, SPINS = (0.1, 0.5), (5.0, 60.0)
+"""Ranges of a release's height [m] and of its angular velocity [rad/s]; see `thrown`."""
+Class = dict[str, Any]
+"""A coin, its floor and its air, as a scenario describes them."""
+SMOOTH, ROUGH, COULOMB = (
+    {"restitution": 0.6, "contact": contact, "friction": friction}
+    for contact, friction in (("smooth", 0.0), ("perfectly_rough", 0.0), ("coulomb", 0.2))
+)
 
 
-def draw_toss(rng: np.random.Generator, coin: str) -> tuple[Kind, Scenario]:
-    """Draw a toss from a hand's height: thick or thin coin, floor, air, restitution, friction and release."""
-    thick, floor, air = bool(rng.integers(2)), list(FLOORS)[rng.integers(3)], bool(rng.integers(2))
-    law, _, restitution_kind = floor.partition(", ")
-    described: dict[str, Any] = {
-        "coin": paper_coin(thick=thick, imperfect=coin == "imperfect"),
-        "air": AIR if air else {},
-        "floor": {
-            "contact": law,
-            "restitution": rng.uniform(*FLOORS[floor]),
-            "friction": rng.uniform(0.05, 0.8),
-            "restitution_kind": restitution_kind or "kinematic",
-        },
-        "release": _release(rng),
-    }
-    return (THICKNESSES[thick], floor, MEDIA[air]), Scenario.model_validate(described)
+def _class(thickness: float, floor: dict[str, Any], *, imperfect: bool = False, air: bool = False) -> Class:
+    coin = paper_coin(thickness, imperfect=imperfect)
+    return {"coin": coin, "floor": floor, "air": AIR if air else {}}
 
 
-def _release(rng: np.random.Generator) -> dict[str, Any]:
-    e = rng.normal(size=4)
-    return {
-        "position": [0.0, 0.0, rng.uniform(0.05, 0.6)],
-        "velocity": rng.uniform(-0.3, 0.3, 3).tolist(),
-        "quaternion": (e / np.linalg.norm(e)).tolist(),
-        "angular_velocity": rng.uniform(-40, 40, 3).tolist(),
-    }
+CLASSES: dict[str, Class] = {
+    "thin, smooth": _class(0.0, SMOOTH),
+    "thin, imperfect, smooth": _class(0.0, SMOOTH, imperfect=True),
+    "thin, μ = 0.2, air": _class(0.0, COULOMB, air=True),
+    "0.4 mm, smooth": _class(4e-4, SMOOTH),
+    "0.4 mm, imperfect, μ = 0.2": _class(4e-4, COULOMB, imperfect=True),
+    "0.4 mm, μ = 0.2, air": _class(4e-4, COULOMB, air=True),
+    "2 mm, smooth": _class(2e-3, SMOOTH),
+    "2 mm, μ = 0.2": _class(2e-3, COULOMB),
+    "2 mm, imperfect, smooth": _class(2e-3, SMOOTH, imperfect=True),
+    "2 mm, imperfect, μ = 0.2": _class(2e-3, COULOMB, imperfect=True),
+    "2 mm, imperfect, μ = 0.2, air": _class(2e-3, COULOMB, imperfect=True, air=True),
+    "2 mm, rough": _class(2e-3, ROUGH),
+    "2 mm, rough, air": _class(2e-3, ROUGH, air=True),
+    "2 mm, μ = 0.2, δ = 0.02 mm, p = 0.1 mm": _class(
+        2e-3, COULOMB | {"rolling_friction": 2e-5, "pivoting_friction": 1e-4}
+    ),
+    "2 mm, μ = 0.2, c = 0.02 mm": _class(2e-3, COULOMB | {"contour_friction": 2e-5}),
+    "2 mm, smooth, e ~ v^(-1/4), air": _class(
+        2e-3, SMOOTH | {"restitution_exponent": 0.25, "restitution_threshold": 0.2}, air=True
+    ),
+    "2 mm, μ = 0.2, viscous e(v)": _class(2e-3, COULOMB | {"restitution": 1.0, "restitution_viscous": 0.4}),
+    "2 mm, smooth, slope of 5°": _class(2e-3, SMOOTH | {"slope": float(np.radians(5))}),
+    "2 mm, μ = 0.2, δ = 1 mm, slope of 2°": _class(
+        2e-3, COULOMB | {"rolling_friction": 1e-3, "slope": float(np.radians(2))}
+    ),
+    "10 mm, smooth": _class(1e-2, SMOOTH),
+    "10 mm, μ = 0.2": _class(1e-2, COULOMB),
+    "10 mm, imperfect, μ = 0.2, air": _class(1e-2, COULOMB, imperfect=True, air=True),
+    "h = 2r, smooth": _class(2.5e-2, SMOOTH),
+    "h = 2r, μ = 0.2, air": _class(2.5e-2, COULOMB, air=True),
+    "cent of 0.4 mm spun at 30 rad/s, smooth, air": cent(4e-4, contact="smooth"),
+    "cent of 1.52 mm spun at 60 rad/s, μ = 0.02, air": cent(1.52e-3, contact="coulomb", friction=0.02),
+}
+"""Coins, floors and air; a coin is ideal and in vacuum unless its name says otherwise."""
+SPUN = {
+    kind: Hand(spun=True, spin=spin, psi_scatter=float(np.radians(1)), up="either")
+    for kind, spin in zip([*CLASSES][-2:], (30.0, 60.0), strict=True)
+}
+"""The hands that spin the coins of some classes on their edge."""
+KNOWN = {"cent of 1.52 mm spun at 60 rad/s, μ = 0.02, air": "open"}
+"""The classes whose ends are known to differ between the engines, and why; "open" where that is not known."""
+SHARES = ("face", "edge", "moving")
+"""The shares that are compared; the last is of perpetual, transient and undecided tosses."""
 
 
-def drawn_for(engine: str, seed: tuple[int, ...], coin: str) -> tuple[Kind, Scenario]:
-    """Draw tosses until one is on a floor that an engine realises; see `draw_toss`."""
-    rng = np.random.default_rng(seed)
-    kind, scenario = draw_toss(rng, coin)
-    while engine == Engine.MUJOCO and kind[1] == ENERGETIC:
-        kind, scenario = draw_toss(rng, coin)
-    return kind, scenario
+def thrown(rng: np.random.Generator, count: int) -> Array:
+    """Draw states at release, at rest but for a spin: with any attitude about any axis, (n, 13)."""
+    height, spin = rng.uniform(*HEIGHTS, count), rng.uniform(*SPINS, count)
+    e, axis = (_units(rng.normal(size=(count, size))) for size in (4, 3))
+    place = np.stack([np.zeros(count), np.zeros(count), height], axis=1)
+    return np.hstack([place, np.zeros((count, 3)), e, spin[:, None] * axis])
 
 
-def ended(
-    engine: str, coin: str, by_analytic: int = 10_000, by_mujoco: int = 5000
-) -> Iterator[dict[str, Any]]:
-    """Toss coins at random by an engine, and return how those of each kind end."""
+def _units(vectors: Array) -> Array:
+    return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+
+
+def drawn(kind: str, number: int, count: int) -> Array:
+    """Return random tosses of a class as rows, (count, 54); no two numbers share draws."""
+    scenario = Scenario.model_validate({"release": {"position": [0, 0, 1]}, **CLASSES[kind]})
+    rng = np.random.default_rng((SEED, [*CLASSES].index(kind), number))
+    states = SPUN[kind].states(scenario.body, rng, count) if kind in SPUN else thrown(rng, count)
+    return rows_from_states(scenario, states)
+
+
+def ended(kind: str, engine: str, by_analytic: int = 6000, by_mujoco: int = 2000) -> dict[str, int]:
+    """Return how random tosses of a class end by an engine, which has draws of its own."""
     count = by_mujoco if engine == Engine.MUJOCO else by_analytic
-    key = (SEED + ENGINES.index(engine), COINS.index(coin))
-    kinds, cases = zip(*(drawn_for(engine, (*key, number), coin) for number in range(count)), strict=True)
-    found = Engine(engine).package.toss_rows(np.array([row_of(case) for case in cases]))
-    decided = ~np.isin(found.outcome, (Outcome.UNDECIDED, Outcome.PERPETUAL, Outcome.TRANSIENT))
-    for kind in sorted(set(kinds)):
-        which = np.array([one == kind for one in kinds])
-        yield {
-            **dict(zip(("thickness", "floor", "medium"), kind, strict=True)),
-            **tally(found.outcome[which]),
-            "impacts": int(found.impacts[which & decided].max(initial=0)),
-            "seconds": float(found.end_time[which & decided].max(initial=0.0)),
-        }
+    return tally(Engine(engine).package.toss_rows(drawn(kind, ENGINES.index(engine), count)).outcome)
+
+
+def one_by_one(kind: str, singles: int = 40) -> dict[str, int]:
+    """Return of how many tosses both engines trust all impacts, and how many of these MuJoCo ends otherwise.
+
+    MuJoCo tosses them by `coin_mj.FINE`, and once more by the coarser `coin_mj.MANY`.
+    """
+    rows = drawn(kind, len(ENGINES), singles)
+    found = analytic.toss_rows(rows, trust="impacts")
+    whole = np.flatnonzero((found.trusted_impacts == found.impacts) & (found.impacts > 0))
+    fine = {i: coin_mj.toss(scenario_of_row(rows[i])) for i in whole}
+    both = [i for i, toss in fine.items() if toss.trusted_impacts == len(toss.impacts) > 0]
+    many = coin_mj.toss_rows(rows[both]).outcome if both else np.empty(0)
+    return {
+        "trusted": len(both),
+        "otherwise": sum(fine[i].outcome != found.outcome[i] for i in both),
+        "kept": np.sum(many == found.outcome[both]),
+    }
+
+
+def chance(counts: NDArray[np.integer]) -> float:
+    """Return how probable it is that two samples of one population differ as much as these, by χ².
+
+    Of `PERMUTATIONS` tables with the same sums, the part whose χ² is no smaller; this one is among them.
+
+    Args:
+        counts: of each kind, by sample, (2, kinds).
+    """
+    met = counts[:, counts.any(axis=0)]
+    whole, first = met.sum(axis=0), met[0].sum()
+    rng = np.random.default_rng(SEED)
+    others = rng.multivariate_hypergeometric(whole, first, PERMUTATIONS, method="marginals")
+    # Over all tables χ² is this sum over the first sample, times one factor.
+    own, *squares = ((np.vstack([met[:1], others]) - whole * (first / whole.sum())) ** 2 / whole).sum(axis=1)
+    return (1 + np.sum(np.array(squares) >= own * (1 - 1e-12))) / (1 + PERMUTATIONS)
+
+
+def holm(chances: Sequence[float]) -> Array:
+    """Return probabilities of several tests, adjusted for their number (Holm, Scand. J. Stat. 6, 1979)."""
+    order, left = np.argsort(chances), np.arange(len(chances), 0, -1)
+    adjusted = np.maximum.accumulate(np.sort(chances) * left)
+    return np.minimum(adjusted, 1)[np.argsort(order)]
+
+
+def apart(counts: NDArray[np.integer]) -> tuple[str, Estimate]:
+    """Return which of `SHARES` may differ most, and by how much, MuJoCo's less the analytic engine's.
+
+    The intervals, of A. Agresti and B. Caffo, Am. Stat. 54 (2000) 280, hold for all shares of all classes at
+    once.
+
+    Args:
+        counts: of tosses by code of `Outcome`, by engine, (2, 6).
+    """
+    met = np.column_stack([counts[:, of].sum(axis=1) for of in ([1, 2], [3], [0, 4, 5])])
+    n = counts.sum(axis=1, keepdims=True)
+    p = (met + 1) / (n + 2)
+    z = norm.isf((1 - LEVEL) / 2 / len(SHARES) / len(CLASSES))
+    half = z * np.sqrt((p * (1 - p) / (n + 2)).sum(axis=0))
+    middle, value = np.diff(p, axis=0)[0], np.diff(met / n, axis=0)[0]
+    i = int(np.argmax(np.abs(middle) + half))
+    ends = (value[i], middle[i] - half[i], middle[i] + half[i])
+    return SHARES[i], Estimate(*map(float, ends), int(n.min()))
+
+
+def compared(cells: pd.DataFrame) -> pd.DataFrame:
+    """Return for each class `p`, `holm`, the `share` that is most `apart`, and whether it is `refuted`."""
+    counts = {
+        kind: rows[[*OUTCOMES]].to_numpy(dtype=int)
+        for kind, rows in cells.dropna(subset=["tosses"]).groupby("kind", sort=False)
+    }
+    found = pd.DataFrame([apart(both) for both in counts.values()], [*counts], ["share", "apart"])
+    p = [chance(both) for both in counts.values()]
+    return found.assign(p=p, holm=(adjusted := holm(p)), refuted=adjusted < 1 - LEVEL)
+
+
+def found(cells: pd.DataFrame) -> dict[str, Any]:
+    """Return what the claims name, by class, and the table of verdicts."""
+    classes = compared(cells)
+    rows = [
+        [kind, f"{one.p:.2g}", f"{one.holm:.2g}", one.share, in_words(one.apart, ".1f", 100), _verdict(one)]
+        for kind, one in classes.iterrows()
+    ]
+    says = (
+        "p is the probability that the engines' ends differ so by chance: of "
+        f"{PERMUTATIONS:,d} tables with the same sums, drawn at random, the part whose χ² is no smaller. A "
+        f"class is refuted where p, adjusted by Holm for {len(rows)} classes, is below {1 - LEVEL:.0%}. Of "
+        "three shares, on a face, on edge and moving (perpetual, transient or undecided), that is shown "
+        f"which may differ most; the intervals of all shares of all classes hold at once at {LEVEL:.0%}."
+    )
+    heads = "class | p | p, by Holm | share | MuJoCo less analytic [%] | verdict"
+    return {
+        "adjusted": classes["holm"].drop([*KNOWN]).to_dict(),
+        "known": {kind: {"apart": classes["apart"][kind], "cause": cause} for kind, cause in KNOWN.items()},
+        "tables": paragraphs(says, table(heads, rows, words=True)),
+    }
+
+
+def _verdict(one: Any) -> str:
+    if one.refuted:
+        return f"refuted; why: {KNOWN.get(one.name, 'open')}"
+    return f"agrees within ± {100 * max(-one.apart.low, one.apart.high):.1f} %"
 
 
 def draw(cells: pd.DataFrame) -> Figure:
-    """Draw the shares of the outcomes as bars."""
-    rows: Any = selected(cells, {"where": "engine == 'analytic' and tosses > 0"})[::-1]
-    names = [
-        f"{', '.join(kind)} ({tosses})"
-        for *kind, tosses in rows[["coin", "thickness", "floor", "medium", "tosses"]].itertuples(index=False)
-    ]
-    picture = Figure(figsize=(9, 0.28 * len(names) + 1.2))
-    axes, left = picture.subplots(), np.zeros(len(names))
-    for outcome in (*Outcome, Outcome.UNDECIDED)[1:]:
-        parts = 100 * (rows[OUTCOMES[outcome]] / rows["tosses"]).to_numpy(dtype=float)
-        style: Any = {"color": COLORS[outcome], "edgecolor": GREY, "linewidth": 0.4, "label": str(outcome)}
-        axes.barh(names, parts, left=left, **style)
-        left += parts
+    """Draw the shares of the outcomes as bars, the analytic engine's over MuJoCo's."""
+    refuted = compared(cells)["refuted"]
+    picture = Figure(figsize=(10, 0.4 * len(refuted) + 1.4))
+    axes = picture.subplots()
+    for engine, place in zip(ENGINES, (-0.2, 0.2), strict=True):
+        rows = cells[cells["engine"] == engine]
+        left, at = np.zeros(len(rows)), np.arange(len(rows)) + place
+        for outcome in (*Outcome, Outcome.UNDECIDED)[1:]:
+            parts = 100 * np.array(rows[OUTCOMES[outcome]] / rows["tosses"], dtype=float)
+            style: Any = {"color": COLORS[outcome], "edgecolor": GREY, "linewidth": 0.4, "height": 0.38}
+            axes.barh(at, parts, left=left, label=str(outcome) if engine == ENGINES[0] else None, **style)
+            left += parts
+    axes.set_yticks(range(len(refuted)), [*map(str, refuted.index)])
+    for label, is_refuted in zip(axes.get_yticklabels(), refuted, strict=True):
+        label.set_color(VERMILION if is_refuted else INK)
     axes.grid(visible=False)
-    axes.set(xlim=(0, 100), xlabel="share of the tosses [%]")
+    axes.set(xlim=(0, 100), xlabel="share of the tosses [%]; upper bar analytic, lower bar MuJoCo")
     axes.margins(y=0.01)
+    axes.invert_yaxis()
     picture.legend(loc="outside upper center", ncols=len(Outcome))
     return picture
 
 
-REPRODUCTION = study(__name__, Cells(ended, {"engine": ENGINES, "coin": COINS}), draw={"endings": draw})
+REPRODUCTION = study(
+    __name__,
+    Cells(ended, {"kind": tuple(CLASSES), "engine": ENGINES}),
+    Cells(one_by_one, {"kind": tuple(CLASSES)}),
+    found=found,
+    draw={"endings": draw},
+)

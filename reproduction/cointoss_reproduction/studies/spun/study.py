@@ -10,6 +10,7 @@ from cointoss.study import Array, Body
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.ends import ends_of
+from cointoss_reproduction.setups.general_coins import cent
 
 SEED = 80
 AXES = {
@@ -27,18 +28,6 @@ USUAL, FAR = (0.3, 120.0), (1.0, 1e-4)
 """Friction and spin at which every scatter and offset is tried; scatter and offset of all the rest."""
 SPINS = {1.0: 1000, 10.0: 2000}
 """How often each coin is spun, by the scatter."""
-COIN: dict[str, Any] = {
-    "coin": {"mass": 2.5e-3, "radius": 9.525e-3},
-    "air": {"normal": 0.8, "tangential": 0.2},
-    "floor": {
-        "restitution": 0.3,
-        "rolling_friction": 2e-5,
-        "pivoting_friction": 1e-4,
-    },
-    "release": {"position": [0, 0, 1]},
-    "ending": {"max_time": 120.0},
-}
-"""A cent on its floor, but for thickness, mass centre and friction."""
 
 
 def spun(
@@ -59,11 +48,8 @@ def spun(
     is_far, is_mujoco, lean = (scatter, offset) == FAR, engine == Engine.MUJOCO, float(np.radians(scatter))
     if not is_far and (is_mujoco or (friction, spin) != USUAL):
         return None
-    described = {
-        "coin": {**COIN["coin"], "thickness": edge, "center_of_mass": [0.0, 0.0, offset]},
-        "floor": {**COIN["floor"], "contact": "coulomb" if friction else "smooth", "friction": friction},
-    }
-    scenario = Scenario.model_validate({**COIN, **described})
+    contact = "coulomb" if friction else "smooth"
+    scenario = Scenario.model_validate(cent(edge, offset=offset, contact=contact, friction=friction))
     rims = balance(scenario.body, edge / 2 + offset * np.array([-1, 1]), spin)
     return {
         "turns": spin**2 * edge / (6 * friction * scenario.gravity) if friction else None,
