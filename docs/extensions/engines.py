@@ -1,4 +1,4 @@
-"""The tables of docs/ENGINES.md, from what the studies of docs/reproduction/ have found."""
+"""What docs/ENGINES.md and docs/MUJOCO.md include of what the studies of docs/reproduction/ have found."""
 
 import tomllib
 from pathlib import Path
@@ -11,15 +11,16 @@ from cointoss_reproduction.frame.cells import read_table
 from cointoss_reproduction.frame.claim import Claim, read_claims
 from cointoss_reproduction.frame.files import TABLE, folder_of
 
-PAGE = "ENGINES.md"
+PAGES = {"laws": "ENGINES.md", "ports": "ENGINES.md", "ends": "MUJOCO.md"}
+"""The page that includes each block."""
 SHOWN = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 """The claims of each table, each by its study and words of it."""
 BY = "law | analytic | MuJoCo, spring | MuJoCo, one step | native cone, spring | native cone, one step"
 
 
 def blocks(out: Path) -> dict[str, str]:
-    """Return the tables by the names of their files; `out` has all that was reproduced."""
-    return {"laws": laws(out), "ports": ports(out)}
+    """Return the blocks by the names of their files; `out` has all that was reproduced."""
+    return {"laws": laws(out), "ports": ports(out), "ends": ends(out)}
 
 
 def claim_of(out: Path, study: str, words: str) -> Claim:
@@ -65,3 +66,8 @@ def ports(out: Path) -> str:
         numbers = "; ".join(each.found for each in claim.criteria)
         rows.append([ported, claim.claim, claim.verdict, numbers, f"`reproduce {study}`"])
     return table("if you port | expect that | verdict | measured | printed by", rows, words=True)
+
+
+def ends(out: Path) -> str:
+    """Return how many tosses MuJoCo ends as the analytic engine does, with each of its settings."""
+    return f"Both engines trust all impacts of some tosses; {claim_of(out, *SHOWN['ends']).mujoco}."

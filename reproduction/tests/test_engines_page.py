@@ -1,4 +1,4 @@
-"""docs/ENGINES.md shows what the studies have found, as `make pages` writes it."""
+"""docs/ENGINES.md and docs/MUJOCO.md show what the studies have found, as `make pages` writes it."""
 
 import sys
 from importlib import import_module
@@ -13,10 +13,10 @@ sys.path.append(str(DOCS / "extensions"))
 engines = import_module("engines")
 
 
-@pytest.mark.parametrize("name", ["laws", "ports"])
+@pytest.mark.parametrize("name", engines.PAGES)
 def test_the_page_includes_what_was_found(name):
     assert (DOCS / "made" / f"{name}.md").read_text(encoding="utf-8") == f"{engines.blocks(DOCS)[name]}\n"
-    assert f"```{{include}} made/{name}.md\n```\n" in (DOCS / engines.PAGE).read_text(encoding="utf-8")
+    assert f"```{{include}} made/{name}.md\n```\n" in (DOCS / engines.PAGES[name]).read_text(encoding="utf-8")
 
 
 def test_the_engines_that_the_page_names_make_the_laws_that_it_says():

@@ -95,13 +95,11 @@ SHARES = ("face", "edge", "moving")
 def thrown(rng: np.random.Generator, count: int) -> Array:
     """Draw states at release, at rest but for a spin: with any attitude about any axis, (n, 13)."""
     height, spin = rng.uniform(*HEIGHTS, count), rng.uniform(*SPINS, count)
-    e, axis = (_units(rng.normal(size=(count, size))) for size in (4, 3))
-    place = np.stack([np.zeros(count), np.zeros(count), height], axis=1)
-    return np.hstack([place, np.zeros((count, 3)), e, spin[:, None] * axis])
-
-
-def _units(vectors: Array) -> Array:
-    return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+    e, axis = (
+        one / np.linalg.norm(one, axis=1, keepdims=True)
+        for one in (rng.normal(size=(count, size)) for size in (4, 3))
+    )
+    return np.column_stack([np.zeros((count, 2)), height, np.zeros((count, 3)), e, spin[:, None] * axis])
 
 
 def drawn(kind: str, number: int, count: int) -> Array:
@@ -146,8 +144,9 @@ def chance(counts: NDArray[np.integer]) -> float:
     """
     met = counts[:, counts.any(axis=0)]
     whole, first = met.sum(axis=0), met[0].sum()
-    rng = np.random.default_rng(SEED)
-    others = rng.multivariate_hypergeometric(whole, first, PERMUTATIONS, method="marginals")
+    others = np.random.default_rng(SEED).multivariate_hypergeometric(
+        whole, first, PERMUTATIONS, method="marginals"
+    )
     # Over all tables χ² is this sum over the first sample, times one factor.
     own, *squares = ((np.vstack([met[:1], others]) - whole * (first / whole.sum())) ** 2 / whole).sum(axis=1)
     return (1 + np.sum(np.array(squares) >= own * (1 - 1e-12))) / (1 + PERMUTATIONS)
@@ -208,6 +207,8 @@ def found(cells: pd.DataFrame) -> dict[str, Any]:
     heads = "class | p | p, by Holm | share | MuJoCo less analytic [%] | verdict"
     return {
         "adjusted": classes["holm"].drop([*KNOWN]).to_dict(),
+        "alike": np.sum(~classes["refuted"]),
+        "classes": len(classes),
         "known": {kind: {"apart": classes["apart"][kind], "cause": cause} for kind, cause in KNOWN.items()},
         "tables": paragraphs(says, table(heads, rows, words=True)),
     }
