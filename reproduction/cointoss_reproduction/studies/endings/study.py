@@ -147,8 +147,8 @@ def chance(counts: NDArray[np.integer]) -> float:
     others = np.random.default_rng(SEED).multivariate_hypergeometric(
         whole, first, PERMUTATIONS, method="marginals"
     )
-    # Over all tables χ² is this sum over the first sample, times one factor.
-    own, *squares = ((np.vstack([met[:1], others]) - whole * (first / whole.sum())) ** 2 / whole).sum(axis=1)
+    # Where the sums are the same, χ² grows with this sum over the first sample.
+    own, *squares = (np.vstack([met[:1], others]) ** 2 / whole).sum(axis=1)
     return (1 + np.sum(np.array(squares) >= own * (1 - 1e-12))) / (1 + PERMUTATIONS)
 
 
@@ -159,11 +159,11 @@ def holm(chances: Sequence[float]) -> Array:
     return np.minimum(adjusted, 1)[np.argsort(order)]
 
 
-def apart(counts: NDArray[np.integer]) -> tuple[str, Estimate]:
-    """Return which of `SHARES` may differ most, and by how much, MuJoCo's less the analytic engine's.
+def apart(counts: NDArray[np.integer]) -> tuple[str, Estimate, float]:
+    """Return which of `SHARES` differs most for its interval, its difference, and a bound of all differences.
 
-    The intervals, of A. Agresti and B. Caffo, Am. Stat. 54 (2000) 280, hold for all shares of all classes at
-    once.
+    A difference is MuJoCo's share less the analytic engine's. Its interval, of A. Agresti and B. Caffo, Am.
+    Stat. 54 (2000) 280, is widened until those of all shares of all classes hold at once.
 
     Args:
         counts: of tosses by code of `Outcome`, by engine, (2, 6).
@@ -174,18 +174,18 @@ def apart(counts: NDArray[np.integer]) -> tuple[str, Estimate]:
     z = norm.isf((1 - LEVEL) / 2 / len(SHARES) / len(CLASSES))
     half = z * np.sqrt((p * (1 - p) / (n + 2)).sum(axis=0))
     middle, value = np.diff(p, axis=0)[0], np.diff(met / n, axis=0)[0]
-    i = int(np.argmax(np.abs(middle) + half))
-    ends = (value[i], middle[i] - half[i], middle[i] + half[i])
-    return SHARES[i], Estimate(*map(float, ends), int(n.min()))
+    i = int(np.argmax(np.abs(value) / half))
+    ends = (float(end[i]) for end in (value, middle - half, middle + half))
+    return SHARES[i], Estimate(*ends, count=int(n.min())), float(np.max(np.abs(middle) + half))
 
 
 def compared(cells: pd.DataFrame) -> pd.DataFrame:
-    """Return for each class `p`, `holm`, the `share` that is most `apart`, and whether it is `refuted`."""
+    """Return for each class `p`, `holm`, the `share` most `apart`, a `bound`, and whether it is `refuted`."""
     counts = {
         kind: rows[[*OUTCOMES]].to_numpy(dtype=int)
         for kind, rows in cells.dropna(subset=["tosses"]).groupby("kind", sort=False)
     }
-    found = pd.DataFrame([apart(both) for both in counts.values()], [*counts], ["share", "apart"])
+    found = pd.DataFrame([apart(both) for both in counts.values()], [*counts], ["share", "apart", "bound"])
     p = [chance(both) for both in counts.values()]
     return found.assign(p=p, holm=(adjusted := holm(p)), refuted=adjusted < 1 - LEVEL)
 
@@ -202,7 +202,8 @@ def found(cells: pd.DataFrame) -> dict[str, Any]:
         f"{PERMUTATIONS:,d} tables with the same sums, drawn at random, the part whose χ² is no smaller. A "
         f"class is refuted where p, adjusted by Holm for {len(rows)} classes, is below {1 - LEVEL:.0%}. Of "
         "three shares, on a face, on edge and moving (perpetual, transient or undecided), that is shown "
-        f"which may differ most; the intervals of all shares of all classes hold at once at {LEVEL:.0%}."
+        "which differs most for its interval; classes agree within the farthest end of the three intervals, "
+        f"and those of all classes hold at once at {LEVEL:.0%}."
     )
     heads = "class | p | p, by Holm | share | MuJoCo less analytic [%] | verdict"
     return {
@@ -217,7 +218,7 @@ def found(cells: pd.DataFrame) -> dict[str, Any]:
 def _verdict(one: Any) -> str:
     if one.refuted:
         return f"refuted; why: {KNOWN.get(one.name, 'open')}"
-    return f"agrees within ± {100 * max(-one.apart.low, one.apart.high):.1f} %"
+    return f"agrees within ± {100 * one.bound:.1f} %"
 
 
 def draw(cells: pd.DataFrame) -> Figure:
