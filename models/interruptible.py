@@ -2,11 +2,13 @@
 
 import contextvars
 import threading
-from collections.abc import Callable
-from concurrent.futures import Future
-from typing import TypeVar
+from collections.abc import Callable, Iterable
+from concurrent.futures import Future, wait
+from typing import Any, TypeVar
 
 Result = TypeVar("Result")
+HEEDED = 0.25
+"""After how long a signal is heeded at the latest while the main thread waits [s]."""
 
 
 def interruptible(work: Callable[[], Result]) -> Result:
@@ -19,7 +21,15 @@ def interruptible(work: Callable[[], Result]) -> Result:
     """
     if threading.current_thread() is not threading.main_thread():
         return work()
-    return begun(work).result()
+    future = begun(work)
+    await_all([future])
+    return future.result()
+
+
+def await_all(futures: Iterable[Future[Any]]) -> None:
+    """Wait until all are done; a signal is heeded meanwhile, on Windows too, where it ends no single wait."""
+    while wait(futures, timeout=HEEDED).not_done:
+        pass
 
 
 def begun(work: Callable[[], Result]) -> Future[Result]:

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from concurrent.futures import wait
 
 from cointoss.models.cores import cores_used
-from cointoss.models.interruptible import begun
+from cointoss.models.interruptible import await_all, begun
 
 PARTS = 4
 """Tiles that each thread has at least, where there are tosses enough: all end at about the same time."""
@@ -42,7 +42,7 @@ def in_tiles(n: int, most: int, work: Callable[[slice], None], workers: int | No
 
     working = [begun(work_on_what_is_left) for _ in range(min(len(left), threads))]
     try:
-        wait(working)
+        await_all(working)
     except KeyboardInterrupt:
         left.clear()
         wait(working, timeout=PATIENCE)

@@ -1,7 +1,6 @@
 """An engine run through the cases, each with several steps where it has one."""
 
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from queue import SimpleQueue
@@ -21,6 +20,7 @@ from cointoss.models.errors import ScenarioError
 from cointoss.models.hand import Hand
 from cointoss.models.records import Outcome, UnsupportedError
 from cointoss.models.scenario import Scenario
+from cointoss.models.tiles import in_tiles
 
 HAND = Hand.people(height=0.1, speed=1.0, spin=80.0)
 """The hand whose releases are tossed for a share."""
@@ -110,17 +110,15 @@ def run_cases(
         free.put(engine)
     made: dict[tuple[str, float | None], Run] = {}
 
-    def run(each: tuple[Case, float | None]) -> None:
+    def run(part: slice) -> None:
         engine = free.get()
         try:
-            made[each[0].name, each[1]] = run_case(engine, *each)
+            made.update({(case.name, dt): run_case(engine, case, dt) for case, dt in wanted[part]})
         finally:
             free.put(engine)
         progress(len(made), len(wanted))
 
-    with ThreadPoolExecutor(len(engines)) as pool:
-        for _ in pool.map(run, wanted):
-            pass
+    in_tiles(len(wanted), 1, run, len(engines))
     return [_result(case, own, made) for case in cases]
 
 

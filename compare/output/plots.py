@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from cointoss.models.interruptible import interruptible
 from cointoss.models.palette import COLORS
 from cointoss.models.records import Face, Toss
 
@@ -26,7 +27,8 @@ def axes_or_new(ax: Axes | None) -> Axes:
 def picture_bytes(figure: Figure, suffix: str = ".png", dpi: float = 150) -> bytes:
     """Return the content of a picture's file, of a suffix as in ".png"; that of .svg names no date."""
     drawn = io.BytesIO()
-    figure.savefig(drawn, format=suffix[1:], dpi=dpi, metadata={"Date": None} if suffix == ".svg" else None)
+    no_date = {"Date": None} if suffix == ".svg" else None
+    interruptible(lambda: figure.savefig(drawn, format=suffix[1:], dpi=dpi, metadata=no_date))
     return drawn.getvalue()
 
 

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from cointoss.models.interruptible import interruptible
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.stages import stage
 
@@ -174,8 +175,13 @@ class GraphicsCard:
             self._done(loading, cuda.cuCtxSetLimit(cuda.CUlimit.CU_LIMIT_STACK_SIZE, STACK))
             options = [cuda.CUjit_option.CU_JIT_MAX_REGISTERS], [REGISTERS]
             compiling = f"NVIDIA's driver compiles the engine for {self.name}, once"
+
+            def load() -> Any:
+                self._done("the card", cuda.cuCtxSetCurrent(self._context))  # of each thread its own
+                return self._done(loading, cuda.cuModuleLoadDataEx(file.read_bytes(), 1, *options))
+
             with nullcontext() if self._has_code else stage(compiling, shown=True):
-                module = self._done(loading, cuda.cuModuleLoadDataEx(file.read_bytes(), 1, *options))
+                module = interruptible(load)
             self._queues[file] = self._done(loading, cuda.cuModuleGetFunction(module, b"queue"))
         return self._queues[file]
 
