@@ -1,6 +1,6 @@
 """`cointoss hands`: a coin tossed many times as a hand does."""
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -17,9 +17,8 @@ from cointoss.compare.commands.settings import set_option, with_scenario
 from cointoss.compare.sweep.asked import Source
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
 
-    from cointoss.compare.metrics.estimate import Estimate
     from cointoss.compare.output.hand_lines import HandLines
     from cointoss.compare.shares.plan import Plan
 
@@ -57,32 +56,23 @@ def hands(
     """
     from cointoss.compare.engines import Engine
     from cointoss.compare.film.back_end import require_mujoco
-    from cointoss.compare.metrics.estimates import share_of  # where Ctrl-C comes there is no time for it
     from cointoss.compare.output.hand_lines import hand_lines
-    from cointoss.compare.output.interruption import saying, undoing
+    from cointoss.compare.output.interruption import saying
     from cointoss.compare.shares.plan import Plan, check
 
     hand, coin = chosen_hand(given, source.scenario)
     require_mujoco(engine)
     plan = Plan(scenario=coin, name="", hand=hand, engines=(Engine(engine),), seed=seed, tosses=tosses)
     check(plan)
-    counted, lines = Counted(), None if as_json else hand_lines(hand, coin, engine, seed)
+    counted, counts = 0, Counts()
     told = {"hand": asdict(hand), "caught": coin.ending.caught, "seed": seed, "engine": engine}
-    with (
-        undoing(lambda: _answer(counted, told, lines, share_of)),
-        saying(lambda said: f"{said}: {counted.tosses:,d} tosses are counted"),
-    ):
-        for counted.tosses, counted.counts in (spins if hand.spun else first_sides)(plan):
-            pass
-
-
-@dataclass
-class Counted:
-    """What was counted so far."""
-
-    tosses: int = 0
-    counts: Counts = field(default_factory=dict)
-    is_told: bool = False
+    try:
+        with saying(lambda said: f"{said}: {counted:,d} tosses are counted"):
+            for so_far in (spins if hand.spun else first_sides)(plan):
+                counted, counts = so_far
+    finally:
+        if counted:
+            _answer(counted, counts, told, None if as_json else hand_lines(hand, coin, engine, seed))
 
 
 def spins(plan: "Plan") -> "Iterator[tuple[int, Counts]]":
@@ -125,24 +115,18 @@ def first_sides(plan: "Plan") -> "Iterator[tuple[int, Counts]]":
             progress(first + len(block), plan.tosses)
 
 
-def _answer(
-    counted: Counted,
-    told: dict[str, Any],
-    lines: "HandLines | None",
-    share_of: "Callable[[int, int], Estimate]",
-) -> None:
-    """Print what is counted, once; as JSON where there are no lines for a person."""
-    if counted.is_told or not counted.tosses:
-        return
-    counted.is_told = True
-    shares = {name: share_of(met, of) for name, (met, of) in counted.counts.items() if of}
-    not_caught = counted.tosses - counted.counts["caught"][1] if "caught" in counted.counts else 0
+def _answer(counted: int, counts: Counts, told: dict[str, Any], lines: "HandLines | None") -> None:
+    """Print what is counted; as JSON where there are no lines for a person."""
+    from cointoss.compare.metrics.estimates import share_of
+
+    shares = {name: share_of(met, of) for name, (met, of) in counts.items() if of}
+    not_caught = counted - counts["caught"][1] if "caught" in counts else 0
     if lines is None:
-        told |= {"tosses": counted.tosses, "not_caught": not_caught}
+        told |= {"tosses": counted, "not_caught": not_caught}
         kind = "ended" if told["hand"]["spun"] else "same_side"
         print_json({**told, kind: {k: asdict(v) for k, v in shares.items()}}, told["engine"])
         return
-    not_flat = counted.tosses - counted.counts["at rest"][1] if "at rest" in counted.counts else 0
+    not_flat = counted - counts["at rest"][1] if "at rest" in counts else 0
     click.echo(lines.above)
     for name, one in shares.items():
         click.echo(f"{name:9} {one.value:7.2%} [{one.low:.2%}, {one.high:.2%}] of {one.count:,d} tosses")

@@ -2,7 +2,6 @@
 
 import shutil
 import sys
-import threading
 from collections.abc import Iterator, Sequence
 from functools import partial
 from itertools import islice
@@ -147,35 +146,28 @@ def shares(
 def _count(plan: "Plan", scenario: str, scheduler: str | None, out: Sequence[Path], as_json: bool) -> None:
     """Count, print the result and write it; where a signal or a lost cluster ends it, what there is."""
     from cointoss.compare.output.files import write_bytes, write_text
-    from cointoss.compare.output.interruption import saying, undoing
+    from cointoss.compare.output.interruption import saying
     from cointoss.compare.shares import counting, show
     from cointoss.compare.shares.shares import dataset_of, no_counts
     from cointoss.compare.sweep.cluster import cluster
 
     counts: Counts = no_counts(plan)
     is_complete = False
-    answering, answered = threading.Lock(), False
-
-    def answer() -> None:
-        """Print what is counted, and write its table, once."""
-        nonlocal answered
-        with answering:
-            if not answered and counts.any():
-                answered = True
-                found = dataset_of(plan, counts, is_complete=is_complete)
-                _print(found, plan, scenario, as_json)
-                for path in out:
-                    if path.suffix.lower() == ".csv":
-                        write_text(path, show.csv(found))
-
-    with (
-        undoing(answer),
-        saying(lambda said: f"{said}: {int(counts.sum()):,d} tosses are counted"),
-        cluster(scheduler, say, "what was counted is printed") as workers,
-    ):
-        for so_far in counting.counting(plan, _tosser(workers)):
-            counts = so_far
+    try:
+        with (
+            saying(lambda said: f"{said}: {int(counts.sum()):,d} tosses are counted"),
+            cluster(scheduler, say, "what was counted is printed") as workers,
+        ):
+            for so_far in counting.counting(plan, _tosser(workers)):
+                counts = so_far
         is_complete = True
+    finally:
+        if counts.any():
+            found = dataset_of(plan, counts, is_complete=is_complete)
+            _print(found, plan, scenario, as_json)
+            for path in out:
+                if path.suffix.lower() == ".csv":
+                    write_text(path, show.csv(found))
     if plan.processor.device is not Device.CPU:
         say(f"tossed by {plan.processor.in_words}")
     for path in out:

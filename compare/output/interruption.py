@@ -3,7 +3,6 @@
 import os
 import signal
 import sys
-import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -17,11 +16,6 @@ SIGNALS: tuple[signal.Signals, ...] = tuple(getattr(signal, name) for name in _N
 """The signals that this system has; Ctrl-Break is Windows' own."""
 SOON = 0.1
 """How long after a child process stopped the signal that stopped it may be heeded here [s]."""
-PATIENCE = 0.3
-"""How long the main thread may take to end, before another thread ends the process [s]."""
-
-_pending: list[Callable[[], None]] = []
-"""What is to be undone where the process ends."""
 
 
 class Interruption(SystemExit):
@@ -37,17 +31,11 @@ class Interruption(SystemExit):
 
 @contextmanager
 def undoing(undo: Callable[[], None]) -> Iterator[None]:
-    """Call `undo` when the `with` statement ends, also where a signal ends the process within it.
-
-    Args:
-        undo: may be called twice, and on another thread.
-    """
-    _pending.append(undo)
+    """Call `undo` when the `with` statement ends, however it ends."""
     try:
         yield
     finally:
         undo()
-        _pending.remove(undo)
 
 
 @contextmanager
@@ -85,68 +73,39 @@ def raise_interruption_behind(error: BaseException) -> None:
 def run_to_exit(command: Callable[[], object]) -> NoReturn:
     """Run a command; where a signal comes, let it clean up, and end the process.
 
-    A command ends by raising SystemExit. The signal raises `Interruption` on the main thread. A thread of its
-    own learns of it too, even while the main thread is in a long call of compiled code, and ends the process
-    if the main thread does not within `PATIENCE`. A signal that is ignored, as under nohup, stays so.
+    A command ends by raising SystemExit. The first signal raises `Interruption` on the main thread, which
+    leaves long compiled code to another, see `cointoss.models.interruptible`; later signals are ignored.
+    A signal that is ignored before, as under nohup, stays so.
     """
+    raised: list[Interruption] = []
+
+    def interrupt(number: int, _frame: object) -> NoReturn:
+        for each in SIGNALS:
+            signal.signal(each, signal.SIG_IGN)
+        # A call from C prints what is raised in it, and goes on: the process ends all the same.
+        sys.unraisablehook = lambda _: None
+        raised.append(Interruption(number))
+        raise raised[0]
+
     heeded = [number for number in SIGNALS if signal.getsignal(number) != signal.SIG_IGN]
-    ending = _Ending()
+    for number in heeded:
+        signal.signal(number, interrupt)
     try:
-        try:
-            for number in heeded:
-                signal.signal(number, ending.interrupt)
-            reading, writing = os.pipe()
-            if sys.platform != "win32":  # there a pipe that blocks will do
-                os.set_blocking(writing, False)
-            signal.set_wakeup_fd(writing, warn_on_full_buffer=False)
-            threading.Thread(target=ending.watch, args=(reading,), daemon=True).start()
-            command()
-        finally:
-            if ending.interruption is None:
-                for number in heeded:
-                    signal.signal(number, signal.SIG_DFL)
+        command()
     finally:
         # What a signal raised may have become another error on its way, or been lost in a call from C.
-        if ending.interruption is not None:
-            ending.leave(ending.interruption)
+        if raised:
+            _leave(raised[0])
+        for number in heeded:
+            signal.signal(number, signal.SIG_DFL)
     sys.exit()
 
 
-class _Ending:
-    """The end of a process by a signal."""
-
-    def __init__(self) -> None:
-        self.interruption: Interruption | None = None
-        self._leaving = threading.Lock()
-
-    def interrupt(self, number: int, _frame: object) -> NoReturn:
-        """Raise the interruption; it is the handler of the signals, of which the first counts."""
-        for each in SIGNALS:
-            signal.signal(each, signal.SIG_IGN)
-        # A call from C prints what is raised in it, and goes on: `run_to_exit` ends the process all the same.
-        sys.unraisablehook = lambda _: None
-        self.interruption = Interruption(number)
-        raise self.interruption
-
-    def watch(self, reading: int) -> None:
-        """End the process some time after the first of the signals, whose numbers come through a pipe."""
-        number = 0
-        while number not in SIGNALS:
-            number = os.read(reading, 1)[0]
-        time.sleep(PATIENCE)
-        self.leave(self.interruption or Interruption(number))
-
-    def leave(self, interruption: Interruption) -> NoReturn:
-        """Undo what is half-made, say what ends the process, and end it, whatever its threads are at."""
-        if self._leaving.acquire(blocking=False):
-            for undo in reversed(_pending):
-                with suppress(Exception):
-                    undo()
-            with suppress(Exception):
-                clear_line()
-                print(f"cointoss: {in_options(interruption.message)}", file=sys.stderr, flush=True)
-            with suppress(Exception):
-                sys.stdout.flush()
-        else:
-            time.sleep(PATIENCE)  # for the other thread, which is at it
-        os._exit(interruption.status)
+def _leave(interruption: Interruption) -> NoReturn:
+    """Say what ends the process, and end it, whatever its other threads are at."""
+    with suppress(Exception):  # where nobody reads it any more
+        clear_line()
+        print(f"cointoss: {in_options(interruption.message)}", file=sys.stderr, flush=True)
+    with suppress(Exception):
+        sys.stdout.flush()
+    os._exit(interruption.status)

@@ -4,12 +4,11 @@ import csv
 import io
 import json
 import signal
-from contextlib import contextmanager
 
 import pytest
 
 from cointoss.compare.commands import hands
-from cointoss.compare.output import interruption
+from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.hand import Hand
 from tests.helpers.command_line import cointoss
 from tests.helpers.processes import answered, ask, started, wait_until
@@ -136,17 +135,9 @@ def test_blocks_count_what_all_tosses_at_once_do(coin, monkeypatch):
     assert cointoss("hands", coin, "--tosses", 130, "--json").stdout == whole
 
 
-def test_an_answer_is_printed_once_and_not_before_any_toss(coin, monkeypatch):
-    """What is to be undone may be called twice, and before the first block is counted."""
-    words = ("hands", coin, "--tosses", 5, "--json")
-    whole = cointoss(*words).stdout
+def test_where_nothing_is_counted_no_answer_is_printed(coin, monkeypatch):
+    def refused(_):
+        raise SweepError("no toss")
 
-    @contextmanager
-    def undoing(undo):
-        undo()
-        yield
-        undo()
-        undo()
-
-    monkeypatch.setattr(interruption, "undoing", undoing)
-    assert cointoss(*words).stdout == whole
+    monkeypatch.setattr(hands, "first_sides", refused)
+    assert cointoss("hands", coin).stdout == ""

@@ -129,26 +129,22 @@ def test_in_python_ctrl_c_raises_out_of_a_toss_and_of_many(tmp_path):
         assert process.wait(HANGS) == 0
 
 
-# A call that keeps the main thread, so that Python can't raise there.
-STUCK = """
-import hashlib, os, signal, sys, threading
-from pathlib import Path
+ENDING = f"""{ENDLESS}
+import os, signal, sys, threading
 from cointoss.compare.output.files import written_together, written_whole
 from cointoss.compare.output.interruption import run_to_exit
+from cointoss.models.interruptible import interruptible
 
-def stuck():
-    Path("begun").touch()
-    hashlib.pbkdf2_hmac("sha256", b"", b"", (1 << 31) - 1)
 """
 
 
 @pytest.mark.parametrize("number", STATUSES)
-def test_a_main_thread_that_is_stuck_keeps_nothing(tmp_path, number):
-    script = STUCK + (
+def test_an_interruption_of_compiled_code_leaves_nothing_half_made(tmp_path, number):
+    script = ENDING + (
         "def command():\n"
         "    with written_together(Path('new/folder'), ('a',)) as a, written_whole(Path('file')) as b:\n"
         "        (a / 'a').touch(), b.touch()\n"
-        "        stuck()\n"
+        "        interruptible(endless)\n"
         "run_to_exit(command)"
     )
     status, said = ended(tmp_path, number, script)
@@ -157,10 +153,6 @@ def test_a_main_thread_that_is_stuck_keeps_nothing(tmp_path, number):
 
 
 ENDS = {
-    "what swallows the interruption": (
-        "while True:\n        try: threading.Event().wait()\n        except BaseException: pass"
-    ),
-    "what takes long to end": "try: stuck()\n    finally: threading.Event().wait()",
     "another thread": "threading.Thread(target=threading.Event().wait).start(); threading.Event().wait()",
     "another error on the way out": (
         "try: threading.Event().wait()\n    except BaseException: raise ValueError('because of it')"
@@ -172,7 +164,7 @@ ENDS = {
 
 @pytest.mark.parametrize("end", ENDS)
 def test_nothing_keeps_the_process_and_what_was_printed_before_is_there(tmp_path, end):
-    script = f"{STUCK}def command():\n    print('first')\n    Path('begun').touch()\n    {ENDS[end]}\n"
+    script = f"{ENDING}def command():\n    print('first')\n    Path('begun').touch()\n    {ENDS[end]}\n"
     with started("-c", script + "run_to_exit(command)", cwd=tmp_path) as process:
         wait_until_begun(process, tmp_path)
         ask(process, signal.SIGINT)
@@ -211,7 +203,7 @@ def test_the_command_leaves_no_traceback_even_while_it_is_imported():
 
 
 def test_a_signal_that_is_ignored_stays_so(tmp_path):
-    script = STUCK + (
+    script = ENDING + (
         "def command():\n"
         "    os.kill(os.getpid(), signal.SIGHUP)\n"
         "    print('goes on')\n"
