@@ -30,7 +30,7 @@ _INERTIA = [PLACE[field] for field in FIELDS if field.startswith("coin.inertia."
 
 
 def rows_of(scenario: Scenario, n: int, changed: Mapping[str, ArrayLike] | None = None) -> Array:
-    """Return n copies of a scenario as rows, with other values of some fields, (n, 54).
+    """Return n copies of a scenario as rows, with other values of some fields, (n, m).
 
     The angles and the quaternion of a release replace each other. `refused` checks the rows; this does not.
 
@@ -66,7 +66,7 @@ def checked_table(name: str, table: ArrayLike, columns: int) -> Array:
 
 
 def rows_from_states(scenario: Scenario, states: Array) -> Array:
-    """Return a scenario released in each of many states, as rows, (n, 54).
+    """Return a scenario released in each of many states, as rows, (n, m).
 
     Args:
         scenario: coin, air, floor and ending.
@@ -126,7 +126,7 @@ def refused(rows: Array, changed: Collection[str]) -> NDArray[np.bool_]:
     """Return which rows are not valid scenarios, (n,).
 
     Args:
-        rows: copies of a scenario with some fields changed, (n, 54).
+        rows: copies of a scenario with some fields changed, (n, m).
         changed: the changed fields, which may have any numbers.
     """
     wrong = np.zeros(len(rows), dtype=bool)

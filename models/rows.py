@@ -267,7 +267,7 @@ def examine_each(rows: Table, faults: Codes) -> None:
     """Write the `Fault` of each row, 0 of a scenario's.
 
     Args:
-        rows: of numbers, each within its bounds where it is finite, (n, 54).
+        rows: of numbers, each within its bounds where it is finite, (n, m).
         faults: where they go, (n,).
     """
     first = 0

@@ -15,7 +15,7 @@ def faces_shown(rows: Array, touches: int) -> NDArray[np.int8]:
     """Return the `Face` up at each of the first touches, 0 where there is none, (n, touches).
 
     Args:
-        rows: of the scenarios, (n, 54).
+        rows: of the scenarios, (n, m).
         touches: how many.
     """
     rows = rows.copy()

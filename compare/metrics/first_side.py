@@ -28,7 +28,7 @@ def first_side(rows: Array, engine: Engine) -> FirstSide:
     """Toss coins, and return at which touches the side that was up at the release is up.
 
     Args:
-        rows: of the scenarios, whose attitude is a quaternion, (n, 54).
+        rows: of the scenarios, whose attitude is a quaternion, (n, m).
         engine: that tosses.
     """
     several = np.tile(rows, (len(TOUCHES) + 1, 1, 1))
@@ -46,7 +46,7 @@ def caught_side(rows: Array, engine: Engine) -> NDArray[np.bool_]:
     """Toss coins to a hand, and return in which catches the side that was up at the release is up.
 
     Args:
-        rows: of the scenarios, with the height at which a hand catches the coin, (n, 54); their attitude is
+        rows: of the scenarios, with the height at which a hand catches the coin, (n, m); their attitude is
             a quaternion.
         engine: that tosses.
 

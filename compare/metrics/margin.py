@@ -58,7 +58,7 @@ class ReleaseQuantity:
     factor: float
     """The number of the quantity's units in one SI unit."""
     change: Callable[[Array, Array], Array]
-    """Returns rows, (n, 54), whose attitude is a quaternion, changed by numbers in SI units, (n,)."""
+    """Returns rows, (n, m), whose attitude is a quaternion, changed by numbers in SI units, (n,)."""
     fields: tuple[str, ...]
     """The fields of a row that it changes."""
 
@@ -152,7 +152,7 @@ def _turned(name: str, axis: int) -> ReleaseQuantity:
 
 
 def with_quaternions(rows: Array) -> Array:
-    """Return rows whose attitude is a quaternion of norm 1, (n, 54)."""
+    """Return rows whose attitude is a quaternion of norm 1, (n, m)."""
     found, attitudes = rows.copy(), np.empty((len(rows), 4))
     write_attitudes(found, attitudes)
     found[:, _A], found[:, _Q] = math.nan, attitudes
@@ -226,7 +226,7 @@ def smallest_changes(
     It is infinite where no change up to 1 does, or none before one that makes no scenario.
 
     Args:
-        rows: of the tosses, each a scenario's, (n, 54).
+        rows: of the tosses, each a scenario's, (n, m).
         quantity: what changes.
         outcomes: returns the outcomes of rows, or what else of them is not to change.
         search: how closely.

@@ -182,7 +182,7 @@ def plan_of(
 
 
 def rows_of_releases(setting: GridPoint, states: Array) -> Array:
-    """Return a setting's scenario released in each of many states, (n, 13), as rows, (n, 54).
+    """Return a setting's scenario released in each of many states, (n, 13), as rows, (n, m).
 
     Raises:
         SweepError: for a state that the scenario refuses, naming what of the hand made it.

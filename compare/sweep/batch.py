@@ -100,7 +100,7 @@ class Batch:
         return [column.field for column in self._columns]
 
     def rows(self, tosses: NDArray[np.intp]) -> Array:
-        """Return some tosses, by their numbers, as rows, (n, 54)."""
+        """Return some tosses, by their numbers, as rows, (n, m)."""
         at = dict(zip(self.sizes, np.unravel_index(tosses, self.shape), strict=True)) if self.sizes else {}
         changed = {one.field: one.values[tuple(at[dim] for dim in one.dims)] for one in self._columns}
         return rows_of(self.scenario, len(tosses), changed)

@@ -36,7 +36,7 @@ class Window:
         return self.scenario.replace(*pairs[:2], *pairs[2:]) if pairs else self.scenario
 
     def rows(self, values: Array) -> tuple[Array, NDArray[np.bool_]]:
-        """Return the tosses with values of the fields, (n, fields), as rows, (n, 54), and which of them are
+        """Return the tosses with values of the fields, (n, fields), as rows, (n, m), and which of them are
         scenarios, (n,)."""
         varied = tuple(
             Varied(field=span.field, dims=(TOSS,), values=column)

@@ -66,7 +66,7 @@ class CoinClass:
         return np.hstack([place, velocity, turned, np.stack(spin, axis=1)])
 
     def rows(self, count: int) -> Array:
-        """Return the tosses from those states as rows, (count, 54)."""
+        """Return the tosses from those states as rows, (count, m)."""
         return rows_from_states(self.scenario, self.starts(count))
 
 
