@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import NDArray
 
-from cointoss.compare.sweep.batch import Batch, attributes_of
+from cointoss.compare.sweep.batch import Batch
 from cointoss.compare.sweep.pieces import How
 from cointoss.models.answers import COLUMNS
 
@@ -30,10 +30,7 @@ def dataset_of(batch: Batch, how: How, answers: Mapping[str, NDArray[Any]]) -> "
     variables = {
         name: (tuple(batch.sizes), array, COLUMNS[name].attributes) for name, array in answers.items()
     }
-    coordinates = {
-        one.field: (one.dims, one.values, attributes_of(one, batch.scenario)) for one in batch.varied
-    }
-    return accessor.in_words(xarray.Dataset(variables, coordinates, about(batch, how)))
+    return accessor.in_words(xarray.Dataset(variables, batch.coordinates, about(batch, how)))
 
 
 def about(batch: Batch, how: How) -> dict[str, Any]:

@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.grid import Sweep
 from cointoss.models.answers import COLUMNS, NOT_TOSSED, REFUSED, AnswerColumn
 from cointoss.models.labelled import meanings_of
@@ -56,13 +55,3 @@ def holds_tosses(name: str, values: NDArray[Any]) -> NDArray[np.bool_]:
     if name == "end_time":  # NaN, too, of what is no scenario
         return np.ones(values.shape, dtype=bool)
     return (values >= 0) | (values == REFUSED)
-
-
-def bytes_per_pixel(sweep: Sweep) -> int:
-    """Return what a pixel of a sweep's map takes on disk, before compression."""
-    return sum(np.dtype(layer.kind).itemsize for layer in layers_of(sweep).values())
-
-
-def axis_attributes(axis: Axis) -> dict[str, Any]:
-    """Return the attributes of an axis, from which plots take its label."""
-    return {"long_name": axis.word, "units": axis.unit}

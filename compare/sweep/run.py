@@ -13,7 +13,7 @@ from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.output.interruption import saying
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Sweep
-from cointoss.compare.sweep.layers import bytes_per_pixel, trust_layer
+from cointoss.compare.sweep.layers import layers_of, trust_layer
 from cointoss.compare.sweep.pieces import Columns, pieces
 from cointoss.compare.sweep.pixels import pixels_of
 from cointoss.compare.sweep.store import Store
@@ -101,7 +101,8 @@ def require_room(sweep: Sweep, folder: Path, *, maps: int, drawn: bool) -> None:
     """
     pixels = sweep.shape[0] * sweep.shape[1]
     grid = f"{sweep.shape[1]} by {sweep.shape[0]} tosses"
-    needed, free = maps * pixels * bytes_per_pixel(sweep), shutil.disk_usage(folder).free
+    in_a_pixel = sum(np.dtype(layer.kind).itemsize for layer in layers_of(sweep).values())
+    needed, free = maps * pixels * in_a_pixel, shutil.disk_usage(folder).free
     if needed > free:
         raise UnwritableError(
             f"{folder}: {grid} need up to {_bytes(needed)} of disk; accepted: a grid for the "

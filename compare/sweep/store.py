@@ -277,16 +277,16 @@ def _write_empty(folder: Path, layout: Layout) -> None:
     for name, layer in layout.layers.items():
         group.create_array(
             name,
-            shape=tuple(layout.sizes.values()),
+            shape=layout.batch.shape,
             chunks=layout.tile,
             dtype=layer.kind,
             fill_value=layer.missing,
-            dimension_names=list(layout.sizes),
+            dimension_names=list(layout.batch.sizes),
             # A tile that breaks off must not pass for one.
             compressors=ZstdCodec(checksum=True),
-            attributes={**layer.attributes, "coordinates": " ".join(layout.coordinates)},
+            attributes={**layer.attributes, "coordinates": " ".join(layout.batch.coordinates)},
         )
-    for field, one in layout.coordinates.items():
+    for field, one in layout.batch.coordinates.items():
         group.create_array(
             field,
             data=one.values,
@@ -330,15 +330,17 @@ def _unlike(found: Store, layout: Layout, path: Path) -> str | None:
         if stored.get(name) != due.get(name):
             value = f", {json.dumps(stored.get(name))}" if name == "engine_settings" else ""
             return f"{_CALLED.get(name, name)}{value}"
-    for field, one in reversed(layout.coordinates.items()):
+    for field, one in reversed(layout.batch.coordinates.items()):
         array = found.arrays.get(field)
         if array is None or _shape_of(array) != (one.values.shape, one.values.dtype, one.dims):
             return f"grid in {one.dims[0]}"
         if not np.array_equal(found.whole(field), one.values, equal_nan=one.values.dtype.kind == "f"):
             return f"grid in {one.dims[0]}"
-    shape, dims = tuple(layout.sizes.values()), tuple(layout.sizes)
+    shape, dims = layout.batch.shape, tuple(layout.batch.sizes)
     arrays = {name: (shape, np.dtype(layer.kind), dims) for name, layer in layout.layers.items()}
-    there = {name: _shape_of(found.arrays[name]) for name in found.arrays.keys() - layout.coordinates.keys()}
+    there = {
+        name: _shape_of(found.arrays[name]) for name in found.arrays.keys() - layout.batch.coordinates.keys()
+    }
     if wrong := sorted(name for name in arrays | there if arrays.get(name) != there.get(name)):
         return f"set of arrays, for {', '.join(wrong)}"
     made_by, ours = (

@@ -20,7 +20,6 @@ from cointoss.compare.sweep.layers import (
     LAYERS,
     NOT_TOSSED,
     REFUSED,
-    axis_attributes,
     layers_of,
     trust_layer,
 )
@@ -38,7 +37,7 @@ MOST_STEPS = 1_000_000_000
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class TossedMap:
-    """The outcomes of tosses over two fields of a scenario; arrays are read-only."""
+    """The outcomes of tosses over two fields of a scenario."""
 
     sweep: Sweep
     """The scenario, the axes, the engine with its settings, and which face or outcome is shown."""
@@ -49,14 +48,7 @@ class TossedMap:
     """Every n-th pixel of the sweep is here, along both axes."""
 
     def __post_init__(self) -> None:
-        """Check the arrays and make them read-only."""
-        expected = len(self.y), len(self.x)
-        for name, array in self.layers.items():
-            if array.shape != expected:
-                raise ValueError(f"{name}: shape {array.shape}, expected {expected}")
-        self.layers.update({name: array.view() for name, array in self.layers.items()})
-        for array in self.layers.values():
-            array.setflags(write=False)
+        """Refuse outcomes that are none."""
         tossed = self.outcome[self.outcome != NOT_TOSSED]
         if tossed.size:
             outcome_codes(tossed)
@@ -65,16 +57,6 @@ class TossedMap:
     def outcome(self) -> NDArray[np.int8]:
         """`Outcome`, or -1 where no toss was made yet, (ny, nx)."""
         return self.layers["outcome"]
-
-    @property
-    def x(self) -> Array:
-        """The values of the field of the columns, (nx,) [sweep.x.unit]."""
-        return self.sweep.x.values[:: self.stride]
-
-    @property
-    def y(self) -> Array:
-        """The values of the field of the rows, (ny,) [sweep.y.unit]."""
-        return self.sweep.y.values[:: self.stride]
 
     @cached_property
     def untrusted(self) -> NDArray[np.bool_] | None:
@@ -96,8 +78,8 @@ class TossedMap:
 
         sweep, layers = self.sweep, layers_of(self.sweep)
         coordinates = {
-            axis.field: (dimension, values, axis_attributes(axis))
-            for dimension, axis, values in (("y", sweep.y, self.y), ("x", sweep.x, self.x))
+            field: one._replace(values=one.values[:: self.stride])
+            for field, one in sweep.batch.coordinates.items()
         }
         arrays = {name: (("y", "x"), array, layers[name].attributes) for name, array in self.layers.items()}
         about = {

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 import cointoss
 from cointoss.compare.sweep import run
 from cointoss.compare.sweep.layers import NOT_TOSSED
-from cointoss.compare.sweep.tossed_map import TossedMap, map_of
+from cointoss.compare.sweep.tossed_map import map_of
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
 from tests.helpers.command_line import cointoss as command
@@ -204,8 +204,6 @@ def test_what_is_no_map_is_refused(found):
     made = map_of(found)
     with pytest.raises(ValueError, match="77 is no outcome"):
         replace(made, layers={**made.layers, "outcome": np.full((5, 7), 77, np.int8)})
-    with pytest.raises(ValueError, match=r"impacts: shape \(1, 1\), expected \(5, 7\)"):
-        TossedMap(name="m", sweep=made.sweep, layers={**made.layers, "impacts": np.zeros((1, 1), np.int32)})
 
 
 def test_outcomes_without_two_fields_are_bars(found):
