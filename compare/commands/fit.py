@@ -25,7 +25,6 @@ from cointoss.models.devices import Device
 if TYPE_CHECKING:
     from cointoss.compare.fitting.flips import Flips
     from cointoss.compare.fitting.observed import Observed
-    from cointoss.models.hand import Hand
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -130,11 +129,12 @@ def _fit_hand(flips: "Flips", source: Source | None, asked: SoughtValues) -> boo
     from cointoss.compare.fitting import fit as fitting
     from cointoss.compare.fitting.hand_answer import as_lines
     from cointoss.compare.output.files import write_text
+    from cointoss.models.hand import load_hand
 
     found = fitting.fit(
         flips,
         source and source.scenario,
-        hand=_hand_of(asked),
+        hand=None if asked.hand is None else load_hand(asked.hand),
         tosses=asked.tosses,
         seed=asked.seed,
         device=asked.device,
@@ -185,12 +185,6 @@ def _fit_toss(seen: "Observed", source: Source, asked: SoughtValues) -> bool:
         click.echo(as_lines(found))
         _echo_files(asked, "scenario")
     return found.is_possible
-
-
-def _hand_of(asked: SoughtValues) -> "Hand | None":
-    from cointoss.models.hand import load_hand
-
-    return None if asked.hand is None else load_hand(asked.hand)
 
 
 def _echo_files(asked: SoughtValues, what: str) -> None:

@@ -44,6 +44,7 @@ def playable(toss: Toss, samples: int = SAMPLES, most_symbols: int = MOST_SYMBOL
         samples: of the path, roughly.
         most_symbols: of the sequence, and times of its touches.
     """
+    is_followed = toss.path_end > toss.end_time
     return {
         "engine": toss.engine,
         "outcome": str(toss.outcome),
@@ -56,13 +57,8 @@ def playable(toss: Toss, samples: int = SAMPLES, most_symbols: int = MOST_SYMBOL
         "notes": [],
         "coin": coin_of(toss.scenario),
         "path": path_of(toss, samples),
-        **_later(toss, most_symbols),
+        **({"later_times": rounded(toss.later_times[:most_symbols], 7)} if is_followed else {}),
     }
-
-
-def _later(toss: Toss, most: int) -> dict[str, Any]:
-    """Return the first times at which a coin touches after its toss, where it is followed."""
-    return {"later_times": rounded(toss.later_times[:most], 7)} if toss.path_end > toss.end_time else {}
 
 
 def path_of(toss: Toss, samples: int, *, with_spin: bool = False) -> dict[str, Any]:
