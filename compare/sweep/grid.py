@@ -1,6 +1,5 @@
 """A sweep, and the tiles that it is tossed in."""
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -119,21 +118,21 @@ class Sweep:
         return self.y.count, self.x.count
 
 
-def tile_shape(sweep: Sweep) -> tuple[int, int]:
-    """Return the pixels of a tile in y and x, about square."""
-    ny, nx = sweep.shape
-    most = tosses_in_tile(sweep.engine, sweep.batch)
-    if sweep.margin is not None:
-        most //= MARGIN_TOSSES
-    most = max(most, ny * nx // MOST_TILES, 1)
-    columns = min(nx, max(math.isqrt(most), most // ny))
-    return min(ny, most // columns), columns
+def tile_shape(engine: Engine, batch: Batch, each: int = 1) -> tuple[int, ...]:
+    """Return the lengths of a tile: seconds of work, as long as it can be along the last dimensions.
 
-
-def tosses_in_tile(engine: Engine, batch: Batch) -> int:
-    """Return the most tosses of a batch in a tile: seconds of work."""
+    Args:
+        engine: that tosses.
+        batch: of tosses.
+        each: how many tosses each of them takes.
+    """
     is_slow = batch.scenario.air.exponent > 0 or "air.exponent" in batch.fields
-    return min(TILE_TOSSES[engine], SLOW_TILE_TOSSES) if is_slow else TILE_TOSSES[engine]
+    most = min(TILE_TOSSES[engine], SLOW_TILE_TOSSES) if is_slow else TILE_TOSSES[engine]
+    most, lengths = max(most // each, len(batch) // MOST_TILES), list[int]()
+    for size in reversed(batch.shape):
+        lengths.append(max(1, min(size, most)))
+        most //= lengths[-1]
+    return tuple(reversed(lengths))
 
 
 def tiles(shape: tuple[int, ...], tile: tuple[int, ...]) -> Iterator[tuple[slice, ...]]:

@@ -6,7 +6,7 @@ from typing import Any
 
 from cointoss.compare.sweep.batch import Batch
 from cointoss.compare.sweep.chunks import FORMAT, TOSSES_FORMAT
-from cointoss.compare.sweep.grid import MOST_TILES, Sweep, tile_shape, tosses_in_tile
+from cointoss.compare.sweep.grid import MARGIN_TOSSES, Sweep, tile_shape
 from cointoss.compare.sweep.layers import layers_of
 from cointoss.compare.sweep.pieces import How
 from cointoss.models.answers import COLUMNS, AnswerColumn
@@ -37,7 +37,7 @@ def layout_of_map(sweep: Sweep, scenario_text: str) -> Layout:
     """
     return Layout(
         batch=sweep.batch,
-        tile=tile_shape(sweep),
+        tile=tile_shape(sweep.engine, sweep.batch, 1 if sweep.margin is None else MARGIN_TOSSES),
         layers=layers_of(sweep),
         attributes={
             "cointoss_map": FORMAT,
@@ -55,10 +55,9 @@ def layout_of_map(sweep: Sweep, scenario_text: str) -> Layout:
 
 def layout_of_tosses(batch: Batch, how: How) -> Layout:
     """Return what a store of a batch's tosses is made of."""
-    most = max(tosses_in_tile(how.engine, batch), len(batch) // MOST_TILES)
     return Layout(
         batch=batch,
-        tile=_tile_of(batch.shape, most),
+        tile=tile_shape(how.engine, batch),
         layers={name: COLUMNS[name] for name in how.names},
         attributes={
             "cointoss_tosses": TOSSES_FORMAT,
@@ -71,12 +70,3 @@ def layout_of_tosses(batch: Batch, how: How) -> Layout:
             "versions": {**how.engine.versions, "zarr": version("zarr")},
         },
     )
-
-
-def _tile_of(shape: tuple[int, ...], most: int) -> tuple[int, ...]:
-    """Return the lengths of a tile of at most n tosses, as long as it can be along the last dimensions."""
-    lengths: list[int] = []
-    for size in reversed(shape):
-        lengths.append(max(1, min(size, most)))
-        most //= lengths[-1]
-    return tuple(reversed(lengths))

@@ -34,7 +34,7 @@ TUMBLING = scenario(
 )
 """A coin that tumbles through air, for twelve impacts."""
 AXES = ("--x", "release.angular_velocity.eta=20:60:48", "--y", "release.position.z=0.2:0.6:40")
-SMALL, TILES = 64, 30
+SMALL, TILES = 48, 40
 """Tosses in a tile of these tests, and tiles in a map."""
 
 

@@ -55,13 +55,13 @@ def test_a_map_of_too_many_pixels_is_refused(map_path, monkeypatch):
     assert "has 24 by 18 pixels; accepted: a map of at most 400 pixels" in refused("explore", map_path)
 
 
-@pytest.mark.parametrize("tile", [None, 35, 64])
+@pytest.mark.parametrize("tile", [None, 7, 10])
 def test_of_a_large_map_every_so_many_th_pixel_is_shown(map_path, tmp_path, monkeypatch, tile):
     full, path = tossed_map_at(map_path), map_path
     if tile is not None:  # whose sides the stride crosses
         monkeypatch.setattr("cointoss.compare.sweep.grid.TILE_TOSSES", dict.fromkeys(Engine, tile))
         path = small_map(tmp_path)
-        cut = list(tiles(full.sweep.shape, tile_shape(full.sweep)))
+        cut = list(tiles(full.sweep.shape, tile_shape(full.sweep.engine, full.sweep.batch)))
         for sides in zip(*cut, strict=True):
             assert {side.start % 3 for side in sides} == {0, 1, 2}
     part = tossed_map_at(path, most=100)

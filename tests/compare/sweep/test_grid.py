@@ -14,7 +14,7 @@ from tests.helpers.basin_runs import sweep_of
 @pytest.mark.parametrize("y", ["release.velocity.z=1:2:{}", "floor.friction=1:2:{}"])
 def test_tiles_cover_the_map_once_and_are_of_the_size_agreed(shape, x, y):
     sweep = sweep_of(x.format(shape[1]), y.format(shape[0]))
-    tile = tile_shape(sweep)
+    tile = tile_shape(sweep.engine, sweep.batch)
     assert tile[0] * tile[1] <= grid.TILE_TOSSES[Engine.ANALYTIC]
     # No smaller than it must be: whole rows and columns that would fit aside, half of what is allowed.
     assert tile[0] * tile[1] >= min(shape[0] * shape[1], grid.TILE_TOSSES[Engine.ANALYTIC]) / 2
@@ -28,5 +28,6 @@ def test_tiles_cover_the_map_once_and_are_of_the_size_agreed(shape, x, y):
 
 def test_a_large_map_has_no_more_tiles_than_a_folder_holds():
     slow = sweep_of("release.position.z=1:2:1000", "air.exponent=1:2:1000")
-    assert len(list(tiles(slow.shape, tile_shape(slow)))) <= 2 * grid.MOST_TILES
-    assert np.prod(tile_shape(sweep_of("release.position.z=1:2:100", "air.exponent=1:2:100"))) <= 64
+    assert len(list(tiles(slow.shape, tile_shape(slow.engine, slow.batch)))) <= 2 * grid.MOST_TILES
+    small = sweep_of("release.position.z=1:2:100", "air.exponent=1:2:100")
+    assert np.prod(tile_shape(small.engine, small.batch)) <= 64

@@ -213,13 +213,13 @@ def set_to(value):
 
 
 DAMAGES = {
-    "empty": (SMALL, lambda out, name: (out / name / "c/2/2").write_bytes(b"")),
-    "cut": (SMALL, lambda out, name: changed(out / name / "c/2/2", lambda whole: whole[: len(whole) // 2])),
+    "empty": (SMALL, lambda out, name: (out / name / "c/2/0").write_bytes(b"")),
+    "cut": (SMALL, lambda out, name: changed(out / name / "c/2/0", lambda whole: whole[: len(whole) // 2])),
     "flipped": (
         SMALL,
-        lambda out, name: changed(out / name / "c/2/2", lambda whole: whole[:-5] + b"?" + whole[-4:]),
+        lambda out, name: changed(out / name / "c/2/0", lambda whole: whole[:-5] + b"?" + whole[-4:]),
     ),
-    "lost": (SMALL, lambda out, name: (out / name / "c/2/2").unlink()),
+    "lost": (SMALL, lambda out, name: (out / name / "c/2/0").unlink()),
     **{f"a pixel with {value}": (1, set_to(value)) for value in (-7, 6, 100)},
 }
 
