@@ -15,10 +15,9 @@ from cointoss.compare.sweep.asked import Job, Source
 from cointoss.compare.sweep.axes import Axis, parse_axis
 from cointoss.compare.sweep.cluster import Workers, cluster
 from cointoss.compare.sweep.grid import Sweep
-from cointoss.compare.sweep.layers import trust_layer
 from cointoss.compare.sweep.layout import layout_of_map
 from cointoss.compare.sweep.pixels import check
-from cointoss.compare.sweep.untrusted import untrusted_pixels
+from cointoss.compare.sweep.tossed_map import TossedMap
 from cointoss.models.devices import Device
 from cointoss.models.stages import stage
 
@@ -91,8 +90,7 @@ def make(job: Job, source: Source, command: str, say: Say) -> Iterator[str]:
         store.there(path, layout_of_map(sweep, source.text)) for path, sweep in sweeps.items() if job.resume
     ]
     new = len(sweeps) - sum(one is not None and one.is_whole for one in kept)
-    drawn, maps = len(sweeps) > 1 or job.png is not None, []
-    margins = untrusted = None
+    drawn, made = len(sweeps) > 1 or job.png is not None, list[TossedMap]()
     for sweep in sweeps.values():
         check(sweep)
         run.require_room(sweep, job.out.parent, maps=new, drawn=drawn)
@@ -104,34 +102,29 @@ def make(job: Job, source: Source, command: str, say: Say) -> Iterator[str]:
                     say(f"{path}: tossed by {sweep.how.processor.in_words}")
                 yield describe.describe_map(path, sweep, run.fractions_of(map_))
                 if sweep.margin is not None:
-                    margins = map_.whole("margin")
-                    yield describe.describe_margins(sweep.quantity, margins)
+                    yield describe.describe_margins(sweep.quantity, map_.whole("margin"))
                 if sweep.trust:
                     yield describe.describe_trust(sweep, run.trust_counts(map_, sweep.after))
-                    if drawn:
-                        untrusted = untrusted_pixels(sweep.after, map_.whole(trust_layer(sweep.after)))
                 if drawn:
-                    maps.append(map_.whole("outcome"))
+                    layers = {name: map_.whole(name) for name in map_.layers}
+                    made.append(TossedMap(name=sweep.name, sweep=sweep, layers=layers))
     if not drawn:
         return
     from cointoss.compare.sweep import show
 
-    made = list(sweeps.values())
-    if len(maps) > 1:
-        yield describe.describe_agreement(describe.measure(*maps))
+    if len(made) > 1:
+        yield describe.describe_agreement(describe.measure(*(each.outcome for each in made)))
     if job.png is not None:
         with stage("drawing the picture"):
-            picture = show.png_of(maps, made[0], job, margins=margins, untrusted=untrusted)
-            write_bytes(job.png, picture)
+            write_bytes(job.png, show.png_of(made, job))
         yield f"picture    {job.png}"
     if job.report is not None:
         from cointoss.compare.report.comparison import compared
         from cointoss.compare.report.folder import write_report
 
         fine = replace(Engine.MUJOCO.package.FINE, contact=job.contact)
-        both = compared(made[0].scenario, source.text, source.stem, settings={"mujoco": fine})
-        shown = show.section(maps, made, job, command, untrusted=untrusted)
-        page = write_report(both, job.report, no_video, maps=shown)
+        both = compared(source.scenario, source.text, source.stem, settings={"mujoco": fine})
+        page = write_report(both, job.report, no_video, maps=show.section(made, job, command))
         yield f"report     {page}"
 
 

@@ -22,72 +22,56 @@ from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.layers import NOT_TOSSED
 from cointoss.compare.sweep.tossed_map import TossedMap
 from cointoss.models.palette import COLORS
-from cointoss.models.records import Array
 
 
-def png_of(
-    maps: list[NDArray[np.int8]],
-    sweep: Sweep,
-    style: PictureStyle,
-    *,
-    margins: Array | None = None,
-    untrusted: NDArray[np.bool_] | None = None,
-) -> bytes:
+def png_of(made: Sequence[TossedMap], style: PictureStyle) -> bytes:
     """Draw one map, or those of both engines and where they differ, with the numbers of their agreement.
 
     Args:
-        maps: (y, x) each, the first by the analytic engine if there are two.
-        sweep: what the first was made of.
+        made: the map, beside which its margins are drawn, or two, the first by the analytic engine. Pixels of
+            the first that are not trusted are hatched.
         style: how to draw.
-        margins: of the first map, (y, x), to be drawn beside it.
-        untrusted: the pixels of the first map, (y, x), that are hatched.
 
     Returns:
         The content of a PNG file.
     """
+    first, maps = made[0], [each.outcome for each in made]
+    sweep, untrusted = first.sweep, first.untrusted
     x, y = _drawn(sweep.x), _drawn(sweep.y)
     if len(maps) > 1:
         measured = measure(*maps)
         note = f"agree: {percent(measured.away)} away from boundaries,\n{percent(measured.near)} near them"
         figure = picture.draw_comparison(*maps, x=x, y=y, style=style, note=note, untrusted=untrusted)
     else:
-        beside = None if margins is None else _margins(margins, sweep)
-        figure = picture.draw_map(maps[0], x=x, y=y, style=style, margins=beside, untrusted=untrusted)
+        beside = None if sweep.margin is None else _margins(first.layers["margin"], sweep)
+        figure = picture.draw_map(first.outcome, x=x, y=y, style=style, margins=beside, untrusted=untrusted)
     figure.suptitle(_title(sweep), parse_math=False)
     return picture_bytes(figure, dpi=style.dpi)
 
 
-def section(
-    maps: list[NDArray[np.int8]],
-    sweeps: Sequence[Sweep],
-    style: PictureStyle,
-    command: str,
-    *,
-    untrusted: NDArray[np.bool_] | None = None,
-) -> MapSection:
+def section(made: Sequence[TossedMap], style: PictureStyle, command: str) -> MapSection:
     """Return what a report shows of the maps of both engines.
 
     Args:
-        maps: (y, x) each, the first by the analytic engine.
-        sweeps: what each was made of.
+        made: the maps, the first by the analytic engine.
         style: how to draw.
         command: that makes the maps.
-        untrusted: the pixels of the first map, (y, x), that are hatched.
     """
-    sweep = sweeps[0]
-    shares = {
-        sweep.engine.value: {str(outcome): share for outcome, share in fractions(outcomes).items()}
-        for sweep, outcomes in zip(sweeps, maps, strict=True)
-    }
+    sweep, untrusted = made[0].sweep, made[0].untrusted
     return MapSection(
-        picture=png_of(maps, sweep, style, untrusted=untrusted),
+        picture=png_of(made, style),
         numbers={
             "axes": {"x": asdict(sweep.x), "y": asdict(sweep.y)},
             "after": sweep.after,
-            "fractions": shares,
-            "agreement": {"distance": AWAY, **asdict(measure(*maps))},
+            "fractions": {
+                each.sweep.engine.value: {
+                    str(outcome): share for outcome, share in fractions(each.outcome).items()
+                }
+                for each in made
+            },
+            "agreement": {"distance": AWAY, **asdict(measure(*(each.outcome for each in made)))},
             "untrusted": None if untrusted is None else float(untrusted.mean()),
-            "settings": {sweep.engine.value: sweep.settings.as_dict() for sweep in sweeps},
+            "settings": {each.sweep.engine.value: each.sweep.settings.as_dict() for each in made},
             "command": command,
         },
     )

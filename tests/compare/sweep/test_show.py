@@ -23,6 +23,7 @@ from cointoss.compare.sweep import job, show
 from cointoss.compare.sweep.layout import layout_of_map
 from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.compare.sweep.store import opened
+from cointoss.compare.sweep.tossed_map import TossedMap
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
 from tests.helpers.basin_runs import SCENARIO, sweep_of
@@ -41,10 +42,18 @@ def coin(tmp_path, monkeypatch):
     return tmp_path / "coin.toml"
 
 
-def section_of(maps, after=None, untrusted=None):
+def section_of(maps, after=None, certain=None):
     case = parse(COIN, "coin")
-    sweeps = [sweep_of(X, Y, case, engine, after=after) for engine in Engine]
-    return show.section(maps, sweeps, PictureStyle(dpi=20), "cointoss basin", untrusted=untrusted)
+    trusted = {} if certain is None else {"outcome_certain": certain.astype(np.int8)}
+    sweeps = [
+        sweep_of(X, Y, case, engine, after=after, trust=bool(trusted) and engine == Engine.ANALYTIC)
+        for engine in Engine
+    ]
+    made = [
+        TossedMap(name="", sweep=sweep, layers={"outcome": outcomes, **trusted})
+        for sweep, outcomes in zip(sweeps, maps, strict=True)
+    ]
+    return show.section(made, PictureStyle(dpi=20), "cointoss basin")
 
 
 def shown_of(section, folder):
@@ -98,7 +107,7 @@ def test_the_report_hatches_what_the_analytic_engine_cannot_be_trusted_with(coin
     assert tossed_map_at(tmp_path / "map-mujoco.zarr").untrusted is None
     assert "--trust" in shlex.split(numbers["command"])
     maps, hatched = [halves(20, 20)] * 2, np.arange(400).reshape(20, 20) < 100
-    plain, shown = section_of(maps), section_of(maps, untrusted=hatched)
+    plain, shown = section_of(maps), section_of(maps, certain=~hatched)
     assert "untrusted" not in shown_of(plain, tmp_path / "plain")
     said = "untrusted (hatched): the engine’s own errors may have decided 25.000 % –"
     assert said in shown_of(shown, tmp_path / "shown")
