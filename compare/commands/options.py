@@ -175,26 +175,8 @@ def _option(one: _Field, names: Callable[[], Iterable[str]] | None) -> Callable[
     elif not one.is_many:
         default = str(one.default) if isinstance(one.default, StrEnum) else one.default
         more |= {"default": default, "show_default": one.default not in (None, False, "")}
-    return click.option(option_of(one.name), one.name, cls=_Option, record=one.record, **more)
-
-
-class _Option(click.Option):
-    """An option with the text below a field as its help.
-
-    The text is read when it is asked for: a command's start does not wait for it.
-    """
-
-    def __init__(self, *words: Any, record: type, **more: Any) -> None:
-        self._record = record
-        super().__init__(*words, **more)
-
-    def _meaning(self) -> str:
-        return " ".join(meanings(self._record)[str(self.name)].split())
-
-    def _keep_nothing(self, _: object) -> None:
-        """Take what click sets."""
-
-    help = property(_meaning, _keep_nothing)  # pyright: ignore[reportAssignmentType]
+    help_ = " ".join(meanings(one.record)[one.name].split())
+    return click.option(option_of(one.name), one.name, help=help_, **more)
 
 
 def _is_worded(kind: Any) -> bool:
