@@ -5,7 +5,6 @@
 
 import hashlib
 import os
-import signal
 import subprocess
 import sys
 import tempfile
@@ -38,7 +37,7 @@ def build_once(module: str, folder: Path, systems: Sequence[str] = (SYSTEM,)) ->
     Raises:
         EngineMissingError: where it can't be built, in one line.
     """
-    from filelock import FileLock, Timeout
+    from filelock import FileLock
 
     name = module.split(".")[-2]
     try:
@@ -46,11 +45,8 @@ def build_once(module: str, folder: Path, systems: Sequence[str] = (SYSTEM,)) ->
         remove_unused(folder)
         checkout = hashlib.sha256(str(HOME).encode()).hexdigest()[:8]
         lock = FileLock(folder / f"{name}-{checkout}.lock")
-        try:
-            lock.acquire(blocking=False)
-        except Timeout:
-            with stage(f"waiting for another process, which builds the {name} engine", shown=True):
-                lock.acquire()
+        with stage(f"waiting for another process, which builds the {name} engine", shown=True):
+            lock.acquire()
         try:
             if missing := [each for each in systems if current(folder, name, each) is None]:
                 _build(module, name, folder, missing)
@@ -84,18 +80,17 @@ def _build(module: str, name: str, folder: Path, systems: Sequence[str]) -> None
     with (
         tempfile.TemporaryFile("w+") as errors,
         stage(f"building the {name} engine{shown}, once", detail=lambda: "".join(parts), shown=True),
-        # It ends with this process, however that ends: then nobody holds its standard input any more.
-        subprocess.Popen(
-            command, env=environment, text=True, stdin=given, stdout=given, stderr=errors
-        ) as process,
     ):
-        try:
-            for line in process.stdout or ():
+        process = subprocess.Popen(
+            command, env=environment, text=True, stdin=given, stdout=given, stderr=errors
+        )
+        assert process.stdin is not None
+        assert process.stdout is not None
+        # It ends where nobody holds its standard input any more. An interruption does not wait for that.
+        with process.stdin, process.stdout:
+            for line in process.stdout:
                 parts[:] = [line.strip()]
             process.wait()
-        except BaseException:
-            process.send_signal(signal.SIGTERM)
-            raise
         errors.seek(0)
         problem = errors.read()
     if process.returncode == REFUSED:
