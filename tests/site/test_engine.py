@@ -319,7 +319,7 @@ def test_any_pixel_is_tossed_in_the_frame_of_a_notebook(page, tmp_path, monkeypa
     found = tossed_map_at(small_map(tmp_path))
     (tmp_path / "notebook.html").write_text(static.explore(found)._repr_html_(), encoding="utf-8")
     (frame,) = page.open_frames((tmp_path / "notebook.html").as_uri(), 1)
-    x, y = found.x[11], found.y[9]
+    x, y = found.sweep.x.values[11], found.sweep.y.values[9]
     toss = analytic.toss(found.sweep.scenario.replace(found.sweep.x.field, x, found.sweep.y.field, y))
     for key in ("Enter", "ArrowLeft"):
         pressed = f"new KeyboardEvent('keydown', {{ key: '{key}' }})"
