@@ -314,7 +314,7 @@ def hold_to_event(setup: Setup, mode: int, y: Array, spent: Spent) -> Passage:
         if tilts.periodic and not step.is_over:
             record_tilt(tilts, y)
             if repeats(tilts):
-                outcome, ending = endless(body, rules, state_of(y), Ending.PERIODIC)
+                outcome, ending = endless(body, rules, state_of(y), setup.history, Ending.PERIODIC)
                 return ends(spent, outcome, ending)
         if stands_for_good(contact, in_mode, early, y):
             return ends(spent, Outcome.EDGE, Ending.STANDING)

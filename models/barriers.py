@@ -12,6 +12,8 @@ from cointoss.models.state import State
 
 # Sines and cosines of the tilts at which the energy needed is computed, from just off a face to upright.
 _COSINES, _SINES = (part[1:].copy() for part in on_circle(4 * 128, 129))
+# The number of leans on either side of the edge at which it is computed, the closer the nearer to the edge.
+_LEANS = 16
 # A bound times this factor is still a bound after rounding.
 BEYOND_ROUNDING = 1 + 1e-12
 
@@ -102,25 +104,72 @@ def spin_barrier_bound(body: Body, up: Vector, w: Vector) -> float:
 
 
 @compiled
+def edge_barrier(body: Body, up: Vector, w: Vector) -> float:
+    """Bound from below the energy at which a coin on a smooth floor in vacuum can leave its edge [J].
+
+    It is `least_energy` at the lesser of the two passes around n_z = 0: the first maximum on either side, or
+    the lean with C above the lowest point if that comes first. As n_z is continuous, it never passes where
+    the coin needs more energy than it has. The bound is 0 for a coin that is not between two passes.
+
+    Args:
+        body: the coin, balanced.
+        up: the upward unit vector in the body frame, (3,).
+        w: angular velocity, body frame, (3,) [rad/s].
+    """
+    most = body.thickness / (2 * math.hypot(body.radius, body.thickness / 2))
+    L = apply(body.inertia, w)
+    L_z, weight = dot(up, L), body.mass * body.gravity
+    tips = abs(L_z * L[2]) >= weight * body.thickness / 2 * body.inertia[0][0]
+    if tips or abs(up[2]) >= most:
+        return 0.0
+    upright, least = least_energy(body, L_z, L[2], 1.0, 0.0), math.inf
+    for side in (1.0, -1.0):
+        highest, lean = upright, 0.0
+        for i in range(_LEANS):
+            n_z = most * ((i + 1) / _LEANS) ** 2
+            E = least_energy(body, L_z, side * L[2], math.sqrt(1 - n_z * n_z), n_z)
+            if E <= highest:
+                break
+            highest, lean = E, n_z
+        least = min(least, highest if side * up[2] <= lean else 0.0)
+    return least
+
+
+@compiled
+def least_energy(body: Body, L_z: float, L_zeta: float, sine: float, cosine: float) -> float:
+    """Return the least energy, without that of v_h, of a balanced coin at a tilt s over the floor [J].
+
+    m g (r sin s + (h/2) cos s) + (L_z - L_ζ cos s)²/(2 J_ξ sin² s) + L_ζ²/(2 J_ζ)
+
+    Args:
+        body: the coin.
+        L_z: angular momentum about the vertical [kg m²/s].
+        L_zeta: about the normal, as it is with heads up [kg m²/s].
+        sine: of the tilt, not 0.
+        cosine: of the tilt, not negative.
+    """
+    J = body.inertia
+    weight = body.mass * body.gravity * (body.radius * sine + body.thickness / 2 * cosine)
+    across = (L_z - L_zeta * cosine) ** 2 / (2 * J[0][0] * sine * sine)
+    return weight + across + L_zeta * L_zeta / (2 * J[2][2])
+
+
+@compiled
 def _top_barrier(body: Body, up: Vector, w: Vector) -> float:
     """Bound from below the energy at which the ideal coin on a smooth floor in vacuum can turn over [J].
 
-    There L_z and L_ζ are conserved, through impacts too, so that at tilt s the coin needs at least
-    m g (r sin s + (h/2) cos s) + (L_z - L_ζ cos s)²/(2 J_ξ sin² s), beside L_ζ²/(2 J_ζ). To turn over it
-    must pass every tilt from the present one to π/2, so the largest energy over some of them is a bound.
+    There L_z and L_ζ are conserved, through impacts too, so that at each tilt the coin needs at least
+    `least_energy`. To turn over it must pass every tilt from the present one to π/2, so the largest energy
+    over some of them is a bound.
     """
-    J_across, J_normal = body.inertia[0][0], body.inertia[2][2]
     L = apply(body.inertia, w)
     L_z = dot(up, L)
     L_zeta = -lower_rim(up[2]) * L[2]
     today, highest = min(tilt_sine_of(up), 1.0), 0.0
     for i in range(len(_SINES)):
-        sine, cosine = _SINES[i], _COSINES[i]
-        if sine < today:
-            continue
-        weight = body.mass * body.gravity * (body.radius * sine + body.thickness / 2 * cosine)
-        highest = max(highest, weight + (L_z - L_zeta * cosine) ** 2 / (2 * J_across * sine * sine))
-    return highest + L_zeta * L_zeta / (2 * J_normal)
+        if _SINES[i] >= today:
+            highest = max(highest, least_energy(body, L_z, L_zeta, _SINES[i], _COSINES[i]))
+    return highest
 
 
 @compiled

@@ -4,6 +4,7 @@ import math
 
 from cointoss.models.barriers import (
     barrier,
+    edge_barrier,
     energy,
     energy_without_spin,
     rim_offset,
@@ -28,7 +29,7 @@ from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, apply, dot, norm
 from cointoss.models.laws import EndingTest
 from cointoss.models.making import AT_REST
-from cointoss.models.perpetual import EnergyHistory, can_be_judged, energy_loss_converges
+from cointoss.models.perpetual import EnergyHistory, can_be_judged, energy_loss_converges, wrongly_lost
 from cointoss.models.records import Ending, Face, Outcome
 from cointoss.models.state import State
 
@@ -60,9 +61,9 @@ def classify_ending(
     """
     if cannot_be_caught(body, rules, state):
         return Outcome.UNDECIDED, Ending.NOT_CAUGHT
-    outcome, ending = final_face(body, rules, state)
+    outcome, ending = final_face(body, rules, state, wrongly_lost(history))
     if ending == Ending.NONE and energy_loss_converges(body, rules, state, time, history):
-        return endless(body, rules, state, Ending.PERPETUAL)
+        return endless(body, rules, state, history, Ending.PERPETUAL)
     return outcome, ending
 
 
@@ -99,7 +100,9 @@ def unless_caught(rules: Rules, outcome: Outcome, ending: Ending) -> tuple[Outco
 
 
 @compiled
-def endless(body: Body, rules: Rules, state: State, ending: Ending) -> tuple[Outcome, Ending]:
+def endless(
+    body: Body, rules: Rules, state: State, history: EnergyHistory, ending: Ending
+) -> tuple[Outcome, Ending]:
     """Return how a toss ends whose coin goes on for ever without meeting the test of its scenario.
 
     If a test of the paper is never met, the face may still be settled.
@@ -108,9 +111,10 @@ def endless(body: Body, rules: Rules, state: State, ending: Ending) -> tuple[Out
         body: the coin.
         rules: floor and ending.
         state: of the coin, a `State`.
+        history: of the toss.
         ending: PERIODIC where that is proved, PERPETUAL where it is extrapolated.
     """
-    outcome, settled = settled_face(body, rules, state)
+    outcome, settled = settled_face(body, rules, state, wrongly_lost(history))
     if settled != Ending.NONE:
         return outcome, settled
     return Outcome.PERPETUAL, ending
@@ -128,7 +132,7 @@ def out_of_steps(body: Body, rules: Rules, state: State, history: EnergyHistory)
         state: of the coin, a `State`.
         history: of the toss.
     """
-    outcome, settled = settled_face(body, rules, state)
+    outcome, settled = settled_face(body, rules, state, wrongly_lost(history))
     if settled != Ending.NONE:
         return outcome, settled
     if can_be_judged(history):
@@ -164,7 +168,7 @@ def followed_until(rules: Rules, ending: Ending, end_time: float, until: float) 
 
 
 @compiled
-def final_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Ending]:
+def final_face(body: Body, rules: Rules, state: State, doubt: float) -> tuple[Outcome, Ending]:
     """Return the face that stays up and why, or the edge; UNDECIDED and NONE where either may still come.
 
     "rigorous" is `settled_face`, "paper" is E < m g r and "paper_smooth" is eq. (20) of Strzalko et al. 2008;
@@ -175,10 +179,11 @@ def final_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Ending]
         body: the coin.
         rules: floor and ending.
         state: of the coin, a `State`.
+        doubt: see `settled_face`.
     """
     face, mgr = face_outcome(state), body.mass * body.gravity * body.radius
     if rules.test == EndingTest.RIGOROUS:
-        outcome, ending = settled_face(body, rules, state)
+        outcome, ending = settled_face(body, rules, state, doubt)
         if ending != Ending.NONE:
             return outcome, ending
     elif rules.test == EndingTest.PAPER:
@@ -199,13 +204,13 @@ def face_outcome(state: State) -> Outcome:
 
 
 @compiled
-def settled_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Ending]:
+def settled_face(body: Body, rules: Rules, state: State, doubt: float) -> tuple[Outcome, Ending]:
     """Return the face that is proved to stay up and why, or the edge; UNDECIDED and NONE where none is.
 
     The energy is below the pass to the other face and the tilt is on this face's side of it. On a smooth
     floor, energies that cannot lift the coin are left out: in vacuum the energies of the conserved v_h and
     L_z, in linear air most of the energy of v_h, and for a balanced coin the energy of its spin. A thick coin
-    may also be caught on its edge. docs/ENDINGS.md has the proofs.
+    is caught on its edge below the passes on both sides. docs/ENDINGS.md has the proofs.
 
     On a slope energy and spin are bounded only on a smooth floor in vacuum: see `slope_feeds`.
 
@@ -216,29 +221,30 @@ def settled_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Endin
         body: the coin.
         rules: floor and ending.
         state: of the coin, a `State`.
+        doubt: the part of its energy that the engine may have lost, see `wrongly_lost`.
     """
     smooth = is_smooth(rules.law)
     if slope_feeds(body, smooth):
         return Outcome.UNDECIDED, Ending.NONE
     v, w, up = state.velocity, state.spin, state.R[2]
-    E, face = energy(body, state.position[2], v, w), face_outcome(state)
+    E, most, face = energy(body, state.position[2], v, w), 1 + doubt, face_outcome(state)
     ending = Ending.SETTLED if never_adds_energy(rules) else Ending.PAPER
-    tilt_sine = tilt_sine_of(up)
+    lifting = most * (E - idle_energy(body, rules, v, w)) if smooth else most * E
     on_face = _is_on_face(body, up)
-    if E < barrier(body, up[2]):
+    if lifting < barrier(body, up[2]):
         if on_face:
             return face, ending
-        if E < barrier(body, -up[2]) and _beyond_the_pass(body, up, tilt_sine):
+        if lifting < barrier(body, -up[2]) and _beyond_the_pass(body, up):
             return Outcome.EDGE, ending
     if smooth and in_vacuum(body) and not resists(rules):
-        E_turning = E - body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
+        E_turning = most * (E - body.mass * (v[0] * v[0] + v[1] * v[1]) / 2)
         # On the other side of the pass a coin may be just upright, within rounding of the energy that it
         # needs.
         E_turning += 0.0 if on_face else WOBBLE * body.mass * body.gravity * body.radius
         if not E_turning > spin_barrier_bound(body, up, w) and E_turning < spin_barrier(body, up, w):
             return face, Ending.SETTLED
-    elif smooth and on_face and E - idle_energy(body, rules, v, w) < barrier(body, up[2]):
-        return face, Ending.SETTLED
+        if not on_face and is_ideal(body) and E_turning < edge_barrier(body, up, w):
+            return Outcome.EDGE, Ending.SETTLED
     return Outcome.UNDECIDED, Ending.NONE
 
 
@@ -272,8 +278,9 @@ def _is_on_face(body: Body, up: Vector) -> bool:
 
 
 @compiled
-def _beyond_the_pass(body: Body, up: Vector, tilt_sine: float) -> bool:
+def _beyond_the_pass(body: Body, up: Vector) -> bool:
     """Return whether C is on the edge's side of the pass over the rim point that is lowest."""
+    tilt_sine = tilt_sine_of(up)
     if tilt_sine == 0:
         return False
     c = body.center

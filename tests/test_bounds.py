@@ -17,7 +17,7 @@ from cointoss.analytic.flight.turning import turning_of
 from cointoss.analytic.horizon.touch_derivatives import LEAST_STEP, speed_scale, step_size
 from cointoss.analytic.numerics.rotation import quaternion_rate
 from cointoss.models.attitude import rotation_matrix, turn_by
-from cointoss.models.barriers import barrier, highest_on_floor, spin_barrier, spin_barrier_bound
+from cointoss.models.barriers import barrier, edge_barrier, highest_on_floor, spin_barrier, spin_barrier_bound
 from cointoss.models.body import AirLaw, Body, Rules, is_ideal
 from cointoss.models.catch import approach_hand
 from cointoss.models.clearance import (
@@ -260,6 +260,32 @@ def spins(rng: Draws) -> Pairs:
     yield needed, (weights(body, u) + spinning).min(axis=1).max() * SAMPLED
 
 
+def edges(rng: Draws) -> Pairs:
+    """What the edge is said to need beyond an upright coin, and what some lean to either side needs."""
+    body = draw_body(rng, air=0.0, balanced=True)
+    corner, (J, _, J_zeta) = (
+        body.thickness / 2 / np.hypot(body.radius, body.thickness / 2),
+        np.diag(body.inertia),
+    )
+    if corner < 1e-3:
+        return
+    weight, n = body.mass * body.gravity, corner * rng.uniform(-1, 1)
+    turn = (body.gravity / body.radius) ** 0.5 * 10 ** rng.uniform(-1, 1)
+    roll = rng.uniform(-1, 1) * weight * body.thickness / (2 * J_zeta * turn)
+    up, w = (np.sqrt(1 - n * n), 0.0, n), (turn, 0.0, roll)
+    if not (needed := edge_barrier(body, up, w)):
+        return
+    L_z, L_zeta = J * turn * up[0] + J_zeta * roll * n, J_zeta * roll
+    leans = np.linspace(0, corner, 2000)
+    passes = []
+    for side in (1, -1):
+        across = (L_z - side * L_zeta * leans) ** 2 / (2 * J * (1 - leans**2))
+        high = body.radius * np.sqrt(1 - leans**2) + body.thickness / 2 * leans
+        energies = weight * high + across + L_zeta**2 / (2 * J_zeta)
+        passes.append(energies[leans >= side * n].max() - energies[0])
+    yield needed - energies[0], min(passes) * SAMPLED
+
+
 def idle_energies(rng: Draws) -> Pairs:
     """The loss of the energy that never turns into height, against that of all energy, in linear air."""
     body = draw_body(rng)
@@ -373,6 +399,7 @@ BOUNDED: dict[str, tuple[Callable[[Draws], Pairs], int, float]] = {
     "catch": (catches, 60, 0.5),
     "barrier": (barriers, 100, 0.99),
     "spin": (spins, 100, 0.9),
+    "edge": (edges, 300, 0.99),
     "idle energy": (idle_energies, 200, 0.9),
     "losses to come": (losses_to_come, 300, 0.5),
     "kink": (steps_to_a_kink, 300, 1e-3),

@@ -63,7 +63,7 @@ def mechanics(scenario: Scenario) -> OneCoin:
         ending = hit(body, rules, rules.restitution, y, row[0])
         y[2] += max(LIFT - evaluate_gap(body, state_of(y)).gap, 0.0)
         if ending == Ending.NONE:
-            _, ending = final_face(body, rules, state_of(y))
+            _, ending = final_face(body, rules, state_of(y), 0.0)
         return row[0].face, ending != Ending.NONE
 
     return OneCoin(rate, gap, gaps, strike)

@@ -23,10 +23,10 @@ from cointoss.models.state import State, state
 
 def swap_records(body: Body, rules: Rules, y: Array, now: State, A: ImpactPoint) -> None:
     """Swap coin, floor, state and contact point."""
-    settled_face(rules, body, now)  # pyright: ignore[reportArgumentType]
+    settled_face(rules, body, now, 0.0)  # pyright: ignore[reportArgumentType]
     fly(y, body, 1.0, False)  # pyright: ignore[reportArgumentType]
     impulse(body, rules, A, 0.5)  # pyright: ignore[reportArgumentType]
-    settled_face(body, rules, y)  # pyright: ignore[reportArgumentType]
+    settled_face(body, rules, y, 0.0)  # pyright: ignore[reportArgumentType]
 
 
 def swap_vectors(body: Body, R: Matrix, v: Vector, w: Vector, e: Quaternion) -> None:

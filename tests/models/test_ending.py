@@ -14,6 +14,7 @@ from cointoss.models.state import state
 from tests.helpers.draws import AIR, IMPERFECT, PAPER_OFFSET, ZLOTY, scenario
 
 final_face = by_numba(final_face)
+UNDECIDED = (Outcome.UNDECIDED, Ending.NONE)
 
 
 def classified(case, tilt, v=(0.0, 0.0, 0.0), w=(0.0, 0.0, 0.0)):
@@ -23,7 +24,7 @@ def classified(case, tilt, v=(0.0, 0.0, 0.0), w=(0.0, 0.0, 0.0)):
     up = rotation_matrix(e)[2]
     z = -gap(body, 0.0, up)
     touching = state((0.0, 0.0, z), v, e, w)
-    return final_face(body, case.rules, touching), energy(body, z, v, w), barrier(body, up[2])
+    return final_face(body, case.rules, touching, 0.0), energy(body, z, v, w), barrier(body, up[2])
 
 
 @pytest.mark.slow_after_first
@@ -32,7 +33,7 @@ def test_a_slow_coin_is_settled_and_a_fast_one_is_not(tilt, face):
     case = scenario(air=AIR)
     for speed in (0.01, 0.2, 0.4, 0.6):
         (outcome, ending), E, pass_ = classified(case, tilt, v=(0.0, 0.0, speed))
-        expected = (face, Ending.SETTLED) if pass_ > E else (Outcome.UNDECIDED, Ending.NONE)
+        expected = (face, Ending.SETTLED) if pass_ > E else UNDECIDED
         assert (outcome, ending) == expected
     assert E > pass_, "one of the speeds should be above the pass"
 
@@ -47,7 +48,7 @@ def test_the_papers_tests_compare_with_m_g_r():
     slide = np.sqrt(2 * mgr / 2e-3)
     paper, smooth = scenario(ending={"test": "paper"}), scenario(ending={"test": "paper_smooth"})
     # Sliding fast over the floor, almost flat: eq. (20) leaves the sliding out.
-    assert classified(paper, 0.01, v=(slide, 0.0, 0.0))[0] == (Outcome.UNDECIDED, Ending.NONE)
+    assert classified(paper, 0.01, v=(slide, 0.0, 0.0))[0] == UNDECIDED
     assert classified(smooth, 0.01, v=(slide, 0.0, 0.0))[0] == (Outcome.HEADS, Ending.PAPER_SMOOTH)
     assert classified(smooth, 0.01, w=(0.0, 0.0, 300.0))[0] == (Outcome.HEADS, Ending.PAPER_SMOOTH)
 
@@ -60,7 +61,7 @@ def test_what_a_smooth_floor_conserves_settles_a_fast_spinning_coin():
     assert E > 10 * pass_
     assert (outcome, ending) == (Outcome.HEADS, Ending.SETTLED)
     for air in ({"tangential": 0.2, "exponent": 1.0}, {"normal": 0.8, "exponent": 0.5}):
-        assert classified(scenario(air=air), 0.05, **fast)[0] == (Outcome.UNDECIDED, Ending.NONE)
+        assert classified(scenario(air=air), 0.05, **fast)[0] == UNDECIDED
     assert classified(scenario(air={"exponent": 0.5}), 0.05, **fast)[0] == (Outcome.HEADS, Ending.SETTLED)
     assert classified(scenario(coin=IMPERFECT), 0.05, **fast)[0] == (Outcome.HEADS, Ending.SETTLED)
 
@@ -93,9 +94,36 @@ def test_a_coin_that_leans_near_its_edge_is_settled_if_its_spin_keeps_it_from_co
     assert (outcome == Outcome.HEADS) == (expected == Ending.SETTLED)
 
 
-def test_an_upright_coin_is_not_settled_on_the_face_that_rounding_gives_it():
+@pytest.mark.parametrize(
+    ("thickness", "expected"),
+    [(0.0, UNDECIDED), (2e-3, (Outcome.EDGE, Ending.SETTLED))],
+)
+def test_an_upright_coin_is_not_settled_on_the_face_that_rounding_gives_it(thickness, expected):
+    case = scenario(coin={**ZLOTY, "thickness": thickness})
     for tilt in np.pi / 2 + np.array([-1e-9, -1e-12, 0.0, 1e-12, 1e-9]):
-        assert classified(scenario(), tilt, w=(0.0, 60.0, 0.0))[0] == (Outcome.UNDECIDED, Ending.NONE)
+        assert classified(case, tilt, w=(0.0, 60.0, 0.0))[0] == expected
+
+
+@pytest.mark.parametrize(("turn", "roll", "held"), [(0, 0, 1), (60, 0, 1), (10, 11, 0.1), (-11, 10, 0.1)])
+def test_an_upright_coin_is_held_on_its_edge_by_its_weight_against_its_spin(turn, roll, held):
+    """C must rise by about g h²/(8 r); turning adds (J_ξ/m) (turn h/(2 r))²/2, rolling too lowers a pass."""
+    r, h, J, g = 1.25e-2, 2e-3, 1.25e-2**2 / 4 + 2e-3**2 / 12, 9.81
+    rise = g * (np.hypot(r, h / 2) - r) + J * (turn * h / (2 * r)) ** 2 / 2
+    for part, expected in ((0.98 * held**2, (Outcome.EDGE, Ending.SETTLED)), (1.02, UNDECIDED)):
+        moving = {"v": (0.5, 0.0, np.sqrt(2 * rise * part)), "w": (0, turn, roll)}
+        assert classified(scenario(), np.pi / 2, **moving)[0] == expected
+    tips = {"v": (0.5, 0.0, 0.0), "w": (0, 10, g * h / (r * r * 10))}
+    assert classified(scenario(), np.pi / 2, **tips)[0] == UNDECIDED
+
+
+def test_the_roll_of_a_balanced_coin_does_not_lift_it_off_its_edge_in_linear_air():
+    for coin, exponent, expected in (
+        (ZLOTY, 0, (Outcome.EDGE, Ending.SETTLED)),
+        (ZLOTY, 0.5, UNDECIDED),
+        (IMPERFECT, 0, UNDECIDED),
+    ):
+        case = scenario(coin=coin, air={**AIR, "exponent": exponent})
+        assert classified(case, np.pi / 2, w=(0.0, 0.0, 60.0))[0] == expected
 
 
 def test_an_imperfect_coin_is_settled_on_a_smooth_floor_only_below_every_way_over():
@@ -138,16 +166,16 @@ def test_a_flat_coin_lies_unless_its_unbalanced_spin_lifts_it(contact, spin, lie
     J, c = case.body.inertia, float(np.linalg.norm(PAPER_OFFSET[:2]))
     moment = np.hypot(J[0][2], J[1][2]) * spin**2
     assert (moment < 0.5 * 2e-3 * 9.81 * (1.25e-2 - c)) == lies
-    expected = (Outcome.HEADS, Ending.LYING) if lies else (Outcome.UNDECIDED, Ending.NONE)
+    expected = (Outcome.HEADS, Ending.LYING) if lies else UNDECIDED
     assert classified(case, 0.0, w=(0.0, 0.0, spin))[0] == expected
-    assert classified(case, 1e-3, w=(0.0, 0.0, 300.0))[0] == (Outcome.UNDECIDED, Ending.NONE), "it is tilted"
+    assert classified(case, 1e-3, w=(0.0, 0.0, 300.0))[0] == UNDECIDED, "it is tilted"
 
 
 @pytest.mark.parametrize("tilt", [np.pi / 2 - 1e-10, np.pi / 2 + 1e-10])
 def test_a_coin_as_thick_as_wide_does_not_lie_on_a_face_where_it_slides_upright(tilt):
     """It is then as high as flat."""
     thick = scenario(coin={**ZLOTY, "thickness": 2 * ZLOTY["radius"]}, floor={"contact": "coulomb"})
-    assert classified(thick, tilt, v=(0.6, 0.0, 0.0))[0] == (Outcome.UNDECIDED, Ending.NONE)
+    assert classified(thick, tilt, v=(0.6, 0.0, 0.0))[0] == UNDECIDED
     assert classified(thick, 0.0, v=(0.6, 0.0, 0.0))[0] == (Outcome.HEADS, Ending.LYING)
     assert classified(thick, tilt)[0][0] == Outcome.EDGE
 
@@ -160,7 +188,7 @@ def test_a_thick_coin_is_caught_on_its_edge_below_both_passes(center):
         assert pass_ > E
         assert (outcome, ending) == (Outcome.EDGE, Ending.SETTLED)
     fast = classified(scenario(coin=coin, air=AIR), np.pi / 2 - 0.05, v=(0.0, 0.0, 0.2))
-    assert fast[0] == (Outcome.UNDECIDED, Ending.NONE)
+    assert fast[0] == UNDECIDED
 
 
 @pytest.mark.parametrize("law", ["smooth", "coulomb", "perfectly_rough"])
@@ -184,7 +212,7 @@ def test_lying_is_waited_for_beyond_the_settled_face():
     waiting = scenario(ending={"test": "lying"})
     for tilt, lies in ((0.1, False), (1.1e-3, False), (0.9e-3, True)):
         assert classified(scenario(), tilt)[0] == (Outcome.HEADS, Ending.SETTLED)
-        expected = (Outcome.HEADS, Ending.LYING) if lies else (Outcome.UNDECIDED, Ending.NONE)
+        expected = (Outcome.HEADS, Ending.LYING) if lies else UNDECIDED
         assert classified(waiting, tilt)[0] == expected
 
 

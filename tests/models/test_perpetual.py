@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from cointoss.models.barriers import barrier
+from cointoss.models.ending import classify_ending
 from cointoss.models.perpetual import (
     FIRST_CHECK,
     energy_history,
@@ -10,6 +12,7 @@ from cointoss.models.perpetual import (
     loss_to_come,
     start_history,
 )
+from cointoss.models.records import Ending, Outcome
 from cointoss.models.state import state
 from tests.helpers.draws import AIR, ZLOTY, scenario
 
@@ -131,3 +134,19 @@ def test_a_loss_that_no_engine_may_overlook_is_one():
     for k in range(7):
         z = 4 * ZLOTY["radius"] * (1 - 0.05 * k)
         assert not converges(case, z, 64 * 2**k * unit * 1.001, history)
+
+
+@pytest.mark.parametrize(
+    ("below", "expected"),
+    [(7e-5, (Outcome.PERPETUAL, Ending.PERPETUAL)), (9e-5, (Outcome.HEADS, Ending.SETTLED))],
+)
+def test_a_coin_that_steps_of_contact_may_have_taken_below_the_pass_is_not_settled(below, expected):
+    """Their errors begin with the first contact."""
+    case, history, unit = scenario(coin=ZLOTY), energy_history(8e-5), (ZLOTY["radius"] / G) ** 0.5
+    body, rules = case.body, case.rules
+    z = barrier(body, 1.0) / (body.mass * G) * (1 - below)
+    tilted = state((0.0, 0.0, z), STILL, (0.8, 0.6, 0.0, 0.0), STILL)
+    assert classify_ending(body, rules, tilted, 0.0, history) == (Outcome.HEADS, Ending.SETTLED)
+    start_history(body, history, 0.0)
+    found = [classify_ending(body, rules, tilted, 64 * 2**k * unit * 1.001, history) for k in range(4)]
+    assert found[-1] == expected

@@ -36,7 +36,7 @@ def touching(body, tilt, v=(0.0, 0.0, 0.0), w=(0.0, 0.0, 0.0)):
 def test_energy_settles_a_face_where_a_slope_cannot_feed_what_turns_the_coin(floor, air, level, slope):
     for angle, expected in ((0.0, level), (0.2, slope)):
         case = scenario(floor={**floor, "slope": angle}, air=air)
-        assert final_face(case.body, case.rules, touching(case.body, 0.3)) == expected
+        assert final_face(case.body, case.rules, touching(case.body, 0.3), 0.0) == expected
 
 
 def test_the_barrier_on_a_smooth_slope_is_that_of_the_part_of_gravity_along_the_normal():
@@ -45,8 +45,8 @@ def test_the_barrier_on_a_smooth_slope_is_that_of_the_part_of_gravity_along_the_
     reach = np.hypot(r, 1e-3) - (r * np.sin(0.3) + 1e-3 * np.cos(0.3))
     for factor, expected in ((0.95 * np.cos(1.0), SETTLED), (0.9, NONE)):
         moving = touching(slope.body, 0.3, v=(3.0, 0.0, np.sqrt(2 * 9.81 * reach * factor)))
-        assert final_face(slope.body, slope.rules, moving) == expected
-        assert final_face(level.body, level.rules, moving) == SETTLED
+        assert final_face(slope.body, slope.rules, moving, 0.0) == expected
+        assert final_face(level.body, level.rules, moving, 0.0) == SETTLED
 
 
 @pytest.mark.parametrize(
@@ -57,7 +57,7 @@ def test_a_flat_coin_lies_for_good_if_friction_or_balance_bounds_its_moments(coi
     """tan(0.4) is above μ = 0.3: a balanced coin slides away flat, of another nothing is said."""
     case = scenario(coin=coin, floor={**ROUGH, "slope": slope}, ending={"test": "lying"})
     sliding = touching(case.body, 0.0, v=(0.3, 0.0, 0.0), w=(0.0, 0.0, 2.0))
-    assert final_face(case.body, case.rules, sliding) == (LYING if lies else NONE)
+    assert final_face(case.body, case.rules, sliding, 0.0) == (LYING if lies else NONE)
 
 
 def test_a_thick_coin_that_a_rough_slope_topples_does_not_lie():
@@ -65,7 +65,7 @@ def test_a_thick_coin_that_a_rough_slope_topples_does_not_lie():
     thick = {"mass": 5e-3, "radius": 5e-3, "thickness": 0.02}
     for slope, outcome in ((np.arctan(0.49), LYING), (np.arctan(0.51), NONE)):
         case = scenario(coin=thick, floor={"contact": "perfectly_rough", "slope": slope})
-        assert final_face(case.body, case.rules, touching(case.body, 0.0)) == outcome
+        assert final_face(case.body, case.rules, touching(case.body, 0.0), 0.0) == outcome
 
 
 def test_an_unbalanced_coin_that_spins_on_a_smooth_slope_in_vacuum_lies():
@@ -74,14 +74,14 @@ def test_an_unbalanced_coin_that_spins_on_a_smooth_slope_in_vacuum_lies():
         floor = {"contact": "smooth", "slope": 0.3, "pivoting_friction": 1e-5}
         case = scenario(coin=IMPERFECT, floor=floor, air=air, ending={"test": "lying"})
         sliding = touching(case.body, 0.0, v=(0.3, 0.0, 0.0), w=(0.0, 0.0, 2.0))
-        assert final_face(case.body, case.rules, sliding) == outcome
+        assert final_face(case.body, case.rules, sliding, 0.0) == outcome
 
 
 def test_conserved_speed_is_left_out_where_a_smooth_floor_resists_in_vacuum():
     for slope in (0.0, 0.3):
         case = scenario(floor={"contact": "smooth", "contour_friction": 1e-4, "slope": slope})
         fast = touching(case.body, 0.1, v=(30.0, 0.0, 0.0))
-        assert final_face(case.body, case.rules, fast) == SETTLED
+        assert final_face(case.body, case.rules, fast, 0.0) == SETTLED
 
 
 def test_a_coin_on_a_line_is_held_only_where_its_weight_meets_the_floor_between_the_rims():

@@ -170,7 +170,7 @@ def test_a_coin_that_turns_upright_stands(rate):
         },
     )
     tossed = coin_mj.toss(case)
-    assert (tossed.outcome, tossed.ending) == (Outcome.EDGE, Ending.STANDING)
+    assert (tossed.outcome, tossed.ending) == (Outcome.EDGE, Ending.SETTLED)
     assert np.all(tossed.contacts[:, 1] > tossed.contacts[:, 0])
     assert len(tossed.impacts) < 200
 
