@@ -47,7 +47,7 @@ HALVINGS = 30
 APPROACH = 0.99
 """Part of the time to a landing that a step goes."""
 UPRIGHT = 1e-4
-"""A sine of the angle off the edge, its rate against √(g/r), in which a thick coin is on both rims."""
+"""A sine of the angle off the edge, its change in a step against √(g/r), in which a coin is on both rims."""
 NO_LOSS = 8e-5
 """A loss in the time √(r/g) that is none, against the energy: the steps alone change it by up to 4e-5."""
 
@@ -150,7 +150,8 @@ def follow_contact(
         force, dt = shallow_step(coin, chi, w, dt)
         time += dt
         steps_left -= 1
-        on_edge = body.thickness > 0 and abs(up[2]) < UPRIGHT and abs(up_rate[2]) < UPRIGHT * rate
+        leans = state_of(coin).R[2][2] - up[2]
+        on_edge = body.thickness > 0 and abs(up[2]) < UPRIGHT and abs(leans) < UPRIGHT * rate * dt
         upright = upright + dt if on_edge and force > 0 else 0.0
         unloaded = unloaded + dt if force == 0 else 0.0
         # Half a period of the spring.

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from cointoss import coin_mj
+from cointoss import analytic, coin_mj
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.settings import MujocoSettings
 from cointoss.coin_mj.path import MOTION, STEP, TIME, Knots
@@ -173,6 +173,23 @@ def test_a_coin_that_turns_upright_stands(rate):
     assert (tossed.outcome, tossed.ending) == (Outcome.EDGE, Ending.SETTLED)
     assert np.all(tossed.contacts[:, 1] > tossed.contacts[:, 0])
     assert len(tossed.impacts) < 200
+
+
+@pytest.mark.parametrize("engine", [analytic, coin_mj])
+@pytest.mark.parametrize(("off", "ending"), [(0.0, Ending.SETTLED), (1e-6, Ending.STANDING)])
+def test_a_coin_that_rolls_and_spins_fast_on_its_edge_stands(engine, off, ending):
+    """Its steps repeat themselves, with n_z at rest, though its rate at their starts is not zero."""
+    case = scenario(
+        coin={"mass": 5e-3, "thickness": 1e-2, "center_of_mass": [0, 0, off]},
+        floor={"restitution": 0.6},
+        release={
+            "position": [0, 0, 0.0126],
+            "quaternion": [0.5**0.5, 0.5**0.5, 0, 0],
+            "angular_velocity": [0, 12, 23],
+        },
+    )
+    tossed = engine.toss(case)
+    assert (tossed.outcome, tossed.ending) == (Outcome.EDGE, ending)
 
 
 @pytest.mark.slow_after_first
