@@ -5,14 +5,15 @@ from typing import NamedTuple
 import numpy as np
 
 from cointoss.analytic.contact.automaton import Event, Mode, flow, inlined_flow, project
-from cointoss.analytic.contact.contact import SustainedContact
+from cointoss.analytic.contact.contact import BOTH_RIMS, SustainedContact
 from cointoss.analytic.contact.landing import landing, time_to_landing
-from cointoss.analytic.contact.rim_contact import tilt_time
+from cointoss.analytic.contact.rim_contact import lean_and_rate, tilt_time
 from cointoss.analytic.contact.sliding import slip_time
 from cointoss.analytic.flight.integrated_flight import first_step
 from cointoss.analytic.flight.runge_kutta import end_point, stage_point, step_error, step_factor
 from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, normalise
 from cointoss.analytic.numerics.tableau import STAGES
+from cointoss.analytic.numerics.tolerances import TOUCH
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.geometry import FACE_SINE, tilt_sine_of
 from cointoss.models.kernel.arrays import copy_into
@@ -39,6 +40,9 @@ _LEAST_TREND, _MOST_TREND = 0.5, 1.5
 _CAUTION = 0.94
 # The end of a mode is first sought on the cubic through both ends of a step, to this part of it.
 _CUBIC = 1e-4
+# A coin that turns back before its edge within a step may have passed it where its least lean, on the cubic
+# through both ends, is below this part of theirs. That turn is found to a small part of the step.
+_NEAR_EDGE, _TURN = 0.1, 1e-7
 END_ROW = STAGES
 """The row after those of the stages: the rate of change at the end of a step."""
 # The state there, and the length that suited the last step.
@@ -192,6 +196,8 @@ def step_contact(
     if high == 0:
         return ContactStep(high, dt, True, Event.NO_SOLUTION)
     if left > 0:
+        high, left = _shortened_to_landing(contact, y, high, left, stages)
+    if left > 0:
         copy_into(y, y_new)
         copy_into(stages[0], stages[END_ROW])
         return ContactStep(high, dt, False, Event.NONE)
@@ -206,6 +212,53 @@ def step_contact(
     if event == Event.FACE_LANDS and low == 0:
         event = Event.FALLS_FLAT
     return ContactStep(low, dt, True, event)
+
+
+@compiled
+def _shortened_to_landing(
+    contact: SustainedContact, y: Array, dt: float, left: float, stages: Array
+) -> tuple[float, float]:
+    """Shorten a step in which the other rim lands and would rise again to one that ends in between.
+
+    Args:
+        contact: the contact.
+        y: state at the start of the step, (13,).
+        dt: its length [s].
+        left: the margin at its end, > 0.
+        stages: of the step; become those of the shorter one.
+
+    Returns:
+        The length of the step [s], and the margin at its end; both as given where no rim lands.
+    """
+    body, y_new = contact.body, stages[_NEW_ROW]
+    if contact.rim == BOTH_RIMS or body.thickness == 0:
+        return dt, left
+    (lean, fall), (lean_new, fall_new) = _lean_and_fall(contact, y), _lean_and_fall(contact, y_new)
+    if not (fall > 0 and fall_new < 0):
+        return dt, left
+    share = fall / (fall - fall_new)
+    rest = 1 - share
+    least = lean * rest * rest * (1 + 2 * share) + lean_new * share * share * (3 - 2 * share)
+    least -= dt * share * rest * (fall * rest - fall_new * share)
+    if least > _NEAR_EDGE * max(lean, lean_new):
+        return dt, left
+    inner, bracket = stages.copy(), bracket_between(0.0, fall, dt, fall_new)
+    while not is_narrow(bracket, _TURN * dt):
+        tried = next_try(bracket)
+        step_of_length(contact, y, tried, inner, inner[_NEW_ROW])
+        lean, fall = _lean_and_fall(contact, inner[_NEW_ROW])
+        if lean * body.thickness < -TOUCH * body.radius:
+            step_of_length(contact, y, tried, stages, y_new)
+            return tried, flow(contact, y_new, stages[END_ROW])
+        bracket = narrowed(bracket, tried, fall, _TURN * dt)
+    return dt, left
+
+
+@compiled
+def _lean_and_fall(contact: SustainedContact, y: Array) -> tuple[float, float]:
+    """Return the lean of a coin in the state y, (13,), < 0 past the edge, and how fast it falls [1/s]."""
+    n_z, rate = lean_and_rate(y)
+    return -contact.rim * n_z, contact.rim * rate
 
 
 @compiled

@@ -7,8 +7,7 @@ import numpy as np
 from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.resistance import has_resistance
-from cointoss.analytic.flight.state_vector import attitude_of, spin_of
-from cointoss.models.attitude import rotation_matrix
+from cointoss.analytic.contact.rim_contact import lean_and_rate
 from cointoss.models.body import in_vacuum, is_ideal, slope_feeds
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import Array
@@ -52,7 +51,7 @@ def start_tilt_history(contact: SustainedContact) -> TiltHistory:
 def record_tilt(history: TiltHistory, y: Array) -> None:
     """Add the state at the end of a step, (13,), to the history."""
     if history.periodic:
-        rate = tilt_rate(y)
+        _, rate = lean_and_rate(y)
         if abs(rate) > history.slowest:
             if rate * history.rate[0] < 0:
                 history.turns[0] += 1
@@ -63,10 +62,3 @@ def record_tilt(history: TiltHistory, y: Array) -> None:
 def repeats(history: TiltHistory) -> bool:
     """Return whether a contact has gone through a whole period of its tilt."""
     return history.turns[0] >= 3
-
-
-@compiled
-def tilt_rate(y: Array) -> float:
-    """Return the rate of n_z in the state y, (13,) [1/s]."""
-    up, w = rotation_matrix(attitude_of(y))[2], spin_of(y)
-    return up[0] * w[1] - up[1] * w[0]

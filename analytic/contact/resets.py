@@ -7,12 +7,10 @@ from cointoss.analytic.contact import upright
 from cointoss.analytic.contact.automaton import Mode, project
 from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.one_rim import contact_in_flight
-from cointoss.analytic.contact.periodic import tilt_rate
 from cointoss.analytic.contact.resistance import FloorFriction
-from cointoss.analytic.contact.rim_contact import accelerate, rim_contact
+from cointoss.analytic.contact.rim_contact import accelerate, lean_and_rate, rim_contact
 from cointoss.analytic.contact.sliding import jams, slips
 from cointoss.analytic.flight.state_vector import (
-    attitude_of,
     position_of,
     set_height,
     set_spin,
@@ -21,7 +19,6 @@ from cointoss.analytic.flight.state_vector import (
 )
 from cointoss.analytic.impact.laws import ImpactPoint, impulse, spin_after
 from cointoss.analytic.numerics.tolerances import SLOW
-from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import Body, Rules
 from cointoss.models.contact_laws.coulomb import coulomb
 from cointoss.models.geometry import FLAT_SINE, contact_velocity, evaluate_gap, lowest_point
@@ -145,9 +142,9 @@ def tilt_onto_rim(body: Body, y: Array) -> None:
         body: the coin.
         y: state, (13,).
     """
-    up, rate = rotation_matrix(attitude_of(y))[2], tilt_rate(y)
-    if body.thickness > 0 and abs(up[2]) < FLAT_SINE and rate != 0:
-        upright.tilt(y, up[2] - math.copysign(FLAT_SINE / 8, rate))
+    n_z, rate = lean_and_rate(y)
+    if body.thickness > 0 and abs(n_z) < FLAT_SINE and rate != 0:
+        upright.tilt(y, n_z - math.copysign(FLAT_SINE / 8, rate))
 
 
 @compiled

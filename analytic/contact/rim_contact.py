@@ -150,6 +150,13 @@ def tilt_time(y: Array) -> float:
     return tilt_sine_of(up) / rate if rate > 0 else np.inf
 
 
+@compiled
+def lean_and_rate(y: Array) -> tuple[float, float]:
+    """Return n_z, which is 0 for a coin on its edge, and its rate in the state y, (13,) [1/s]."""
+    up = rotation_matrix(attitude_of(y))[2]
+    return up[2], cross(up, spin_of(y))[2]
+
+
 @inlined
 def rim_motion(body: Body, friction: FloorFriction, flight: Flight, rim: float) -> RimMotion:
     """Return the `RimMotion` of a rim, with the resistance of the floor.

@@ -5,6 +5,7 @@ import numpy as np
 from cointoss.analytic.contact import upright
 from cointoss.analytic.contact.automaton import contact_at, flow
 from cointoss.analytic.contact.contact import SustainedContact
+from cointoss.analytic.contact.rim_contact import lean_and_rate
 from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, spin_of
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.kernel.compiled import compiled
@@ -45,10 +46,3 @@ def restoring_acceleration(contact: SustainedContact, rim: float, lean: float, y
     flow(contact_at(contact.body, contact.friction, contact.mode, leaning), leaning, dy)
     up, w = rotation_matrix(attitude_of(leaning))[2], spin_of(leaning)
     return rim * (cross(cross(up, w), w)[2] + cross(up, spin_of(dy))[2])
-
-
-@compiled
-def lean_and_rate(y: Array) -> tuple[float, float]:
-    """Return n_z, which is 0 for a coin on its edge, and its rate in the state y, (13,) [1/s]."""
-    up = rotation_matrix(attitude_of(y))[2]
-    return up[2], cross(up, spin_of(y))[2]

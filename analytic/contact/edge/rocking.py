@@ -6,8 +6,9 @@ import numpy as np
 
 from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.contact import SustainedContact
-from cointoss.analytic.contact.edge.restoring import TRIAL, lean_and_rate, restoring_acceleration
+from cointoss.analytic.contact.edge.restoring import TRIAL, restoring_acceleration
 from cointoss.analytic.contact.edge.rolling import PHASES, roll_by, set_roll_rate, to_lowest
+from cointoss.analytic.contact.rim_contact import lean_and_rate
 from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, spin_of
 from cointoss.analytic.numerics.tolerances import STEADY
 from cointoss.models.attitude import rotation_matrix

@@ -6,11 +6,11 @@ import numpy as np
 
 from cointoss.analytic.contact.automaton import Mode, contact_at
 from cointoss.analytic.contact.contact import SustainedContact
-from cointoss.analytic.contact.edge.restoring import held_on_edge, lean_and_rate
+from cointoss.analytic.contact.edge.restoring import held_on_edge
 from cointoss.analytic.contact.edge.rolling import PHASES, roll_by, set_roll_rate
 from cointoss.analytic.contact.floor_force import friction_holds, holding_force, horizontal_size
 from cointoss.analytic.contact.resistance import FloorFriction, has_resistance
-from cointoss.analytic.contact.rim_contact import both_rims
+from cointoss.analytic.contact.rim_contact import both_rims, lean_and_rate
 from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, spin_of
 from cointoss.analytic.numerics.tolerances import ON_EDGE, SLOW
 from cointoss.models.attitude import rotation_matrix

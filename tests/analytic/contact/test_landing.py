@@ -3,11 +3,14 @@
 import numpy as np
 import pytest
 
-from cointoss.analytic.contact.automaton import Mode
+from cointoss.analytic.contact.automaton import Event, Mode
+from cointoss.analytic.contact.integrator import contact_work
 from cointoss.analytic.contact.landing import time_to_landing
 from cointoss.analytic.contact.resistance import FloorFriction
-from cointoss.models.attitude import quaternion_from_angles
-from tests.helpers.contacts import held
+from cointoss.analytic.contact.upright import tilt
+from cointoss.analytic.numerics.tolerances import CONTACT_STEP_ERROR
+from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
+from tests.helpers.contacts import SMOOTH, follow_for, held, put_on_floor, step_contact, upright_coin
 from tests.helpers.draws import scenario
 
 LEAN = 0.01
@@ -41,3 +44,24 @@ def test_a_coin_that_turns_away_or_back_in_time_does_not_land():
         dy[10] = acceleration
         contact = held(scenario().body, FloorFriction(0.0), Mode.SLIDING, y)
         assert time_to_landing(contact, y, dy) == np.inf
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_rim_that_lands_and_would_rise_again_within_a_step_lands(side):
+    """A coin that its spin turns off its edge at 1e-3 rad/s lands at that rate when all is reversed."""
+    body, sliding = scenario().body, Mode.SLIDING
+    y = upright_coin(body, 0.3, 12.0, 20.0 * side)
+    up = rotation_matrix(tuple(y[6:10]))[2]
+    y[10:12] += 1e-3 * side * np.array([-up[1], up[0]])
+    tilt(y, -1e-12 * side)
+    put_on_floor(body, SMOOTH, sliding, y)
+    states, times = follow_for(body, SMOOTH, sliding, y, 0.03)
+    for longest in np.linspace(2e-3, 8e-3, 7):
+        back = states[-1] * [1, 1, 1, -1, -1, -1, 1, 1, 1, 1, -1, -1, -1]
+        contact, elapsed, event = held(body, SMOOTH, sliding, back), 0.0, Event.NONE
+        stages = contact_work(contact, back)
+        while event == Event.NONE and elapsed < 0.04:
+            step = step_contact(contact, back, longest, CONTACT_STEP_ERROR, stages)
+            elapsed, event = elapsed + step.elapsed, step.event
+        assert event == Event.SECOND_RIM_LANDS
+        assert elapsed == pytest.approx(times[-1], abs=CONTACT_STEP_ERROR / 1e-3)

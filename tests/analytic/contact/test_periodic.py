@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from cointoss.analytic.contact.automaton import Mode
-from cointoss.analytic.contact.periodic import record_tilt, repeats, start_tilt_history, tilt_rate
+from cointoss.analytic.contact.periodic import record_tilt, repeats, start_tilt_history
 from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.analytic.contact.rim_contact import lean_and_rate
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from tests.helpers.contacts import follow_step, held, put_on_floor
 from tests.helpers.draws import AIR, THIN, scenario
@@ -29,12 +30,12 @@ def test_after_a_period_the_tilt_and_its_rate_are_those_before(mode, mu):
     body = scenario(coin=THIN).body
     y = wobbling(body, mode)
     history = start_tilt_history(held(body, FloorFriction(mu), mode, y))
-    at_turns, rates, time = [], [tilt_rate(y)], 0.0
+    at_turns, rates, time = [], [lean_and_rate(y)[1]], 0.0
     while not repeats_at(history, y):
         step = follow_step(body, FloorFriction(mu), mode, y, 1e-4)
         assert not step.is_over
         time += step.elapsed
-        rates.append(tilt_rate(y))
+        rates.append(lean_and_rate(y)[1])
         if rates[-1] * rates[-2] < 0:
             at_turns.append(rotation_matrix(tuple(y[6:10]))[2][2])
     assert time > 0.05
@@ -75,6 +76,6 @@ def test_a_tilt_that_only_rounding_changes_repeats_nothing(rates, told):
     found = []
     for rate in rates * 4:
         y[10:13] = rate * across
-        assert tilt_rate(y) == pytest.approx(rate)
+        assert lean_and_rate(y)[1] == pytest.approx(rate)
         found.append(repeats_at(history, y))
     assert any(found) == told

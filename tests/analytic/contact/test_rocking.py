@@ -6,13 +6,13 @@ import pytest
 from cointoss.analytic.contact import upright
 from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.contact import lower_rim_of
-from cointoss.analytic.contact.edge.restoring import held_on_edge, lean_and_rate, restoring_acceleration
+from cointoss.analytic.contact.edge.restoring import held_on_edge, restoring_acceleration
 from cointoss.analytic.contact.edge.rocking import rocks_on_edge, steady_lean
 from cointoss.analytic.contact.edge.rolling import roll_by, to_lowest
 from cointoss.analytic.contact.edge.standing import on_edge
 from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.resistance import FloorFriction
-from cointoss.analytic.contact.rim_contact import rim_contact
+from cointoss.analytic.contact.rim_contact import lean_and_rate, rim_contact
 from cointoss.analytic.numerics.tolerances import STEADY
 from cointoss.analytic.runs import run
 from cointoss.models.attitude import rotation_matrix
