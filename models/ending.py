@@ -229,14 +229,17 @@ def settled_face(body: Body, rules: Rules, state: State, doubt: float) -> tuple[
     v, w, up = state.velocity, state.spin, state.R[2]
     E, most, face = energy(body, state.position[2], v, w), 1 + doubt, face_outcome(state)
     ending = Ending.SETTLED if never_adds_energy(rules) else Ending.PAPER
-    lifting = most * (E - idle_energy(body, rules, v, w)) if smooth else most * E
+    conserves = smooth and in_vacuum(body) and not resists(rules)
+    # A balanced coin that loses nothing may roll on one rim for ever between the passes: see `edge_barrier`.
+    idle = 0.0 if not smooth or (conserves and is_ideal(body)) else idle_energy(body, rules, v, w)
+    lifting = most * (E - idle)
     on_face = _is_on_face(body, up)
     if lifting < barrier(body, up[2]):
         if on_face:
             return face, ending
         if lifting < barrier(body, -up[2]) and _beyond_the_pass(body, up):
             return Outcome.EDGE, ending
-    if smooth and in_vacuum(body) and not resists(rules):
+    if conserves:
         E_turning = most * (E - body.mass * (v[0] * v[0] + v[1] * v[1]) / 2)
         # On the other side of the pass a coin may be just upright, within rounding of the energy that it
         # needs.

@@ -263,27 +263,18 @@ def spins(rng: Draws) -> Pairs:
 def edges(rng: Draws) -> Pairs:
     """What the edge is said to need beyond an upright coin, and what some lean to either side needs."""
     body = draw_body(rng, air=0.0, balanced=True)
-    corner, (J, _, J_zeta) = (
-        body.thickness / 2 / np.hypot(body.radius, body.thickness / 2),
-        np.diag(body.inertia),
-    )
-    if corner < 1e-3:
-        return
-    weight, n = body.mass * body.gravity, corner * rng.uniform(-1, 1)
-    turn = (body.gravity / body.radius) ** 0.5 * 10 ** rng.uniform(-1, 1)
-    roll = rng.uniform(-1, 1) * weight * body.thickness / (2 * J_zeta * turn)
-    up, w = (np.sqrt(1 - n * n), 0.0, n), (turn, 0.0, roll)
-    if not (needed := edge_barrier(body, up, w)):
-        return
-    L_z, L_zeta = J * turn * up[0] + J_zeta * roll * n, J_zeta * roll
-    leans = np.linspace(0, corner, 2000)
-    passes = []
-    for side in (1, -1):
-        across = (L_z - side * L_zeta * leans) ** 2 / (2 * J * (1 - leans**2))
-        high = body.radius * np.sqrt(1 - leans**2) + body.thickness / 2 * leans
-        energies = weight * high + across + L_zeta**2 / (2 * J_zeta)
-        passes.append(energies[leans >= side * n].max() - energies[0])
-    yield needed - energies[0], min(passes) * SAMPLED
+    h, (J, _, J_zeta) = body.thickness / 2, np.diag(body.inertia)
+    corner, weight = h / np.hypot(body.radius, h), body.mass * body.gravity
+    n, turn = corner * rng.uniform(-1, 1), (body.gravity / body.radius) ** 0.5 * 10 ** rng.uniform(-1, 1)
+    roll = rng.uniform(-1, 1) * weight * h / (J_zeta * turn)
+    L_z, L_zeta = J * turn * (1 - n * n) ** 0.5 + J_zeta * roll * n, J_zeta * roll
+    needed = edge_barrier(body, ((1 - n * n) ** 0.5, 0.0, n), (turn, 0.0, roll))
+    side, leans = np.array([[1], [-1]]), np.linspace(0, corner, 2000)
+    across = (L_z - side * L_zeta * leans) ** 2 / (2 * J * (1 - leans**2)) + L_zeta**2 / (2 * J_zeta)
+    energies = weight * (body.radius * np.sqrt(1 - leans**2) + h * leans) + across
+    if needed and corner > 1e-3:
+        passes = np.where(leans >= side * n, energies, 0).max(axis=1) - energies[0, 0]
+        yield needed - energies[0, 0], passes.min() * SAMPLED
 
 
 def idle_energies(rng: Draws) -> Pairs:

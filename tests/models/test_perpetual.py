@@ -143,10 +143,11 @@ def test_a_loss_that_no_engine_may_overlook_is_one():
 def test_a_coin_that_steps_of_contact_may_have_taken_below_the_pass_is_not_settled(below, expected):
     """Their errors begin with the first contact."""
     case, history, unit = scenario(coin=ZLOTY), energy_history(8e-5), (ZLOTY["radius"] / G) ** 0.5
-    body, rules = case.body, case.rules
-    z = barrier(body, 1.0) / (body.mass * G) * (1 - below)
+    z = barrier(case.body, 1.0) / (case.body.mass * G) * (1 - below)
     tilted = state((0.0, 0.0, z), STILL, (0.8, 0.6, 0.0, 0.0), STILL)
-    assert classify_ending(body, rules, tilted, 0.0, history) == (Outcome.HEADS, Ending.SETTLED)
-    start_history(body, history, 0.0)
-    found = [classify_ending(body, rules, tilted, 64 * 2**k * unit * 1.001, history) for k in range(4)]
+    assert classify_ending(case.body, case.rules, tilted, 0.0, history) == (Outcome.HEADS, Ending.SETTLED)
+    start_history(case.body, history, 0.0)
+    found = [
+        classify_ending(case.body, case.rules, tilted, 64 * 2**k * unit * 1.001, history) for k in range(4)
+    ]
     assert found[-1] == expected
