@@ -13,7 +13,6 @@ from cointoss.analytic.flight.integrated_flight import first_step
 from cointoss.analytic.flight.runge_kutta import end_point, stage_point, step_error, step_factor
 from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, normalise
 from cointoss.analytic.numerics.tableau import STAGES
-from cointoss.analytic.numerics.tolerances import TOUCH
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.geometry import FACE_SINE, tilt_sine_of
 from cointoss.models.kernel.arrays import copy_into
@@ -196,7 +195,7 @@ def step_contact(
     if high == 0:
         return ContactStep(high, dt, True, Event.NO_SOLUTION)
     if left > 0:
-        high, left = _shortened_to_landing(contact, y, high, left, stages)
+        high, left = _shortened_to_landing(contact, y, high, left, tolerance, stages)
     if left > 0:
         copy_into(y, y_new)
         copy_into(stages[0], stages[END_ROW])
@@ -216,7 +215,7 @@ def step_contact(
 
 @compiled
 def _shortened_to_landing(
-    contact: SustainedContact, y: Array, dt: float, left: float, stages: Array
+    contact: SustainedContact, y: Array, dt: float, left: float, tolerance: float, stages: Array
 ) -> tuple[float, float]:
     """Shorten a step in which the other rim lands and would rise again to one that ends in between.
 
@@ -225,6 +224,7 @@ def _shortened_to_landing(
         y: state at the start of the step, (13,).
         dt: its length [s].
         left: the margin at its end, > 0.
+        tolerance: error allowed in a step, relative: a rim that is deeper in the floor lands.
         stages: of the step; become those of the shorter one.
 
     Returns:
@@ -247,7 +247,7 @@ def _shortened_to_landing(
         tried = next_try(bracket)
         step_of_length(contact, y, tried, inner, inner[_NEW_ROW])
         lean, fall = _lean_and_fall(contact, inner[_NEW_ROW])
-        if lean * body.thickness < -TOUCH * body.radius:
+        if lean * body.thickness < -tolerance * body.radius:
             step_of_length(contact, y, tried, stages, y_new)
             return tried, flow(contact, y_new, stages[END_ROW])
         bracket = narrowed(bracket, tried, fall, _TURN * dt)
