@@ -107,7 +107,7 @@ def toss_coin(
         if sustained:
             start_history(coin.body, history, time)
             left_by, time, steps_left, outcome, ending, path = follow_contact(
-                coin, rules, time, steps_left, history, path, NOT_DECIDED
+                coin, plastic, rules, time, steps_left, history, path, NOT_DECIDED
             )
             if keep_all and time > start:
                 contacts = doubled(contacts) if c == len(contacts) else contacts
@@ -160,7 +160,7 @@ def go_on(
     still = STILL * (coin.body.gravity * coin.body.radius) ** 0.5 if until == AT_REST else 0.0
     weight = 1 if is_linear(coin.body.air) else AIR_STEPS
     steps_left, flight_steps_left = budgets.contact_steps // weight, budgets.flight_steps // weight
-    sustained, lands = knots[k - 1, 1] == StepKind.CONTACT.value, False
+    sustained, lands = knots[k - 1, 1] >= StepKind.CONTACT.value, False
     while time < last and steps_left > 0:
         touched = coin
         if not (sustained or lands):
@@ -179,7 +179,7 @@ def go_on(
         held = sustained
         if held:
             left_by, time, steps_left, _, _, path = follow_contact(
-                coin, rules, time, steps_left, history, path, still
+                coin, plastic, rules, time, steps_left, history, path, still
             )
         touches = doubled(touches) if n == len(touches) else touches
         touches[n, 0], touches[n, 1], touches[n, 2] = start, time, 1.0 if held else 0.0

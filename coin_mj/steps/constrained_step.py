@@ -21,7 +21,7 @@ from cointoss.coin_mj.steps.smooth_forces import write_smooth_forces
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import Matrix, cross
+from cointoss.models.kernel.vectors import Vector, add, cross, scale
 
 # MuJoCo caps its impedance at 0.9999; with R smaller and D larger by this, it is 1 - 1e-8.
 _HARDER = 1e4
@@ -42,13 +42,15 @@ class Constraint(NamedTuple):
     """The spring's stiffness over `frequency` [1/s]: as large where critically damped, else smaller."""
     level: float
     """Height above the lowest point up to which others, that land slowly, are held too [m]."""
+    rim: float
+    """The sign of ζ of the rim that is held; 0 for both."""
     feels_air: bool
     """Whether each stage finds the force of air with b > 0 anew; it is what it was last otherwise."""
 
 
-TOUCH = Constraint(0.0, 0.0, 0.0, True)
+TOUCH = Constraint(0.0, 0.0, 0.0, 0.0, True)
 """The touch of an impact: the contact's own spring acts alone."""
-IMPACT = Constraint(0.0, 0.0, 0.0, False)
+IMPACT = Constraint(0.0, 0.0, 0.0, 0.0, False)
 """An impact after its touch: the air, a quadrature of a millisecond, hardly changes its impulse meanwhile."""
 
 
@@ -112,28 +114,32 @@ def constrained_step(coin: MujocoCoin, constraint: Constraint, dt: float) -> Non
 
 @compiled
 def _set_rows(coin: MujocoCoin, constraint: Constraint) -> None:
-    """Let MuJoCo's rows of normal forces hold the lowest points, and all below the floor, and no others."""
+    """Let MuJoCo's rows of normal forces hold the lowest points, and all below the floor, and no others.
+
+    Of these they hold those of the constraint's rim alone.
+    """
     n, frequency = integer_at(coin.address.nefc), constraint.frequency
     if n == 0:
         return
     J, position, D, R, reference = _row_arrays(coin, n)
-    turned = rotation_matrix(joint_of(coin).qpos[3:])
+    up = rotation_matrix(joint_of(coin).qpos[3:])[2]
     lowest = np.inf
     for i in range(n):
-        if J[i, 2] > 1 - 1e-9:
+        if J[i, 2] > 1 - 1e-9 and constraint.rim * _point_of(coin, up, J[i])[2] >= 0:
             lowest = min(lowest, position[i])
     for i in range(n):
         D[i], R[i] = D[i] * _HARDER, R[i] / _HARDER
         if J[i, 2] <= 1 - 1e-9:
             continue
-        if position[i] > max(lowest, 0.0) + constraint.level:
+        point = _point_of(coin, up, J[i])
+        if position[i] > max(lowest, 0.0) + constraint.level or constraint.rim * point[2] < 0:
             reference[i] = _FREE
             continue
         speed = 0.0
         for j in range(6):
             speed += J[i, j] * joint_of(coin).qvel[j]
         spring = frequency * (constraint.lift * position[i] + 2 * speed)
-        reference[i] = -spring - _rising(coin, turned, J[i])
+        reference[i] = -spring - _rising(coin, up, point)
 
 
 @compiled
@@ -150,27 +156,36 @@ def _row_arrays(coin: MujocoCoin, n: int) -> tuple[Array, Array, Array, Array, A
 
 
 @compiled
-def _rising(coin: MujocoCoin, R: Matrix, J: Array) -> float:
-    """Return J̇ q̇ of a row of the rim's lowest point, its rise but for q̈ [m/s²]; 0 of any other row.
+def _point_of(coin: MujocoCoin, up: Vector, J: Array) -> Vector:
+    """Return the point p of a row from B, body frame, (3,) [m].
 
-    The lowest point of the rim at ζ = ±h/2 is z_B ± (h/2) u_ζ - r |u⊥| high, u the upward unit vector in the
-    body frame, u' = u × ω. J tells the point: p × u, p from B.
+    J tells the point by p × u: p = u × (p × u) + (p · u) u, where p · u is the point's height below B.
 
     Args:
         coin: MuJoCo's.
-        R: rotation matrix, body to space.
+        up: u, the upward unit vector in the body frame, (3,).
         J: the row, (6,).
     """
+    below = coin.floor_height - joint_of(coin).qpos[2]
+    return add(cross(up, (J[3], J[4], J[5])), scale(below, up))
+
+
+@compiled
+def _rising(coin: MujocoCoin, up: Vector, p: Vector) -> float:
+    """Return J̇ q̇ of a row of the rim's lowest point, its rise but for q̈ [m/s²]; 0 of any other row.
+
+    The lowest point of the rim at ζ = ±h/2 is z_B ± (h/2) u_ζ - r |u⊥| high, u' = u × ω.
+
+    Args:
+        coin: MuJoCo's.
+        up: u, the upward unit vector in the body frame, (3,).
+        p: the row's point, see `_point_of`.
+    """
     v = joint_of(coin).qvel
-    up, w = R[2], (v[3], v[4], v[5])
+    w = v[3], v[4], v[5]
     sine = math.hypot(up[0], up[1])
     if sine < _FACE:
         return 0.0
-    # p = u × (p × u) + (p · u) u, where p · u is the point's height below B.
-    below = coin.floor_height - joint_of(coin).qpos[2]
-    moment = (J[3], J[4], J[5])
-    across = cross(up, moment)
-    p = (across[0] + below * up[0], across[1] + below * up[1], across[2] + below * up[2])
     if -(p[0] * up[0] + p[1] * up[1]) < _LOWEST * sine * math.hypot(p[0], p[1]):
         return 0.0
     half = math.copysign(coin.shape.thickness / 2, p[2])

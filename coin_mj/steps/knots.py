@@ -23,6 +23,8 @@ class StepKind(IntEnum):
     IMPACT = 1
     CONTACT = 2
     """A step of a sustained contact."""
+    LANDING = 3
+    """The plastic impact of the other rim in a sustained contact; the next knot has the state after it."""
 
 
 class RecordedPath(NamedTuple):

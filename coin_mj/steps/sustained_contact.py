@@ -5,7 +5,13 @@ from enum import IntEnum
 
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin, joint_of
 from cointoss.coin_mj.model.state import motion_of, set_motion, state_of
-from cointoss.coin_mj.steps.constrained_step import Constraint, constrained_forward, contact_step
+from cointoss.coin_mj.steps.constrained_step import (
+    IMPACT,
+    Constraint,
+    constrained_forward,
+    contact_step,
+    forward,
+)
 from cointoss.coin_mj.steps.free_step import free_step
 from cointoss.coin_mj.steps.friction import apply_friction, friction_step
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap, turning_rate
@@ -14,7 +20,8 @@ from cointoss.coin_mj.steps.mujoco_step import set_margin, set_spring
 from cointoss.coin_mj.steps.resistance import shortest_stop
 from cointoss.models.body import Rules, friction_can_hold, slope_feeds
 from cointoss.models.ending import classify_ending, out_of_steps
-from cointoss.models.geometry import lowest_point
+from cointoss.models.geometry import lower_rim, lowest_point
+from cointoss.models.inertia import largest_across
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector, apply, cross, norm, subtract
 from cointoss.models.perpetual import FIRST_CHECK, EnergyHistory
@@ -38,6 +45,8 @@ REACH = 0.1
 """Height up to which MuJoCo keeps the row of a held point, in radii; the stages of a step leave the floor."""
 NEAR = 1e-5
 """A rim point lands when the sine of the coin's angle to its edge, or to its face, is down to this."""
+PAST = 3e-5
+"""Part of a step that a step goes beyond the landing of the other rim."""
 FACE = 1e-7
 """Below this sine of the tilt the rim turns under the coin too fast to follow."""
 DEEPEST = 4e-4
@@ -46,6 +55,12 @@ HALVINGS = 30
 """Most times that a step is halved."""
 APPROACH = 0.99
 """Part of the time to a landing that a step goes."""
+ROCKS = 2
+"""A coin rocks on its edge after more landings between which n_z changes no faster than `GROWTH` times as
+fast as after them: its weight brings it back from either rim."""
+GROWTH = 1.1
+STANDS = 0.1
+"""A coin stands on both rims if either would land within this part of a longest step."""
 UPRIGHT = 1e-4
 """A sine of the angle off the edge, its change in a step against √(g/r), in which a coin is on both rims."""
 NO_LOSS = 8e-5
@@ -94,6 +109,7 @@ def contact_restitution(coin: MujocoCoin, rules: Rules) -> float:
 @compiled
 def follow_contact(
     coin: MujocoCoin,
+    plastic: MujocoCoin,
     rules: Rules,
     time: float,
     steps_left: int,
@@ -103,8 +119,11 @@ def follow_contact(
 ) -> tuple[ContactExit, float, int, Outcome, Ending, RecordedPath]:
     """Follow a sustained contact until the coin lifts off, another rim point lands, or the toss is decided.
 
+    A slow landing of the other rim is a plastic impact, after which the contact goes on.
+
     Args:
         coin: MuJoCo's.
+        plastic: the same, for plastic impacts.
         rules: floor and ending.
         time: now [s].
         steps_left: the most steps wanted.
@@ -117,11 +136,13 @@ def follow_contact(
     """
     body = coin.body
     rate, chi = (body.gravity / body.radius) ** 0.5, contact_restitution(coin, rules)
+    landings, landing_rate = 0, math.inf
     unloaded, upright, may_speed_up = 0.0, 0.0, slope_feeds(body, coin.friction == 0)
     while time < rules.max_time:
         x, v, e, w, R = state_of(coin)
         up = R[2]
         up_rate = cross(up, w)
+        landings = landings if abs(up_rate[2]) < GROWTH * landing_rate else 0
         # Where the coin would be if it did not sink: the energy tests are finer than that.
         sunk = -min(evaluate_gap(coin).gap, 0.0)
         z = x[2] + sunk
@@ -141,18 +162,27 @@ def follow_contact(
             outcome, ending = Outcome.UNDECIDED, Ending.CONTACT_STEPS if steps_left <= 0 else Ending.NONE
         if ending != Ending.NONE:
             return ContactExit.DECIDED, time, steps_left, outcome, ending, path
-        dt, lands = next_step(coin, chi, up, up_rate, w, sunk)
-        if lands:
+        dt, face_lands = next_step(coin, chi, up, up_rate, w, sunk)
+        if face_lands:
             _pass_over(coin, dt)
             return ContactExit.RIM_LANDS, time + dt, steps_left, Outcome.UNDECIDED, Ending.NONE, path
         dt = min(dt, shortest_stop(coin, up, w), rules.max_time - time)
         path = add_knot(coin, time, StepKind.CONTACT, path)
-        force, dt = shallow_step(coin, chi, w, dt)
+        force, dt, rim_lands = shallow_step(coin, chi, w, dt)
         time += dt
         steps_left -= 1
+        if rim_lands:
+            joint_of(coin).qpos[2] -= evaluate_gap(coin).gap
+            if -evaluate_gap(coin).speed > slow_speed(coin, chi, w):
+                return ContactExit.RIM_LANDS, time, steps_left, Outcome.UNDECIDED, Ending.NONE, path
+            path = add_knot(coin, time, StepKind.LANDING, path)
+            landing_rate = _land(plastic)
+            time += plastic.rebound.step
+            steps_left -= 1
+            landings += 1
         leans = state_of(coin).R[2][2] - up[2]
         on_edge = body.thickness > 0 and abs(up[2]) < UPRIGHT and abs(leans) < UPRIGHT * rate * dt
-        upright = upright + dt if on_edge and force > 0 else 0.0
+        upright = upright + dt if force > 0 and (on_edge or landings > ROCKS) else 0.0
         unloaded = unloaded + dt if force == 0 else 0.0
         # Half a period of the spring.
         if unloaded * frequency_of(dt) > math.pi:
@@ -162,11 +192,12 @@ def follow_contact(
 
 
 @compiled
-def shallow_step(coin: MujocoCoin, chi: float, w: Vector, dt: float) -> tuple[float, float]:
-    """Advance a coin in sustained contact by dt [s], or by less where it would sink, or another rim lands.
+def shallow_step(coin: MujocoCoin, chi: float, w: Vector, dt: float) -> tuple[float, float, bool]:
+    """Advance a coin in sustained contact by dt [s], or by less where it would sink, or the other rim lands.
 
     The lowest point sinks no deeper than `DEEPEST`, unless it is as deep already, and no point is in the
-    floor that moves down faster than `slow_speed`, unless one does already.
+    floor that moves down faster than `slow_speed`, unless one does already. A coin on one rim goes no further
+    than onto its edge, where the other rim lands.
 
     Args:
         coin: MuJoCo's.
@@ -175,20 +206,100 @@ def shallow_step(coin: MujocoCoin, chi: float, w: Vector, dt: float) -> tuple[fl
         dt: the longest step [s].
 
     Returns:
-        The floor's force as of `sustained_step`, and the length of the step [s].
+        The floor's force as of `sustained_step`, the length of the step [s], and whether the other rim lands.
     """
-    start, before = motion_of(coin), evaluate_gap(coin)
+    start, before, rim = motion_of(coin), evaluate_gap(coin), held_rim(coin, w)
+    lean, lean_rate = _lean(coin, rim)
     lowest = min(before.gap, -DEEPEST * coin.body.radius)
     fastest = min(before.speed, -slow_speed(coin, chi, w))
     force = sustained_step(coin, chi, w, dt)
     for _ in range(HALVINGS):
-        now = evaluate_gap(coin)
-        if not (now.gap < lowest or (now.gap < 0 and now.speed < fastest)):
-            break
+        now, (beyond, beyond_rate) = evaluate_gap(coin), _lean(coin, rim)
+        if beyond > NEAR:
+            part = _zero_of_cubic(lean, lean_rate * dt, beyond, beyond_rate * dt) + PAST
+        elif beyond <= 0 and (now.gap < lowest or (now.gap < 0 and now.speed < fastest)):
+            part = 0.5
+        else:
+            return force, dt, beyond > 0
         set_motion(coin, start)
-        dt /= 2
+        dt *= part
         force = sustained_step(coin, chi, w, dt)
-    return force, dt
+    return force, dt, False
+
+
+@compiled
+def _lean(coin: MujocoCoin, rim: float) -> tuple[float, float]:
+    """Return how far a coin on one rim is beyond its edge, by ±n_z, and its rate [1/s]; 0 for a rim of 0."""
+    up, w = state_of(coin).R[2], state_of(coin).spin
+    return rim * up[2], rim * cross(up, w)[2]
+
+
+@compiled
+def _zero_of_cubic(start: float, start_rate: float, end: float, end_rate: float) -> float:
+    """Return where in 0 to 1 Hermite's cubic between two ends with opposite signs is zero."""
+    rise, low, high = end - start, 0.0, 1.0
+    for _ in range(HALVINGS):
+        s = (low + high) / 2
+        bend = (1 - s) * (start_rate - rise) - s * (end_rate - rise)
+        low, high = (s, high) if start + s * rise + s * (1 - s) * bend < 0 else (low, s)
+    return high
+
+
+@compiled
+def held_rim(coin: MujocoCoin, w: Vector) -> float:
+    """Return the rim that the floor holds, as the sign of its ζ, or 0 for both.
+
+    A coin of some thickness is held at its lower rim, unless it stands on both.
+
+    Args:
+        coin: MuJoCo's.
+        w: angular velocity, body frame, (3,) [rad/s].
+    """
+    if coin.body.thickness == 0:
+        return 0.0
+    up = state_of(coin).R[2]
+    if half_period(coin, up, w) < STANDS:
+        return 0.0
+    return lower_rim(up[2] if up[2] != 0 else cross(up, w)[2])
+
+
+@compiled
+def half_period(coin: MujocoCoin, up: Vector, w: Vector) -> float:
+    """Return how long the coin rocks on one rim until the other lands, by its weight, in longest steps.
+
+    Args:
+        coin: MuJoCo's.
+        up: the upward unit vector in the body frame, (3,).
+        w: angular velocity, body frame, (3,) [rad/s].
+    """
+    body, half, rate = coin.body, coin.body.thickness / 2, cross(up, w)[2]
+    restoring = body.gravity * half / (largest_across(body.inertia) / body.mass + half * half)
+    fastest = math.sqrt(rate * rate + 2 * restoring * abs(up[2]))
+    return 2 * fastest / restoring * turning_rate(body, w) / ANGLE
+
+
+@compiled
+def _land(plastic: MujocoCoin) -> float:
+    """Let the floor stop the approach of the other rim, in one step of the coin for plastic impacts.
+
+    The rocking stops if more landings would follow within the next step.
+
+    Returns:
+        The rate of n_z that is left [1/s].
+    """
+    set_margin(plastic, NEAR * plastic.body.thickness)
+    set_spring(plastic, 0.0, plastic.rebound.damping, plastic.rebound.slip_damping)
+    if forward(plastic) > 0 and plastic.has_explicit_friction:
+        friction_step(plastic, IMPACT, plastic.rebound.step)
+    else:
+        contact_step(plastic, IMPACT, plastic.rebound.step)
+    up, w, qvel = state_of(plastic).R[2], state_of(plastic).spin, joint_of(plastic).qvel
+    rate = cross(up, w)[2]
+    if half_period(plastic, up, w) >= 1:
+        return abs(rate)
+    turning = rate / (up[0] * up[0] + up[1] * up[1])
+    qvel[2], qvel[3], qvel[4] = 0.0, w[0] + up[1] * turning, w[1] - up[0] * turning
+    return 0.0
 
 
 @compiled
@@ -272,7 +383,7 @@ def constrain(coin: MujocoCoin, chi: float, w: Vector, dt: float) -> Constraint:
     if sunk > 0:
         gentle = RISE * (body.gravity * body.radius) ** 0.5 / sunk
         lift = min(frequency, max(gentle, frequency_of(ANGLE / turning_rate(body, w))))
-    return Constraint(frequency, lift, LEVEL * slow_speed(coin, chi, w) * dt, True)
+    return Constraint(frequency, lift, LEVEL * slow_speed(coin, chi, w) * dt, held_rim(coin, w), True)
 
 
 @compiled
@@ -302,7 +413,7 @@ def next_step(
     """Return the length of the next step of a sustained contact.
 
     In it the coin, and the lowest point on its way round the rim, turn by less than `ANGLE`. It ends
-    before another rim point lands faster than `slow_speed`.
+    before the opposite rim point of a face lands faster than `slow_speed`.
 
     Args:
         coin: MuJoCo's.
@@ -313,7 +424,7 @@ def next_step(
         sunk: how deep its lowest point is in the floor [m].
 
     Returns:
-        The length [s], and whether a rim point lands in it.
+        The length [s], and whether that point lands in it.
     """
     body, slow = coin.body, slow_speed(coin, chi, w)
     sine = math.hypot(up[0], up[1])
@@ -328,13 +439,11 @@ def next_step(
     sine_rate = (up[0] * up_rate[0] + up[1] * up_rate[1]) / sine if sine > 0 else 0.0
     if -sine_rate * 2 * body.radius > slow:
         dt, lands = min(dt, APPROACH * sine / -sine_rate), sine < NEAR
-    if body.thickness * abs(up_rate[2]) > slow and up[2] * up_rate[2] < 0:
-        dt, lands = min(dt, APPROACH * abs(up[2] / up_rate[2])), lands or abs(up[2]) < NEAR
     return dt, lands
 
 
 @compiled
 def _pass_over(coin: MujocoCoin, dt: float) -> None:
-    """Let the coin pass over its edge, or face, in a time dt [s], and put it on the rim point that lands."""
+    """Let the coin pass over its face in a time dt [s], and put it on the rim point that lands."""
     free_step(coin, dt / APPROACH * (2 - APPROACH))
     joint_of(coin).qpos[2] -= evaluate_gap(coin).gap
