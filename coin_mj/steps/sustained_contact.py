@@ -172,8 +172,10 @@ def follow_contact(
         time += dt
         steps_left -= 1
         if rim_lands:
-            joint_of(coin).qpos[2] -= evaluate_gap(coin).gap
             if -evaluate_gap(coin).speed > slow_speed(coin, chi, w):
+                # The contact ends where it is; its next impact starts on the floor.
+                path = add_knot(coin, time, StepKind.FLIGHT, path)
+                joint_of(coin).qpos[2] -= evaluate_gap(coin).gap
                 return ContactExit.RIM_LANDS, time, steps_left, Outcome.UNDECIDED, Ending.NONE, path
             path = add_knot(coin, time, StepKind.LANDING, path)
             landing_rate = _land(plastic)
