@@ -61,7 +61,7 @@ def classify_ending(
     """
     if cannot_be_caught(body, rules, state):
         return Outcome.UNDECIDED, Ending.NOT_CAUGHT
-    outcome, ending = final_face(body, rules, state, wrongly_lost(history))
+    outcome, ending = final_face(body, rules, state, wrongly_lost(body, history, time))
     if ending == Ending.NONE and energy_loss_converges(body, rules, state, time, history):
         return endless(body, rules, state, history, Ending.PERPETUAL)
     return outcome, ending
@@ -114,7 +114,7 @@ def endless(
         history: of the toss.
         ending: PERIODIC where that is proved, PERPETUAL where it is extrapolated.
     """
-    outcome, settled = settled_face(body, rules, state, wrongly_lost(history))
+    outcome, settled = settled_face(body, rules, state, wrongly_lost(body, history, math.inf))
     if settled != Ending.NONE:
         return outcome, settled
     return Outcome.PERPETUAL, ending
@@ -132,7 +132,7 @@ def out_of_steps(body: Body, rules: Rules, state: State, history: EnergyHistory)
         state: of the coin, a `State`.
         history: of the toss.
     """
-    outcome, settled = settled_face(body, rules, state, wrongly_lost(history))
+    outcome, settled = settled_face(body, rules, state, wrongly_lost(body, history, math.inf))
     if settled != Ending.NONE:
         return outcome, settled
     if can_be_judged(history):

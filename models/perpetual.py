@@ -59,13 +59,19 @@ def can_be_judged(history: EnergyHistory) -> bool:
 
 
 @compiled
-def wrongly_lost(history: EnergyHistory) -> float:
+def wrongly_lost(body: Body, history: EnergyHistory, time: float) -> float:
     """Return the part of its energy that the engine's steps of contact may have taken from a coin wrongly.
 
     A coin may tend from above to the energy of a pass and never come below it: one that is less than this
     part below may be above.
+
+    Args:
+        body: the coin.
+        history: of the toss.
+        time: now [s].
     """
-    return history.no_loss if history.start[0] < np.inf else 0.0
+    elapsed = (time - history.start[0]) * (body.gravity / body.radius) ** 0.5
+    return history.no_loss * min(elapsed, 1.0) if elapsed > 0 else 0.0
 
 
 @compiled
@@ -107,7 +113,7 @@ def energy_loss_converges(
     elapsed /= (body.radius / body.gravity) ** 0.5
     none = E * min(history.no_loss * elapsed / 2, _LARGEST_NONE)
     to_come = loss_to_come(energies, none, _DOUBLINGS - math.log2(elapsed))
-    return E * (1 + wrongly_lost(history)) - to_come > needed
+    return E * (1 + wrongly_lost(body, history, time)) - to_come > needed
 
 
 @compiled
