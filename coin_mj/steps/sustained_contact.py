@@ -18,12 +18,12 @@ from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap, turning_rate
 from cointoss.coin_mj.steps.knots import RecordedPath, StepKind, add_knot
 from cointoss.coin_mj.steps.mujoco_step import set_margin, set_spring
 from cointoss.coin_mj.steps.resistance import shortest_stop
-from cointoss.models.body import Rules, friction_can_hold, slope_feeds
+from cointoss.models.body import Body, Rules, friction_can_hold, slope_feeds
 from cointoss.models.ending import classify_ending, out_of_steps
 from cointoss.models.geometry import lower_rim, lowest_point
 from cointoss.models.inertia import largest_across
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import Matrix, Vector, apply, cross, norm, subtract
+from cointoss.models.kernel.vectors import Matrix, Vector, apply, cross, dot, norm, subtract
 from cointoss.models.perpetual import FIRST_CHECK, EnergyHistory
 from cointoss.models.records import Ending, Outcome
 from cointoss.models.rest import holding_arm, is_held, is_slowing
@@ -184,7 +184,8 @@ def follow_contact(
             landings += 1
         leans = state_of(coin).R[2][2] - up[2]
         on_edge = body.thickness > 0 and abs(up[2]) < UPRIGHT and abs(leans) < UPRIGHT * rate * dt
-        upright = upright + dt if force > 0 and (on_edge or landings > ROCKS) else 0.0
+        on_edge = on_edge or (landings > ROCKS and weight_rights(body, up, w))
+        upright = upright + dt if on_edge and force > 0 else 0.0
         unloaded = unloaded + dt if force == 0 else 0.0
         # Half a period of the spring.
         if unloaded * frequency_of(dt) > math.pi:
@@ -263,6 +264,19 @@ def held_rim(coin: MujocoCoin, w: Vector) -> float:
     if half_period(coin, up, w) < STANDS:
         return 0.0
     return lower_rim(up[2] if up[2] != 0 else cross(up, w)[2])
+
+
+@compiled
+def weight_rights(body: Body, up: Vector, w: Vector) -> bool:
+    """Return whether weight rights a coin on either rim, however all of its turning goes into its roll.
+
+    Args:
+        body: the coin.
+        up: the upward unit vector in the body frame, (3,).
+        w: angular velocity, body frame, (3,) [rad/s].
+    """
+    rolling = body.inertia[2][2] + body.mass * body.radius * body.radius
+    return rolling * norm(w) * abs(dot(up, w)) < body.mass * body.gravity * body.thickness / 2
 
 
 @compiled
