@@ -59,7 +59,7 @@ ROCKS = 2
 """A coin rocks on its edge after more landings between which n_z changes no faster than `GROWTH` times as
 fast as after them: its weight brings it back from either rim."""
 GROWTH = 1.1
-STANDS = 0.1
+STANDS = 0.3
 """A coin stands on both rims if either would land within this part of a longest step."""
 UPRIGHT = 1e-4
 """A sine of the angle off the edge, its change in a step against √(g/r), in which a coin is on both rims."""
@@ -220,7 +220,7 @@ def shallow_step(coin: MujocoCoin, chi: float, w: Vector, dt: float) -> tuple[fl
         now, (beyond, beyond_rate) = evaluate_gap(coin), _lean(coin, rim)
         if beyond > NEAR:
             part = _zero_of_cubic(lean, lean_rate * dt, beyond, beyond_rate * dt) + PAST
-        elif beyond <= 0 and (now.gap < lowest or (now.gap < 0 and now.speed < fastest)):
+        elif now.gap < lowest or (beyond <= 0 and now.gap < 0 and now.speed < fastest):
             part = 0.5
         else:
             return force, dt, beyond > 0
