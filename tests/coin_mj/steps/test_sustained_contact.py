@@ -10,6 +10,7 @@ from cointoss import analytic, coin_mj
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.settings import MujocoSettings
 from cointoss.coin_mj.path import MOTION, STEP, TIME, Knots
+from cointoss.coin_mj.steps.knots import StepKind
 from cointoss.coin_mj.toss import run
 from cointoss.compare.metrics.estimates import chance_alike
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
@@ -175,6 +176,26 @@ def test_a_coin_that_turns_upright_stands(rate):
     assert len(tossed.impacts) < 200
 
 
+@pytest.mark.parametrize("settings", [coin_mj.FINE, coin_mj.MANY])
+def test_a_slow_landing_of_the_other_rim_is_a_plastic_impact(settings):
+    """It leaves (1 - k)/(1 + k) of the rate of n_z, k = m h²/(4 J_ξ), and moves nothing."""
+    case = scenario(
+        floor={"restitution": 0.5},
+        release={"position": [0, 0, R + 2e-5], "angles": [0, np.arccos(0.02), 0]},
+        ending={"test": "paper", "max_time": 0.08},
+    )
+    knots = run(machine_of(case, settings), case.rules).knots
+    landed = np.flatnonzero(knots[:, STEP] == StepKind.LANDING)
+    before, after = knots[landed], knots[landed + 1]
+    assert len(landed) > 2
+    rates = [
+        [np.cross(rotation_matrix(m[3:7])[2], m[10:])[2] for m in part[:, MOTION]] for part in (before, after)
+    ]
+    k = M * ZLOTY["thickness"] ** 2 / 4 / case.body.inertia[0][0]
+    assert np.array(rates[1]) / rates[0] == pytest.approx((1 - k) / (1 + k), abs=2e-3)
+    assert np.abs(after[:, MOTION][:, :7] - before[:, MOTION][:, :7]).max() < 2e-5
+
+
 @pytest.mark.parametrize("engine", [analytic, coin_mj])
 @pytest.mark.parametrize(("off", "ending"), [(0.0, Ending.SETTLED), (1e-6, Ending.STANDING)])
 def test_a_coin_that_rolls_and_spins_fast_on_its_edge_stands(engine, off, ending):
@@ -286,7 +307,9 @@ def test_a_thick_coin_near_its_edge_does_not_sink_and_its_certificate_sees_it(se
         assert isinstance(path, Knots)
         rows = path.knots[path.knots[:, STEP] == 2]
         depths = [lowest_of(row[MOTION], R, case.coin.thickness) / R for row in rows]
-        normals = [rotation_matrix(row[MOTION][3:7])[2][2] for row in rows]
+        is_later = path.knots[:, TIME] >= toss.contacts[0, 0]
+        touching = path.knots[is_later & (path.knots[:, STEP] != StepKind.IMPACT)]
+        normals = [rotation_matrix(row[MOTION][3:7])[2][2] for row in touching]
         crossed += np.sum(np.diff(np.sign(normals)) != 0)
         between = toss.sample(np.linspace(toss.contacts[:, 0], toss.contacts[:, 1], 200).ravel())
         states = np.hstack([between.position, between.quaternion])
