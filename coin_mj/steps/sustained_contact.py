@@ -172,7 +172,8 @@ def follow_contact(
         time += dt
         steps_left -= 1
         if rim_lands:
-            if -evaluate_gap(coin).speed > slow_speed(coin, chi, w):
+            is_fast = -evaluate_gap(coin).speed > slow_speed(coin, chi, w)
+            if is_fast and half_period(coin, state_of(coin).R[2], state_of(coin).spin) > 1:
                 # The contact ends where it is; its next impact starts on the floor.
                 path = add_knot(coin, time, StepKind.FLIGHT, path)
                 joint_of(coin).qpos[2] -= evaluate_gap(coin).gap
