@@ -174,8 +174,6 @@ def follow_contact(
         if rim_lands:
             is_fast = -evaluate_gap(coin).speed > slow_speed(coin, chi, w)
             if is_fast and half_period(coin, state_of(coin).R[2], state_of(coin).spin) > 1:
-                # The contact ends where it is; its next impact starts on the floor.
-                path = add_knot(coin, time, StepKind.FLIGHT, path)
                 joint_of(coin).qpos[2] -= evaluate_gap(coin).gap
                 return ContactExit.RIM_LANDS, time, steps_left, Outcome.UNDECIDED, Ending.NONE, path
             path = add_knot(coin, time, StepKind.LANDING, path)
