@@ -19,7 +19,7 @@ from cointoss.analytic.settings import FINE, AnalyticSettings
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.barriers import barrier, energy
 from cointoss.models.body import Body, Rules, in_vacuum, is_ideal, never_adds_energy
-from cointoss.models.certificate import InContact, conserved_energies, gaps, measurements
+from cointoss.models.certificate import Changes, InContact, gaps, measurements
 from cointoss.models.errors import require_type
 from cointoss.models.interruptible import interruptible
 from cointoss.models.parts import Release
@@ -207,13 +207,20 @@ def _flight(body: Body) -> str:
 
 
 def _in_contact(body: Body, log: EventLog) -> InContact:
-    """Return energies and gaps at start and end of each stretch of contact in one mode."""
-    states, stays = _states(log.start_times, log.start_states), log.modes[:-1] != Mode.FLIGHT
+    """Return states and gaps at start and end of each stretch of contact in one mode, and the landings.
 
-    def at_both_ends(values: Array) -> Array:
-        return np.stack([values[:-1], values[1:]], axis=1)[stays]
+    Where a second rim lands, a flight that takes no time ends in contact.
+    """
+    stays, takes_time = log.modes[:-1] != Mode.FLIGHT, np.diff(log.start_times) > 0
+    ends_in_contact = np.append(stays[1:], False)
 
-    return InContact(at_both_ends(conserved_energies(body, states)), at_both_ends(gaps(body, states)).ravel())
+    def at_both_ends(of: NDArray[np.bool_]) -> Changes:
+        first = np.flatnonzero(of)
+        return Changes(*(_states(log.start_times[i], log.start_states[i]) for i in (first, first + 1)))
+
+    stretches = at_both_ends(stays)
+    found = np.concatenate([gaps(body, states) for states in stretches])
+    return InContact(stretches, at_both_ends(~(stays | takes_time) & ends_in_contact), found)
 
 
 def _states(times: Array, rows: Array) -> States:

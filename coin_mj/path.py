@@ -4,9 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cointoss.coin_mj.entries import knot_forces, sample_contacts, sample_path
+from cointoss.coin_mj.entries import knot_forces, sample_path
 from cointoss.coin_mj.model.machine import Machine
 from cointoss.coin_mj.steps.knots import StepKind
+from cointoss.models.certificate import Changes
+from cointoss.models.entries import states_of_joint
 from cointoss.models.records import Array, States
 
 TIME, STEP, MOTION = 0, 1, slice(2, 15)
@@ -35,7 +37,15 @@ class Knots:
 
     def contact_states(self) -> States:
         """Return the states at the knots of the sustained contacts, midway between, and at their ends."""
-        return _states(*sample_contacts(self.machine.coin.body, self.knots))
+        first = np.flatnonzero(self.knots[:, STEP] == StepKind.CONTACT)
+        start, end = self.knots[first, TIME], self.knots[first + 1, TIME]
+        return self.sample(np.concatenate([start, (start + end) / 2, end]))
+
+    def landings(self) -> Changes:
+        """Return the states before and after the landings of a second rim in sustained contacts."""
+        first = np.flatnonzero(self.knots[:, STEP] == StepKind.LANDING)
+        body, knots = self.machine.coin.body, (self.knots[first], self.knots[first + 1])
+        return Changes(*(_states(rows[:, TIME], states_of_joint(body, rows[:, MOTION])) for rows in knots))
 
     def floor_force(self, times: Array) -> Array:
         """Return the floor's force at `times` in sustained contacts, space frame, (n, 3) [N].

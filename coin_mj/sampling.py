@@ -8,7 +8,6 @@ from cointoss.coin_mj.steps.free_step import free_step
 from cointoss.coin_mj.steps.knots import StepKind
 from cointoss.coin_mj.steps.runge_kutta import normalise, write_rate
 from cointoss.coin_mj.steps.sustained_contact import floor_force
-from cointoss.models.body import Body
 from cointoss.models.free_joint import states_of_joint
 from cointoss.models.kernel.arrays import Array, Counts, Row, Table, copy_into
 from cointoss.models.kernel.compiled import compiled
@@ -63,23 +62,6 @@ def write_between(knot: Array, after: Array, time: float, motion: Array) -> None
             bend = (1 - part) * (length * rates[0, i] - rise) - part * (length * rates[1, i] - rise)
             motion[i] += part * (1 - part) * bend
     normalise(motion)
-
-
-@compiled
-def sample_contacts(body: Body, knots: Table) -> tuple[Row, Table]:
-    """Return times, (n,), and states then, (n, 13), at and between the knots of sustained contacts."""
-    times, motions = np.empty(3 * len(knots)), np.empty((3 * len(knots), 13))
-    n = 0
-    for i in range(len(knots) - 1):
-        if knots[i, 1] != StepKind.CONTACT.value:
-            continue
-        start, end = knots[i, 0], knots[i + 1, 0]
-        times[n], times[n + 1], times[n + 2] = start, (start + end) / 2, end
-        copy_into(motions[n], knots[i, 2:])
-        write_between(knots[i], knots[i + 1], times[n + 1], motions[n + 1])
-        copy_into(motions[n + 2], knots[i + 1, 2:])
-        n += 3
-    return times[:n], states_of_joint(body, motions[:n])
 
 
 @compiled

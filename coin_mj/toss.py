@@ -19,7 +19,7 @@ from cointoss.coin_mj.path import Knots
 from cointoss.coin_mj.steps.sustained_contact import contact_restitution
 from cointoss.coin_mj.trust import lawful_impacts, shared_impacts
 from cointoss.models.body import Body, Rules
-from cointoss.models.certificate import InContact, conserved_energies, gaps, measurements
+from cointoss.models.certificate import Changes, InContact, gaps, measurements
 from cointoss.models.contact_laws.table import is_rough, laws_that, quoted
 from cointoss.models.errors import require_type
 from cointoss.models.impact_row import FIRST_ROOM
@@ -49,7 +49,7 @@ SOFTER = (10.0, 30.0)
 """The factors by which contacts are softened to find how far a toss can be trusted."""
 _INTEGRATORS = "Tsitouras 5, in sustained contact RK4"
 CONTACTS_MEASURED, PARTS_MEASURED = 32, 16
-"""The energy is measured in this many contacts, the longest, at the ends of this many parts of each."""
+"""This many contacts are measured, the longest, at the ends of this many parts of each."""
 
 
 class MujocoRun(NamedTuple):
@@ -169,7 +169,8 @@ def _toss(scenario: Scenario, rules: Rules, settings: MujocoSettings) -> Toss:
                 impacts,
                 answer.contacts,
                 InContact(
-                    _contact_energies(scenario.body, answer.contacts, path),
+                    _stretches(answer.contacts, path),
+                    path.landings(),
                     gaps(scenario.body, path.contact_states()),
                 ),
                 path,
@@ -250,12 +251,11 @@ def _contact_certificate(machine: Machine) -> tuple[Setting, ...]:
     )
 
 
-def _contact_energies(body: Body, contacts: Array, path: Knots) -> Array:
-    """Return the energies at start and end of parts of the longest contacts, (n, 2) [J]."""
+def _stretches(contacts: Array, path: Knots) -> Changes:
+    """Return the states at start and end of parts of the longest contacts."""
     longest = contacts[np.argsort(contacts[:, 0] - contacts[:, 1], kind="stable")[:CONTACTS_MEASURED]]
     times = np.linspace(longest[:, 0], longest[:, 1], PARTS_MEASURED + 1, axis=1)
-    values = conserved_energies(body, path.sample(times.ravel())).reshape(times.shape)
-    return np.stack([values[:, :-1].ravel(), values[:, 1:].ravel()], axis=1)
+    return Changes(path.sample(times[:, :-1].ravel()), path.sample(times[:, 1:].ravel()))
 
 
 def _force_and_moment(body: Body, v: Vector, w: Vector) -> tuple[Vector, Vector]:

@@ -1,20 +1,23 @@
 """The certificate of a toss: the residuals of its impacts, and the energy of its flights and contacts.
 
-Both engines measure by the same functions, from the record and the path alone; these functions solve no
-impact and integrate no motion. In sustained contacts they measure the gap and the energy gained, which is
-zero on a passive floor, but not the work of friction.
+Both engines measure by the same functions, from the record and the path alone; these functions integrate no
+motion. In sustained contacts they measure the gap and the energy gained, which is zero on a passive floor,
+but not the work of friction; what each landing of a second rim takes, against the closed form; and on a
+smooth floor in vacuum the momenta that it keeps.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.models.body import Body, Rules, in_vacuum
-from cointoss.models.contact_laws.law import Recorded
-from cointoss.models.contact_laws.table import LAWS
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.body import Body, Rules, in_vacuum, is_ideal, resists
+from cointoss.models.contact_laws.law import Impact, Recorded
+from cointoss.models.contact_laws.table import LAWS, is_smooth
+from cointoss.models.geometry import lowest_point
 from cointoss.models.kernel.vectors import Vector
 from cointoss.models.laws import RestitutionKind
 from cointoss.models.records import Array, Flag, Impacts, Path, Setting, States, raised_flags
@@ -27,13 +30,18 @@ IMPACT_ENERGY = "impacts: largest difference of energy change and work"
 GAIN = "impacts: largest gain of energy"
 FLIGHT_ENERGY = "flights: largest difference of energy change and work of the air"
 CONTACT_ENERGY = "sustained contacts: largest gain of energy"
+KEPT = "sustained contacts: largest change of momenta that the floor keeps, since the release"
+LANDINGS = "landings of a second rim"
+LANDING = "landings of a second rim: largest error of what one takes, relative"
 NORM = "largest deviation of the norm of the Euler parameters from 1"
 GAP = "smallest gap, at impacts, sampled in flight and in sustained contacts"
 OF_ENERGY = (IMPACT_ENERGY, FLIGHT_ENERGY, CONTACT_ENERGY)
-NAMES = (LAW, MOMENTUM, *OF_ENERGY, GAIN, NORM, GAP)
+NAMES = (LAW, MOMENTUM, *OF_ENERGY, GAIN, NORM, GAP, KEPT, LANDINGS, LANDING)
 """The names of the measured lines of a certificate."""
 FLIGHTS = 10
 """The number of flights that are sampled, the longest ones. In vacuum their energy needs no samples."""
+LANDINGS_MEASURED = 100
+"""The number of landings that are measured, spread evenly over all; one with friction takes 1 ms."""
 VACUUM_SAMPLES = 4
 """Samples of a flight in vacuum; in air, where they are also the nodes of a quadrature, there are
 `AIR_SAMPLES` and two more for each radian of turn, at most `MOST_SAMPLES`. The energy of a flight that would
@@ -45,11 +53,20 @@ Air = Callable[[Body, Vector, Vector], tuple[Vector, Vector]]
 """An engine's own force of the air and its moment about C, from v_C and ω, all in the body frame."""
 
 
+class Changes(NamedTuple):
+    """States before and after each of n changes."""
+
+    before: States
+    after: States
+
+
 class InContact(NamedTuple):
     """An engine's measurements of the sustained contacts of a toss."""
 
-    energies: Array
-    """The energies at start and end of stretches of sustained contact, (n, 2) [J]."""
+    stretches: Changes
+    """At start and end of stretches of sustained contact."""
+    landings: Changes
+    """Before and after landings of a second rim that the floor stops, each at one place."""
     gaps: Array
     """The gaps in sustained contact, see `gaps`, (k,) [m]."""
 
@@ -69,7 +86,7 @@ def measurements(
         scenario: the scenario of the toss.
         impacts: the impacts of the toss.
         contacts: start and end of every sustained contact, (n, 2) [s].
-        in_contact: energies and gaps in the contacts.
+        in_contact: states and gaps in the contacts.
         path: the path of the toss.
         air: the engine's force of the air, which is measured if b > 0.
         residuals: of a contact law of one's own, (n,), in place of the residuals by the scenario's law.
@@ -102,10 +119,68 @@ def measurements(
         ]
     if lowest < np.inf:
         lines.append(Setting(name=GAP, value=float(lowest) / body.radius, unit="r"))
-    if len(in_contact.energies):
-        gained = np.diff(in_contact.energies, axis=1).max() / weight
-        lines.append(Setting(name=CONTACT_ENERGY, value=max(float(gained), 0.0), unit="m g r"))
-    return tuple(lines)
+    return (*lines, *_of_contacts(scenario, in_contact))
+
+
+def _of_contacts(scenario: Scenario, in_contact: InContact) -> Iterator[Setting]:
+    """Yield the measured lines of sustained contacts, see `measurements`."""
+    body, rules, (stretches, landings, _) = scenario.body, scenario.rules, in_contact
+    if len(stretches.before.time):
+        start, end = (conserved_energies(body, states) for states in stretches)
+        gained = float((end - start).max()) / (body.mass * body.gravity * body.radius)
+        yield Setting(name=CONTACT_ENERGY, value=max(gained, 0.0), unit="m g r")
+        is_kept = is_smooth(rules.law) and in_vacuum(body) and body.downhill == 0 and not resists(rules)
+        if is_kept and rules.own.address == 0:
+            changed = momenta(body, stretches.after) - momenta(body, _at_release(scenario))
+            unit = body.mass * body.radius * (body.gravity * body.radius) ** 0.5
+            yield Setting(name=KEPT, value=_largest(changed) / unit, unit="m r √(g r)")
+    if count := len(landings.before.time):
+        yield Setting(name=LANDINGS, value=count)
+        yield Setting(name=LANDING, value=_largest(landing_residuals(body, rules, landings)))
+
+
+def momenta(body: Body, states: States) -> Array:
+    """Return what a smooth level floor keeps without air, (n, 4): r m v_x, r m v_y, L_z and L_ζ [kg m²/s].
+
+    L_ζ only of a balanced coin, else 0.
+    """
+    L = states.angular_velocity @ np.array(body.inertia)
+    up = turned(_conjugate(states.quaternion), np.broadcast_to([0.0, 0.0, 1.0], L.shape))
+    along = body.radius * body.mass * states.velocity[:, :2]
+    return np.column_stack([along, _dot(up, L), L[:, 2] * is_ideal(body)])
+
+
+def landing_residuals(body: Body, rules: Rules, landings: Changes) -> Array:
+    """Return by how much what a landing takes differs from a plastic impact by the contact law, (k,).
+
+    The impulse S acts at the lowest point of the rim that comes down, v_Az' = 0; nothing holds the point of
+    the other rim. So on a smooth floor S_z = -v_Az/K_zz, the energy taken is v_Az²/(2 K_zz), and on its edge
+    an ideal coin keeps L_z and the part (J_ξ/m - h²/4)/(J_ξ/m + h²/4) of the rate of n_z. The difference of
+    (v, ω) is relative to the change by S, both in the norm of the kinetic energy.
+
+    Args:
+        body: the coin.
+        rules: its floor.
+        landings: n of a second rim, of which k are measured, at most `LANDINGS_MEASURED`.
+    """
+    mass, residuals = np.diag([body.mass] * 6), []
+    mass[3:, 3:] = body.inertia
+    by_mass = np.linalg.inv(mass)
+    before, after = (np.hstack([states.velocity, states.angular_velocity]) for states in landings)
+    measured = np.unique(np.linspace(0, len(before) - 1, LANDINGS_MEASURED).astype(int))
+    for i in measured:
+        u, R = before[i], np.array(rotation_matrix(tuple(landings.before.quaternion[i])))
+        up, w = R[2], u[3:]
+        # The rim that comes down is the lower one as soon as n_z has the sign of its rate.
+        point, _ = lowest_point(body, (up[0], up[1], up[0] * w[1] - up[1] * w[0]), tuple(w))
+        # v_A = G u: a row of G has a unit impulse along x, y or z, and its moment in the body frame.
+        G = np.hstack([np.eye(3), np.cross(np.subtract(point, body.center), R)])
+        K, tau = G @ by_mass @ G.T, R @ (-point[1], point[0], 0.0) / body.radius
+        A = Impact(K.tolist(), tuple(G @ u), tuple(tau), 0.0, rules.friction, rules.restitution_kind)
+        taken = by_mass @ G.T @ LAWS[rules.law].impulse(A)[0]
+        missed = after[i] - u - taken
+        residuals.append((missed @ mass @ missed / (taken @ mass @ taken)) ** 0.5)
+    return np.array(residuals)
 
 
 def law_residuals(body: Body, rules: Rules, impacts: Impacts) -> Array:
@@ -231,21 +306,14 @@ def _flights(
     A flight starts at the release or an impact and ends in an impact. Where b > 0 the power of the air is not
     smooth in time, and the quadrature of its work itself errs by some 1e-7 m g r.
     """
-    body, release = scenario.body, scenario.release
+    body = scenario.body
     ends = impacts.time
     starts = np.concatenate([[0.0], ends[:-1]])
-    first = energies(
-        body,
-        States(
-            time=np.zeros(1),
-            position=np.array([release.position]),
-            velocity=np.array([release.velocity]),
-            quaternion=np.array([release.attitude]),
-            angular_velocity=np.array([release.angular_velocity]),
-        ),
-    )
+    first = energies(body, _at_release(scenario))
     change = impacts.energy - impacts.energy_change - np.concatenate([first, impacts.energy[:-1]])
-    change -= body.mass * body.downhill * np.diff(impacts.position[:, 0], prepend=release.position[0])
+    change -= (
+        body.mass * body.downhill * np.diff(impacts.position[:, 0], prepend=scenario.release.position[0])
+    )
     before = np.searchsorted(contacts[:, 0], [starts, ends], side="left")
     free = np.flatnonzero(before[0] == before[1])
     vacuum = in_vacuum(body)
@@ -272,6 +340,17 @@ def _flights(
     weights = np.concatenate([np.empty(0), *(of_rule for _, of_rule in rules)])
     work = np.bincount(of_flight, weights * power, len(counts)) * durations
     return states, (change[sampled] - work)[measured]
+
+
+def _at_release(scenario: Scenario) -> States:
+    release = scenario.release
+    return States(
+        time=np.zeros(1),
+        position=np.array([release.position]),
+        velocity=np.array([release.velocity]),
+        quaternion=np.array([release.attitude]),
+        angular_velocity=np.array([release.angular_velocity]),
+    )
 
 
 @cache

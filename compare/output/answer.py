@@ -138,8 +138,8 @@ def as_lines(toss: Toss, *, whole: bool = False, checked: bool = False) -> str:
         f"trusted   {toss.trust}",
         *([f"          ({_meaning_of_trust(toss)})"] if toss.trusted_impacts else []),
     ]
-    if checked and len(impacts):
-        lines.append(f"checked   {_checked(toss)}")
+    if checked and (residuals := _residuals(toss)):
+        lines.append(f"checked   largest residuals: {residuals}")
     if toss.outcome in (Outcome.PERPETUAL, Outcome.TRANSIENT):
         energies = [
             f"{item.name}: {1e3 * float(item.value):.4f} mJ" for item in toss.certificate if item.unit == "J"
@@ -182,13 +182,21 @@ def _meaning_of_trust(toss: Toss) -> str:
     return f"{errors}, {TRUSTED}{bar}"
 
 
-def _checked(toss: Toss) -> str:
-    """Return what a toss with impacts measured of itself, in one line: of each kind the largest residual."""
+def _residuals(toss: Toss) -> str:
+    """Return what a toss measured of itself, of each kind the largest residual, or an empty text."""
     found = {item.name: float(item.value) for item in toss.certificate if item.name in certificate.NAMES}
-    law = max(found[certificate.LAW], found[certificate.MOMENTUM])
-    energy = max(found.get(name, 0.0) for name in certificate.OF_ENERGY)
-    gain = f", an impact gains {found[certificate.GAIN]:.0e} m g r" if certificate.GAIN in found else ""
-    return (
-        f"largest residuals: contact law {law:.0e}, energy {energy:.0e} m g r, "
-        f"|e| {found[certificate.NORM]:.0e}; smallest gap {found[certificate.GAP]:.0e} r{gain}"
+    of_law, landings = (certificate.LAW, certificate.MOMENTUM), found.get(certificate.LANDINGS, 0.0)
+    kinds = (
+        ("contact law {:.0e}", of_law),
+        (f"{landings:.0f} landings of a second rim {{:.0e}}", (certificate.LANDING,)),
+        ("energy {:.0e} m g r", certificate.OF_ENERGY),
+        ("|e| {:.0e}", (certificate.NORM,)),
     )
+    told = ", ".join(
+        text.format(max(found[name] for name in names if name in found))
+        for text, names in kinds
+        if found.keys() & names
+    )
+    gap = f"; smallest gap {found[certificate.GAP]:.0e} r" if certificate.GAP in found else ""
+    gain = f", an impact gains {found[certificate.GAIN]:.0e} m g r" if certificate.GAIN in found else ""
+    return told + gap + gain

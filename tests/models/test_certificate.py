@@ -9,12 +9,12 @@ import pytest
 from cointoss import analytic, coin_mj
 from cointoss.analytic.air.force import force_and_moment
 from cointoss.models import certificate
-from cointoss.models.certificate import InContact, linear_air_power, measurements
+from cointoss.models.certificate import Changes, InContact, linear_air_power, measurements
 from cointoss.models.laws import ContactLaw
 from cointoss.models.reading import load
 from cointoss.models.records import Array, Impacts, States, Toss
 from cointoss.models.scenario import Scenario
-from tests.helpers.draws import AIR, PAPER_OFFSET, draw_coin, draw_release, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
@@ -38,11 +38,16 @@ def draw(seed: int, **floor: Any) -> Scenario:
 
 def again(toss: Toss, impacts: Impacts | None = None, **parts: Any) -> dict[str, float]:
     """Measure a toss anew, with its impacts or other parts exchanged."""
+    none = toss.path.sample(np.empty(0))
     lines = measurements(
         toss.scenario,
         impacts or toss.impacts,
         toss.contacts,
-        parts.get("in_contact", InContact(np.empty((0, 2)), np.empty(0))),
+        InContact(
+            parts.get("stretches", Changes(none, none)),
+            parts.get("landings", Changes(none, none)),
+            parts.get("gaps", np.empty(0)),
+        ),
         parts.get("path", toss.path),
         force_and_moment,
     )
@@ -155,11 +160,78 @@ def test_contacts_are_measured_where_there_are_any():
     toss = analytic.toss(load("contact_coulomb"))
     assert len(toss.contacts)
     assert 0 <= measured(toss)[certificate.CONTACT_ENERGY] < 1e-9
-    body, energies = toss.scenario.body, np.array([[2e-5, 1e-5], [1e-5, 1.1e-5]])
-    found = again(toss, in_contact=InContact(energies, np.array([0.0, -0.03 * body.radius, 0.1])))
+    radius, states = toss.scenario.coin.radius, toss.path.sample(toss.contacts[0])
+    risen = replace(states, position=states.position + np.outer([-1, 1e-3], [0, 0, radius]))
+    found = again(toss, stretches=Changes(states, risen), gaps=np.array([0.0, -0.03 * radius, 0.1]))
     assert found[certificate.GAP] == pytest.approx(-0.03)
-    assert found[certificate.CONTACT_ENERGY] == pytest.approx(1e-6 / (body.mass * body.gravity * body.radius))
+    assert found[certificate.CONTACT_ENERGY] == pytest.approx(1e-3)
+    assert certificate.KEPT not in found
     assert certificate.CONTACT_ENERGY not in measured(analytic.toss(draw(2)))
+
+
+UPRIGHT = [0.5**0.5, 0.5**0.5, 0.0, 0.0]
+"""On its edge, the normal along -y: ω_η turns it about the vertical, and ω_ξ is minus the rate of n_z."""
+
+
+def states_of(velocity: list[float], angular_velocity: list[float]) -> States:
+    return States(
+        time=np.zeros(1),
+        position=np.zeros((1, 3)),
+        velocity=np.array([velocity]),
+        quaternion=np.array([UPRIGHT]),
+        angular_velocity=np.array([angular_velocity]),
+    )
+
+
+def test_a_landing_of_the_other_rim_on_a_smooth_floor_takes_only_rocking():
+    """It keeps the part (J/m - h²/4)/(J/m + h²/4) of it, and both rims keep their points on the floor."""
+    case = scenario()
+    body, half = case.body, case.coin.thickness / 2
+    by_mass = body.inertia[0][0] / body.mass
+    kept = (by_mass - half**2) / (by_mass + half**2)
+    before = states_of([0.3, 0.1, -2.0 * half], [2.0, 5.0, -7.0])
+
+    def missed(rocking: float, turning: float) -> float:
+        after = states_of([0.3, 0.1, rocking * half], [rocking, turning, -7.0])
+        return certificate.landing_residuals(body, case.rules, Changes(before, after))[0]
+
+    assert missed(2 * kept, 5.0) < 1e-13
+    assert missed(2 * kept * (1 + 1e-6), 5.0) > 1e-6
+    assert missed(2 * kept, 5.0 * (1 + 1e-6)) > 1e-6
+    unchanged = certificate.landing_residuals(body, case.rules, Changes(before, before))
+    assert unchanged == pytest.approx([1.0])
+
+
+def spun(contact: str) -> Scenario:
+    """Return a thin coin that leans by 0.01 rad off its edge, 1 pm high, and turns about its diameter."""
+    lean, thickness, radius = 0.01, 4e-4, ZLOTY["radius"]
+    return scenario(
+        coin={"thickness": thickness},
+        floor={"contact": contact, "friction": 0.2, "restitution": 0.6},
+        release={
+            "position": [0, 0, radius * np.cos(lean) + thickness / 2 * np.sin(lean) + 1e-12],
+            "angles": [0, np.pi / 2 - lean, 0],
+            "angular_velocity": [0, 20 * np.cos(lean), 20 * np.sin(lean)],
+        },
+        ending={"max_time": 1.0},
+    )
+
+
+@pytest.mark.parametrize("law", ["smooth", "coulomb"])
+def test_each_landing_of_the_analytic_engine_is_a_plastic_impact(law):
+    found = measured(analytic.toss(spun(law)))
+    assert found[certificate.LANDINGS] > 5
+    assert 0 < found[certificate.LANDING] < 1e-10
+    assert (certificate.KEPT in found) == (law == "smooth")
+
+
+def test_momenta_that_a_smooth_floor_keeps_are_measured():
+    toss = analytic.toss(spun("smooth"))
+    assert 0 < measured(toss)[certificate.KEPT] < 1e-11
+    states = toss.path.sample(toss.contacts[-1])
+    for name, axis in (("velocity", 0), ("velocity", 1), ("angular_velocity", 1), ("angular_velocity", 2)):
+        damaged = replace(states, **{name: getattr(states, name) + 1e-6 * np.eye(3)[axis]})
+        assert again(toss, stretches=Changes(states, damaged))[certificate.KEPT] > 1e-9
 
 
 def test_a_toss_without_impacts_measures_none():
