@@ -45,7 +45,9 @@ class Knots:
         """Return the states before and after the landings of a second rim in sustained contacts."""
         first = np.flatnonzero(self.knots[:, STEP] == StepKind.LANDING)
         body, knots = self.machine.coin.body, (self.knots[first], self.knots[first + 1])
-        return Changes(*(_states(rows[:, TIME], states_of_joint(body, rows[:, MOTION])) for rows in knots))
+        return Changes(
+            *(_states(rows[:, TIME], states_of_joint(body, rows[:, MOTION].copy())) for rows in knots)
+        )
 
     def floor_force(self, times: Array) -> Array:
         """Return the floor's force at `times` in sustained contacts, space frame, (n, 3) [N].
