@@ -18,7 +18,7 @@ from cointoss.models.body import Body, Rules, in_vacuum, is_ideal, resists
 from cointoss.models.contact_laws.law import Impact, Recorded
 from cointoss.models.contact_laws.table import LAWS, is_smooth
 from cointoss.models.geometry import lowest_point
-from cointoss.models.kernel.vectors import Vector
+from cointoss.models.kernel.vectors import Matrix, Vector, cross, norm
 from cointoss.models.laws import RestitutionKind
 from cointoss.models.records import Array, Flag, Impacts, Path, Setting, States, raised_flags
 from cointoss.models.restitution import restitution_at_speed, varies
@@ -42,6 +42,8 @@ FLIGHTS = 10
 """The number of flights that are sampled, the longest ones. In vacuum their energy needs no samples."""
 LANDINGS_MEASURED = 100
 """The number of landings that are measured, spread evenly over all; one with friction takes 1 ms."""
+STANDS = 1e-9
+"""A coin stands on both rims if n_z changes no faster than this part of |ω|."""
 VACUUM_SAMPLES = 4
 """Samples of a flight in vacuum; in air, where they are also the nodes of a quadrature, there are
 `AIR_SAMPLES` and two more for each radian of turn, at most `MOST_SAMPLES`. The energy of a flight that would
@@ -151,36 +153,61 @@ def momenta(body: Body, states: States) -> Array:
 
 
 def landing_residuals(body: Body, rules: Rules, landings: Changes) -> Array:
-    """Return by how much what a landing takes differs from a plastic impact by the contact law, (k,).
+    """Return by how much what a landing takes differs from its closed form, `taken_by_landing`, (k,).
 
-    The impulse S acts at the lowest point of the rim that comes down, v_Az' = 0; nothing holds the point of
-    the other rim. So on a smooth floor S_z = -v_Az/K_zz, the energy taken is v_Az²/(2 K_zz), and on its edge
-    an ideal coin keeps L_z and the part (J_ξ/m - h²/4)/(J_ξ/m + h²/4) of the rate of n_z. The difference of
-    (v, ω) is relative to the change by S, both in the norm of the kinetic energy.
+    Relative to the larger of the two changes of (v, ω), in the norm of the kinetic energy.
 
     Args:
         body: the coin.
         rules: its floor.
         landings: n of a second rim, of which k are measured, at most `LANDINGS_MEASURED`.
     """
-    mass, residuals = np.diag([body.mass] * 6), []
-    mass[3:, 3:] = body.inertia
-    by_mass = np.linalg.inv(mass)
+    mass, residuals = _mass(body), []
     before, after = (np.hstack([states.velocity, states.angular_velocity]) for states in landings)
-    measured = np.unique(np.linspace(0, len(before) - 1, LANDINGS_MEASURED).astype(int))
-    for i in measured:
-        u, R = before[i], np.array(rotation_matrix(tuple(landings.before.quaternion[i])))
-        up, w = R[2], u[3:]
-        # The rim that comes down is the lower one as soon as n_z has the sign of its rate.
-        point, _ = lowest_point(body, (up[0], up[1], up[0] * w[1] - up[1] * w[0]), tuple(w))
-        # v_A = G u: a row of G has a unit impulse along x, y or z, and its moment in the body frame.
-        G = np.hstack([np.eye(3), np.cross(np.subtract(point, body.center), R)])
-        K, tau = G @ by_mass @ G.T, R @ (-point[1], point[0], 0.0) / body.radius
-        A = Impact(K.tolist(), tuple(G @ u), tuple(tau), 0.0, rules.friction, rules.restitution_kind)
-        taken = by_mass @ G.T @ LAWS[rules.law].impulse(A)[0]
-        missed = after[i] - u - taken
-        residuals.append((missed @ mass @ missed / (taken @ mass @ taken)) ** 0.5)
+    for i in np.unique(np.linspace(0, len(before) - 1, LANDINGS_MEASURED).astype(int)):
+        R, R_after = (rotation_matrix(tuple(states.quaternion[i])) for states in landings)
+        spin = tuple(after[i, 3:])
+        stands = abs(cross(R_after[2], spin)[2]) < STANDS * norm(spin)
+        taken, found = taken_by_landing(body, rules, R, before[i], stands), after[i] - before[i]
+        missed, *sizes = ((change @ mass @ change) ** 0.5 for change in (found - taken, found, taken))
+        residuals.append(missed / max(sizes) if missed > 0 else 0.0)
     return np.array(residuals)
+
+
+def taken_by_landing(body: Body, rules: Rules, R: Matrix, u: Array, stands: bool) -> Array:
+    """Return the change of (v, ω) by the landing of a second rim, a plastic impact, (6,) [m/s, rad/s].
+
+    The impulse S of the floor's law acts at the lowest point A of the rim that comes down, v_Az' = 0; nothing
+    holds the point of the other rim. So on a smooth floor S_z = -v_Az/K_zz, and it takes the energy
+    v_Az²/(2 K_zz); on its edge an ideal coin keeps L_z and the part (J_ξ/m - h²/4)/(J_ξ/m + h²/4) of the rate
+    of n_z. If the coin then stands, vertical impulses at both rims stop both points.
+
+    Args:
+        body: the coin.
+        rules: its floor.
+        R: rotation matrix, body to space.
+        u: v of C, space frame, and ω, body frame, before it, (6,) [m/s, rad/s].
+        stands: whether the coin stands on both rims after it.
+    """
+    up, w, by_mass = R[2], tuple(u[3:]), np.linalg.inv(_mass(body))
+    # The rim that comes down is the lower one as soon as n_z has the sign of its rate.
+    (x, y, z), _ = lowest_point(body, (up[0], up[1], cross(up, w)[2]), w)
+    # v_A = G u: a row of G has a unit impulse along x, y or z, and its moment in the body frame.
+    G = np.hstack([np.eye(3), np.cross(np.subtract((x, y, z), body.center), R)])
+    K, tau = G @ by_mass @ G.T, R @ np.array([-y, x, 0.0]) / body.radius
+    A = Impact(K.tolist(), tuple(G @ u), tuple(tau), 0.0, rules.friction, rules.restitution_kind)
+    taken = by_mass @ G.T @ LAWS[rules.law].impulse(A)[0]
+    if stands:
+        held = np.vstack([G[2], [0, 0, 1, *np.cross(np.subtract((x, y, -z), body.center), up)]])
+        taken -= by_mass @ held.T @ np.linalg.solve(held @ by_mass @ held.T, held @ (u + taken))
+    return taken
+
+
+def _mass(body: Body) -> Array:
+    """Return the mass matrix of (v, ω), (6, 6)."""
+    mass = np.diag([body.mass] * 6)
+    mass[3:, 3:] = body.inertia
+    return mass
 
 
 def law_residuals(body: Body, rules: Rules, impacts: Impacts) -> Array:

@@ -213,7 +213,7 @@ def spun(contact: str) -> Scenario:
             "angles": [0, np.pi / 2 - lean, 0],
             "angular_velocity": [0, 20 * np.cos(lean), 20 * np.sin(lean)],
         },
-        ending={"max_time": 1.0},
+        ending={"test": "paper", "max_time": 1.0},
     )
 
 
