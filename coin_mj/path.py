@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cointoss.coin_mj.entries import knot_forces, sample_path
 from cointoss.coin_mj.model.machine import Machine
@@ -44,10 +45,23 @@ class Knots:
     def landings(self) -> Changes:
         """Return the states before and after the landings of a second rim in sustained contacts."""
         first = np.flatnonzero(self.knots[:, STEP] == StepKind.LANDING)
-        body, knots = self.machine.coin.body, (self.knots[first], self.knots[first + 1])
-        return Changes(
-            *(_states(rows[:, TIME], states_of_joint(body, rows[:, MOTION].copy())) for rows in knots)
-        )
+        return Changes(self._at(first), self._at(first + 1))
+
+    def stretches(self, contacts: Array, parts: int) -> Changes:
+        """Return the states at start and end of parts of contacts, which are at knots.
+
+        Args:
+            contacts: start and end of each, (n, 2) [s].
+            parts: the number of parts of each, of about as many steps.
+        """
+        start, end = np.searchsorted(self.knots[:, TIME], contacts.T)
+        numbers = np.linspace(start, end, parts + 1).astype(int)
+        return Changes(self._at(numbers[:-1].ravel()), self._at(numbers[1:].ravel()))
+
+    def _at(self, numbers: NDArray[np.intp]) -> States:
+        """Return the states at knots, of which `numbers` are the numbers."""
+        knots = self.knots[numbers]
+        return _states(knots[:, TIME], states_of_joint(self.machine.coin.body, knots[:, MOTION].copy()))
 
     def floor_force(self, times: Array) -> Array:
         """Return the floor's force at `times` in sustained contacts, space frame, (n, 3) [N].

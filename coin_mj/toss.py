@@ -19,7 +19,7 @@ from cointoss.coin_mj.path import Knots
 from cointoss.coin_mj.steps.sustained_contact import contact_restitution
 from cointoss.coin_mj.trust import lawful_impacts, shared_impacts
 from cointoss.models.body import Body, Rules
-from cointoss.models.certificate import Changes, InContact, gaps, measurements
+from cointoss.models.certificate import InContact, gaps, measurements
 from cointoss.models.contact_laws.table import is_rough, laws_that, quoted
 from cointoss.models.errors import require_type
 from cointoss.models.impact_row import FIRST_ROOM
@@ -169,7 +169,7 @@ def _toss(scenario: Scenario, rules: Rules, settings: MujocoSettings) -> Toss:
                 impacts,
                 answer.contacts,
                 InContact(
-                    _stretches(answer.contacts, path),
+                    path.stretches(_longest(answer.contacts), PARTS_MEASURED),
                     path.landings(),
                     gaps(scenario.body, path.contact_states()),
                 ),
@@ -251,11 +251,9 @@ def _contact_certificate(machine: Machine) -> tuple[Setting, ...]:
     )
 
 
-def _stretches(contacts: Array, path: Knots) -> Changes:
-    """Return the states at start and end of parts of the longest contacts."""
-    longest = contacts[np.argsort(contacts[:, 0] - contacts[:, 1], kind="stable")[:CONTACTS_MEASURED]]
-    times = np.linspace(longest[:, 0], longest[:, 1], PARTS_MEASURED + 1, axis=1)
-    return Changes(path.sample(times[:, :-1].ravel()), path.sample(times[:, 1:].ravel()))
+def _longest(contacts: Array) -> Array:
+    """Return the longest contacts, at most `CONTACTS_MEASURED`."""
+    return contacts[np.argsort(contacts[:, 0] - contacts[:, 1], kind="stable")[:CONTACTS_MEASURED]]
 
 
 def _force_and_moment(body: Body, v: Vector, w: Vector) -> tuple[Vector, Vector]:
