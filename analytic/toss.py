@@ -211,16 +211,16 @@ def _in_contact(body: Body, log: EventLog) -> InContact:
 
     Where a second rim lands, a flight that takes no time ends in contact.
     """
-    stays, takes_time = log.modes[:-1] != Mode.FLIGHT, np.diff(log.start_times) > 0
-    ends_in_contact = np.append(stays[1:], False)
+    stays = (log.modes != Mode.FLIGHT) & (log.modes != Mode.ENDED)
+    lands = ~stays[:-1] & stays[1:] & (np.diff(log.start_times) == 0)
 
     def at_both_ends(of: NDArray[np.bool_]) -> Changes:
         first = np.flatnonzero(of)
         return Changes(*(_states(log.start_times[i], log.start_states[i]) for i in (first, first + 1)))
 
-    stretches = at_both_ends(stays)
+    stretches = at_both_ends(stays[:-1])
     found = np.concatenate([gaps(body, states) for states in stretches])
-    return InContact(stretches, at_both_ends(~(stays | takes_time) & ends_in_contact), found)
+    return InContact(stretches, at_both_ends(lands), found)
 
 
 def _states(times: Array, rows: Array) -> States:

@@ -14,6 +14,8 @@ from cointoss.models.records import Array, States
 
 TIME, STEP, MOTION = 0, 1, slice(2, 15)
 """Columns of a knot."""
+PARTS = 16
+"""The number of parts in which a contact is measured."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -47,15 +49,14 @@ class Knots:
         first = np.flatnonzero(self.knots[:, STEP] == StepKind.LANDING)
         return Changes(self._at(first), self._at(first + 1))
 
-    def stretches(self, contacts: Array, parts: int) -> Changes:
-        """Return the states at start and end of parts of contacts, which are at knots.
+    def stretches(self, contacts: Array) -> Changes:
+        """Return the states at start and end of `PARTS` parts of contacts, which lie at knots.
 
         Args:
             contacts: start and end of each, (n, 2) [s].
-            parts: the number of parts of each, of about as many steps.
         """
         start, end = np.searchsorted(self.knots[:, TIME], contacts.T)
-        numbers = np.linspace(start, end, parts + 1).astype(int)
+        numbers = np.linspace(start, end, PARTS + 1).astype(int)
         return Changes(self._at(numbers[:-1].ravel()), self._at(numbers[1:].ravel()))
 
     def _at(self, numbers: NDArray[np.intp]) -> States:

@@ -48,8 +48,6 @@ REALISABLE = laws_that(lambda law: law.is_in_mujoco)
 SOFTER = (10.0, 30.0)
 """The factors by which contacts are softened to find how far a toss can be trusted."""
 _INTEGRATORS = "Tsitouras 5, in sustained contact RK4"
-CONTACTS_MEASURED, PARTS_MEASURED = 32, 16
-"""This many contacts are measured, the longest, at the ends of this many parts of each."""
 
 
 class MujocoRun(NamedTuple):
@@ -169,7 +167,7 @@ def _toss(scenario: Scenario, rules: Rules, settings: MujocoSettings) -> Toss:
                 impacts,
                 answer.contacts,
                 InContact(
-                    path.stretches(_longest(answer.contacts), PARTS_MEASURED),
+                    path.stretches(answer.contacts),
                     path.landings(),
                     gaps(scenario.body, path.contact_states()),
                 ),
@@ -249,11 +247,6 @@ def _contact_certificate(machine: Machine) -> tuple[Setting, ...]:
         Setting(name="friction by", value=maker),
         Setting(name="coefficient of friction", value=friction),
     )
-
-
-def _longest(contacts: Array) -> Array:
-    """Return the longest contacts, at most `CONTACTS_MEASURED`."""
-    return contacts[np.argsort(contacts[:, 0] - contacts[:, 1], kind="stable")[:CONTACTS_MEASURED]]
 
 
 def _force_and_moment(body: Body, v: Vector, w: Vector) -> tuple[Vector, Vector]:

@@ -131,25 +131,23 @@ def _of_contacts(scenario: Scenario, in_contact: InContact) -> Iterator[Setting]
         start, end = (conserved_energies(body, states) for states in stretches)
         gained = float((end - start).max()) / (body.mass * body.gravity * body.radius)
         yield Setting(name=CONTACT_ENERGY, value=max(gained, 0.0), unit="m g r")
-        is_kept = is_smooth(rules.law) and in_vacuum(body) and body.downhill == 0 and not resists(rules)
-        if is_kept and rules.own.address == 0:
+        if is_smooth(rules.law) and in_vacuum(body) and body.downhill == 0 and not resists(rules):
             changed = momenta(body, stretches.after) - momenta(body, _at_release(scenario))
-            unit = body.mass * body.radius * (body.gravity * body.radius) ** 0.5
-            yield Setting(name=KEPT, value=_largest(changed) / unit, unit="m r √(g r)")
+            yield Setting(name=KEPT, value=_largest(changed), unit="m r √(g r)")
     if count := len(landings.before.time):
         yield Setting(name=LANDINGS, value=count)
         yield Setting(name=LANDING, value=_largest(landing_residuals(body, rules, landings)))
 
 
 def momenta(body: Body, states: States) -> Array:
-    """Return what a smooth level floor keeps without air, (n, 4): r m v_x, r m v_y, L_z and L_ζ [kg m²/s].
+    """Return what a smooth level floor keeps without air, (n, 4): r m v_x, r m v_y, L_z, and L_ζ if balanced.
 
-    L_ζ only of a balanced coin, else 0.
+    In units of m r √(g r); L_ζ of an unbalanced coin is 0.
     """
-    L = states.angular_velocity @ np.array(body.inertia)
+    L = states.angular_velocity @ np.array(body.inertia) / (body.mass * body.radius)
     up = turned(_conjugate(states.quaternion), np.broadcast_to([0.0, 0.0, 1.0], L.shape))
-    along = body.radius * body.mass * states.velocity[:, :2]
-    return np.column_stack([along, _dot(up, L), L[:, 2] * is_ideal(body)])
+    kept = np.column_stack([states.velocity[:, :2], _dot(up, L), L[:, 2] * is_ideal(body)])
+    return kept / (body.gravity * body.radius) ** 0.5
 
 
 def landing_residuals(body: Body, rules: Rules, landings: Changes) -> Array:
@@ -166,8 +164,7 @@ def landing_residuals(body: Body, rules: Rules, landings: Changes) -> Array:
     before, after = (np.hstack([states.velocity, states.angular_velocity]) for states in landings)
     for i in np.unique(np.linspace(0, len(before) - 1, LANDINGS_MEASURED).astype(int)):
         R, R_after = (rotation_matrix(tuple(states.quaternion[i])) for states in landings)
-        spin = tuple(after[i, 3:])
-        stands = abs(cross(R_after[2], spin)[2]) < STANDS * norm(spin)
+        stands = abs(cross(R_after[2], tuple(after[i, 3:]))[2]) < STANDS * norm(tuple(after[i, 3:]))
         taken, found = taken_by_landing(body, rules, R, before[i], stands), after[i] - before[i]
         missed, *sizes = ((change @ mass @ change) ** 0.5 for change in (found - taken, found, taken))
         residuals.append(missed / max(sizes) if missed > 0 else 0.0)
@@ -194,8 +191,8 @@ def taken_by_landing(body: Body, rules: Rules, R: Matrix, u: Array, stands: bool
     (x, y, z), _ = lowest_point(body, (up[0], up[1], cross(up, w)[2]), w)
     # v_A = G u: a row of G has a unit impulse along x, y or z, and its moment in the body frame.
     G = np.hstack([np.eye(3), np.cross(np.subtract((x, y, z), body.center), R)])
-    K, tau = G @ by_mass @ G.T, R @ np.array([-y, x, 0.0]) / body.radius
-    A = Impact(K.tolist(), tuple(G @ u), tuple(tau), 0.0, rules.friction, rules.restitution_kind)
+    tau, K = R @ np.array([-y, x, 0.0]) / body.radius, (G @ by_mass @ G.T).tolist()
+    A = Impact(K, tuple(G @ u), tuple(tau), 0.0, rules.friction, rules.restitution_kind)
     taken = by_mass @ G.T @ LAWS[rules.law].impulse(A)[0]
     if stands:
         held = np.vstack([G[2], [0, 0, 1, *np.cross(np.subtract((x, y, -z), body.center), up)]])
@@ -205,9 +202,8 @@ def taken_by_landing(body: Body, rules: Rules, R: Matrix, u: Array, stands: bool
 
 def _mass(body: Body) -> Array:
     """Return the mass matrix of (v, ω), (6, 6)."""
-    mass = np.diag([body.mass] * 6)
-    mass[3:, 3:] = body.inertia
-    return mass
+    none = np.zeros((3, 3))
+    return np.block([[body.mass * np.eye(3), none], [none, np.array(body.inertia)]])
 
 
 def law_residuals(body: Body, rules: Rules, impacts: Impacts) -> Array:
