@@ -171,7 +171,7 @@ def follow_contact(
         force, dt, rim_lands = shallow_step(coin, chi, w, dt)
         time += dt
         steps_left -= 1
-        if rim_lands:
+        if rim_lands and evaluate_gap(coin).speed < 0:
             is_fast = -evaluate_gap(coin).speed > slow_speed(coin, chi, w)
             if is_fast and half_period(coin, state_of(coin).R[2], state_of(coin).spin) > 1:
                 joint_of(coin).qpos[2] -= evaluate_gap(coin).gap
@@ -302,7 +302,7 @@ def _land(plastic: MujocoCoin) -> float:
     Returns:
         The rate of n_z that is left [1/s].
     """
-    set_margin(plastic, NEAR * plastic.body.thickness)
+    set_margin(plastic, max(evaluate_gap(plastic).gap, 0.0) + NEAR * plastic.body.thickness)
     set_spring(plastic, 0.0, plastic.rebound.damping, plastic.rebound.slip_damping)
     if forward(plastic) > 0 and plastic.has_explicit_friction:
         friction_step(plastic, IMPACT, plastic.rebound.step)
