@@ -38,11 +38,11 @@ class Knots:
         before = np.searchsorted(self.knots[:, TIME], times, side="right") - 1
         return _states(times, sample_path(self.machine.coin, self.knots, before.astype(np.int32), times))
 
-    def contact_states(self) -> States:
-        """Return the states at the knots of the sustained contacts, midway between, and at their ends."""
+    def contact_states(self) -> tuple[States, States, States]:
+        """Return the states at the start, midway and at the end of each step of the sustained contacts."""
         first = np.flatnonzero(self.knots[:, STEP] == StepKind.CONTACT)
-        start, end = self.knots[first, TIME], self.knots[first + 1, TIME]
-        return self.sample(np.concatenate([start, (start + end) / 2, end]))
+        midway = (self.knots[first, TIME] + self.knots[first + 1, TIME]) / 2
+        return self._at(first), self.sample(midway), self._at(first + 1)
 
     def landings(self) -> Changes:
         """Return the states before and after the landings of a second rim in sustained contacts."""

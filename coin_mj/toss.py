@@ -169,7 +169,7 @@ def _toss(scenario: Scenario, rules: Rules, settings: MujocoSettings) -> Toss:
                 InContact(
                     path.stretches(answer.contacts),
                     path.landings(),
-                    gaps(scenario.body, path.contact_states()),
+                    np.concatenate([gaps(scenario.body, states) for states in path.contact_states()]),
                 ),
                 path,
                 _force_and_moment,
