@@ -138,7 +138,7 @@ def test_a_loss_that_no_engine_may_overlook_is_one():
 
 @pytest.mark.parametrize(
     ("below", "expected"),
-    [(7e-5, (Outcome.PERPETUAL, Ending.PERPETUAL)), (9e-5, (Outcome.HEADS, Ending.SETTLED))],
+    [(3e-6, (Outcome.PERPETUAL, Ending.PERPETUAL)), (5e-6, (Outcome.HEADS, Ending.SETTLED))],
 )
 def test_a_coin_that_steps_of_contact_may_have_taken_below_the_pass_is_not_settled(below, expected):
     """Their errors begin with the first contact."""
