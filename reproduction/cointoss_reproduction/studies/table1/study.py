@@ -13,8 +13,8 @@ from cointoss import EndingCriteria, Release, Scenario, load
 from cointoss.study import Array, derivative, quaternion_from_angles, state_at_release, vector
 from cointoss_reproduction.frame.cells import Cells, column
 from cointoss_reproduction.frame.study import study
-from cointoss_reproduction.setups.both_engines import by_both
-from cointoss_reproduction.studies.table1.euler_angles import Sequence, rate_matrix, rotation_of, singularity
+from cointoss_reproduction.setups.both_engines import ENGINES, by_both
+from cointoss_reproduction.studies.table1.euler_angles import rate_matrix, rotation_of, singularity
 
 PRINTED = {
     "121": ("sin", -1, 0.0),
@@ -32,7 +32,7 @@ PRINTED = {
 }
 """Table 1: the function of φ_2 that vanishes, its sign, and the first angle where it does [rad]."""
 ROWS = len(PRINTED)
-CLASSICAL = Sequence.ZETA_XI_ZETA
+CLASSICAL = "313"
 
 LEAST = tuple(0.3 * 10.0**-k for k in range(11))
 """Smallest θ of the motions [rad]."""
@@ -44,13 +44,9 @@ STEPS = 1000
 """The number of steps in the turn of the solver with fixed steps."""
 
 
-ENGINES = ("analytic", "MuJoCo")
-
-
 def follow(sequence: str) -> dict[str, int]:
     """Return whether a row of the table follows from det B."""
-    at = singularity(Sequence(sequence))
-    return {"follows": int((at.function, at.sign, at.angle) == PRINTED[sequence])}
+    return {"follows": int(singularity(sequence) == PRINTED[sequence])}
 
 
 def fly(least: float) -> Iterator[dict[str, Any]]:
@@ -66,8 +62,16 @@ def fly(least: float) -> Iterator[dict[str, Any]]:
     of_parameters = state_at_release(release)
     of_angles = np.array([*of_parameters[:6], *(release.angles or ()), *of_parameters[10:]])
     ways = {
-        "angles": (partial(_rate_in_angles, case), of_angles, _by_angles),
-        "parameters": (partial(_rate_in_parameters, case), of_parameters, _by_parameters),
+        "angles": (
+            partial(_rate_in_angles, case),
+            of_angles,
+            lambda y: Rotation.from_matrix(rotation_of(CLASSICAL, y[6:9])),
+        ),
+        "parameters": (
+            partial(_rate_in_parameters, case),
+            of_parameters,
+            lambda y: Rotation.from_quat(y[6:10], scalar_first=True),
+        ),
     }
     for way, (rate, start, attitude) in ways.items():
         found = solve_ivp(
@@ -85,14 +89,6 @@ def fly(least: float) -> Iterator[dict[str, Any]]:
     for engine, toss in by_both(case).items():
         e = toss.sample(period).quaternion[0]
         yield {"way": engine, "error": (end.inv() * Rotation.from_quat(e, scalar_first=True)).magnitude()}
-
-
-def _by_angles(y: Array) -> Rotation:
-    return Rotation.from_matrix(rotation_of(CLASSICAL, y[6:9]))
-
-
-def _by_parameters(y: Array) -> Rotation:
-    return Rotation.from_quat(y[6:10], scalar_first=True)
 
 
 def _case(least: float) -> tuple[Scenario, Array, float]:
