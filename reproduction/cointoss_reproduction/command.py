@@ -30,12 +30,8 @@ _Sizes = Mapping[str, Mapping[str, Any]]
 """By the name of what is reproduced, sizes by their names."""
 
 
-def _names() -> list[str]:
-    return [*runner.names(), "all"]
-
-
 @click.command()
-@click.argument("names", nargs=-1, metavar="[NAME ...]", **completing(_names))
+@click.argument("names", nargs=-1, metavar="[NAME ...]", **completing(lambda: [*runner.names(), "all"]))
 @click.option(
     "--out",
     type=WrittenPlace(Written(kind="folder")),

@@ -112,7 +112,9 @@ def read_run(folder: Path, *, quick: bool | None) -> Run:
         raise RunError(
             f"{folder}: holds no {CLAIMS}, so no run; accepted: --check DIR after a run with --out DIR"
         )
-    read, found = {CLAIMS: read_claims, TABLE: _read_table, PROVENANCE: read_provenance}, dict[str, Any]()
+    read, found = {CLAIMS: read_claims, PROVENANCE: read_provenance}, dict[str, Any]()
+    if (folder / TABLE).exists():
+        read[TABLE] = read_table
     for name, reader in read.items():
         try:
             found[name] = reader(folder / name)
@@ -123,11 +125,7 @@ def read_run(folder: Path, *, quick: bool | None) -> Run:
     if quick is not None and quick is not (made_of is not None and made_of["quick"]):
         size, way = ("full", "without") if quick else ("quick", "with")
         raise RunError(f"{folder}: of the {size} size; accepted: the same {way} --quick")
-    return Run(claims=found[CLAIMS], cells=found[TABLE], made_of=made_of)
-
-
-def _read_table(path: Path) -> pd.DataFrame:
-    return read_table(path) if path.exists() else pd.DataFrame()
+    return Run(claims=found[CLAIMS], cells=found.get(TABLE, pd.DataFrame()), made_of=made_of)
 
 
 def check(there: Run, here: Run, *, timed: bool) -> Check:
@@ -141,7 +139,10 @@ def check(there: Run, here: Run, *, timed: bool) -> Check:
     assert here.made_of is not None
     other = unlike(there.made_of, here.made_of)
     claims, found = there.named, here.named
-    verdicts = {one: [_verdict(of.get(one)) for of in (claims, found)] for one in {**claims, **found}}
+    verdicts = {
+        one: [VERDICTS[of[one].holds] if one in of else "no such claim" for of in (claims, found)]
+        for one in {**claims, **found}
+    }
     both = [] if timed else [(name, claims[name], found[name]) for name in claims if name in found]
     exact = not other
     numbers = [one for pair in both for one in _criteria(*pair, exact=exact)]
@@ -161,10 +162,6 @@ def check(there: Run, here: Run, *, timed: bool) -> Check:
             if getattr(old, who) != getattr(new, who)
         ),
     )
-
-
-def _verdict(claim: Claim | None) -> str:
-    return "no such claim" if claim is None else VERDICTS[claim.holds]
 
 
 def _criteria(name: str, there: Claim, here: Claim, *, exact: bool) -> Iterator[Compared]:

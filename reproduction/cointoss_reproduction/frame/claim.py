@@ -161,14 +161,9 @@ def unexpected(claims: Sequence[Claim], *, quick: bool = False) -> tuple[str, ..
     )
 
 
-def criteria_of(claim: Claim, *, reasons: bool = True) -> str:
-    """Return what was measured for a claim and what is accepted, with or without the reasons."""
-    return "; ".join(criterion_of(each, reasons=reasons) for each in claim.criteria)
-
-
-def criterion_of(criterion: Criterion, *, reasons: bool = True) -> str:
-    """Return what was measured and what is accepted, with or without the reason."""
-    return f"{criterion.found} ({criterion.accepted}{': ' + criterion.reason if reasons else ''})"
+def criteria_of(claim: Claim) -> str:
+    """Return what was measured for a claim and what is accepted, without the reasons."""
+    return "; ".join(f"{each.found} ({each.accepted})" for each in claim.criteria)
 
 
 def to_json(claims: Sequence[Claim]) -> str:

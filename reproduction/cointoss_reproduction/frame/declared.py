@@ -169,8 +169,3 @@ def _criteria(row: Sequence[Any], names: ChainMap[str, Any]) -> Iterator[Criteri
         of_key = names.new_child({"key": key})
         own = limit[key] if isinstance(limit, Mapping) else limit
         yield Criterion(_in_words(quantity, of_key), one, relation, own, _in_words(reason, of_key))
-
-
-def listed(numbers: Mapping[Any, Any], spec: str) -> str:
-    """Return numbers in words, each with its name behind it in brackets."""
-    return ", ".join(f"{number:{spec}} ({name})" for name, number in numbers.items())

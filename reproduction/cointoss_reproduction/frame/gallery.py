@@ -150,8 +150,13 @@ def markdown(out: Path, shown: Sequence[GalleryEntry], *, quick: bool) -> str:
     """
     opened = opening(out)
     main = (f"- **{one.says}** {found}" for one, found, _ in opened)
+    sketches = "; ".join(f"{place}, {shows}" for place, shows in SKETCHES.items())
     rows = [
-        (entry.found.paper, f"[{entry.found.title}]({page_in(entry.name)})", verdicts_of(entry.claims))
+        (
+            entry.found.paper,
+            f"[{entry.found.title}]({(runner.folder_of(entry.name, Path()) / PAGE).as_posix()})",
+            verdicts_of(entry.claims),
+        )
         for entry in shown
     ]
     return (
@@ -164,19 +169,8 @@ def markdown(out: Path, shown: Sequence[GalleryEntry], *, quick: bool) -> str:
             quick="--quick " if quick else "",
         )
         + table(["the paper", "what it shows", "its claims"], [*rows], words=True)
-        + f"\n\n{_sketches()}\n"
+        + f"\n\nNot computed, because each sketches a definition: {sketches}.\n"
     )
-
-
-def page_in(name: str) -> str:
-    """Return where the page of a figure lies, from the folder of all that is reproduced."""
-    return (runner.folder_of(name, Path()) / PAGE).as_posix()
-
-
-def _sketches() -> str:
-    """Return which figures have no page, and why."""
-    listed = "; ".join(f"{place}, {shows}" for place, shows in SKETCHES.items())
-    return f"Not computed, because each sketches a definition: {listed}."
 
 
 def claims_sheet(shown: Sequence[GalleryEntry]) -> str:
@@ -222,7 +216,7 @@ def opening(out: Path) -> list[tuple[MainClaim, str, Path]]:
 def _verdicts(claims: Sequence[Claim]) -> list[str]:
     """Return the first claims with their verdicts, where none has a headline."""
     parts = [
-        f"{claim.claim[0].upper()}{claim.claim[1:]}: {claim.verdict} ({criteria_of(claim, reasons=False)})."
+        f"{claim.claim[0].upper()}{claim.claim[1:]}: {claim.verdict} ({criteria_of(claim)})."
         for claim in claims[:2]
     ]
     return [" ".join(parts)]

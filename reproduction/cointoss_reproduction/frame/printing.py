@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from cointoss.study import laid_out
-from cointoss_reproduction.frame.claim import MARKS, VERDICTS, Claim, criterion_of
+from cointoss_reproduction.frame.claim import MARKS, VERDICTS, Claim
 from cointoss_reproduction.frame.pages import verdicts_of
 from cointoss_reproduction.frame.result import Result
 
@@ -28,7 +28,7 @@ def _claim(claim: Claim, width: int) -> Iterator[str]:
     """Yield the lines of a claim: its verdict and what it says, and below what was found."""
     yield from _wrapped(f"{MARKS[claim.holds]} ", f"{VERDICTS[claim.holds]}: {claim.claim}", width)
     found = [("analytic", claim.analytic), ("MuJoCo", claim.mujoco)]
-    found += [("measured", criterion_of(criterion)) for criterion in claim.criteria]
+    found += [("measured", f"{each.found} ({each.accepted}: {each.reason})") for each in claim.criteria]
     found += [("open", claim.wanted)] if claim.holds is None else []
     for label, text in found:
         if text != "-":

@@ -27,11 +27,6 @@ def save(folder: Path, result: Result, draw: Mapping[str, Callable[[Any], Figure
         (folder / TABLE).write_text(text_of(data), encoding="utf-8")
     else:
         np.savez_compressed(folder / "data.npz", allow_pickle=False, **data)
-    draw_all(folder, result.data, draw)
-
-
-def draw_all(folder: Path, data: Any, draw: Mapping[str, Callable[[Any], Figure]]) -> None:
-    """Draw the pictures of a reproduction from its data into a folder that exists."""
     for name, picture in draw.items():
         path = folder / f"{name}.png"
         with mpl.rc_context(STYLE):

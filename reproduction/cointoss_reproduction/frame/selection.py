@@ -53,11 +53,9 @@ def selected(cells: pd.DataFrame, said: Declared) -> pd.DataFrame:
     `per` has columns: the numbers of rows that are the same there are added up.
     """
     rows = cells.query(said["where"], engine="python") if "where" in said else cells
-    return _added(rows, said["per"]) if "per" in said else rows
-
-
-def _added(rows: pd.DataFrame, per: list[str]) -> pd.DataFrame:
-    return pd.DataFrame(rows.groupby(per, sort=False, as_index=False).sum(numeric_only=True))
+    if "per" in said:
+        return pd.DataFrame(rows.groupby(said["per"], sort=False, as_index=False).sum(numeric_only=True))
+    return rows
 
 
 def measured(cells: pd.DataFrame, said: Declared) -> Any:
