@@ -1,4 +1,4 @@
-"""Keller's map, Fig. 2: its axes, and the coins that are tossed and caught in it."""
+"""Keller's map, Fig. 2: its axes, the coins that are tossed and caught in it, and n_z of any flight."""
 
 import numpy as np
 
@@ -26,8 +26,17 @@ def thrown(scenario: Scenario, over: Array, up: Array) -> Array:
 
 def caught(scenario: Scenario, starts: Array) -> Array:
     """Return n_z when coins would be back, in vacuum, at the height of their release, (n,)."""
-    heights, state = [], np.empty((1, 13))
-    for start in starts:
-        sample_flight(scenario.body, start, 0.0, np.array([2 * start[5] / scenario.gravity]), state)
-        heights.append(1 - 2 * (state[0, 7] ** 2 + state[0, 8] ** 2))
-    return np.array(heights)
+    return np.array([flown(scenario, start, 2 * start[5:6] / scenario.gravity)[0] for start in starts])
+
+
+def flown(scenario: Scenario, start: Array, times: Array) -> Array:
+    """Return n_z of a flight by the analytic engine, (n,).
+
+    Args:
+        scenario: coin and air.
+        start: state at release, (13,).
+        times: (n,) [s].
+    """
+    states = np.empty((len(times), 13))
+    sample_flight(scenario.body, start, 0.0, times, states)
+    return 1 - 2 * (states[:, 7] ** 2 + states[:, 8] ** 2)

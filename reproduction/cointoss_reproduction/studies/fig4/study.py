@@ -8,12 +8,11 @@ import pandas as pd
 from scipy.spatial.transform import Rotation
 
 from cointoss import Air, EndingCriteria, Release, Scenario, coin_mj, load
-from cointoss.study import Array, by_numba, sample_flight, vector
+from cointoss.study import Array, vector
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.both_engines import by_both, first_touch
-
-sample_flight = by_numba(sample_flight)
+from cointoss_reproduction.setups.kellers_map import flown
 
 CASES = {
     "ideal in vacuum": ("fig4_ideal", Air()),
@@ -88,16 +87,9 @@ def toss_at_random(count: int = 1000) -> Iterator[dict[str, Any]]:
 def _tossed(scenario: Scenario, start: Array, n: Array, L: Array, turn: float) -> tuple[float, float]:
     """Return the least |n_z| while the first side is up, less than 0 where it turns over, and its error."""
     times = np.linspace(0, DURATION, SAMPLES)
-    heights = _heights(scenario, start, times)
+    heights = flown(scenario, start, times)
     apart = np.abs(heights - _closed_form(n, L, turn, times)).max()
     return (np.sign(heights[0]) * heights).min(), apart
-
-
-def _heights(scenario: Scenario, start: Array, times: Array) -> Array:
-    """Return n_z of a flight by the analytic engine, (n,)."""
-    states = np.empty((len(times), 13))
-    sample_flight(scenario.body, start, 0.0, times, states)
-    return 1 - 2 * (states[:, 7] ** 2 + states[:, 8] ** 2)
 
 
 def _closed_form(n: Array, L: Array, turn: float, times: Array) -> Array:
@@ -142,7 +134,7 @@ def turn(psi: float) -> Iterator[dict[str, Any]]:
     # In the middles of equal parts of the turn.
     times = (np.arange(TURNS) + 0.5) / TURNS * 2 * np.pi / rate
     w = rate * J[0] * np.array([0, np.sin(psi), np.cos(psi)]) / J
-    heights = _heights(scenario, np.array([0, 0, 0, 0, 0, 0, 1.0, 0, 0, 0, *w]), times)
+    heights = flown(scenario, np.array([0, 0, 0, 0, 0, 0, 1.0, 0, 0, 0, *w]), times)
     release = Release(position=(0.0, 0.0, 1.0), velocity=(0.0, 0.0, 2.0), angular_velocity=vector(w))
     mujoco = float(np.mean(_mujoco_heights(scenario, release, 2 * np.pi / rate, times) > 0))
     exact = float(1 / 2 + np.arcsin(np.minimum(1 / np.tan(psi), 1) ** 2) / np.pi)
