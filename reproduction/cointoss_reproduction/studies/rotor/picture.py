@@ -92,10 +92,8 @@ def draw_shares(axes: Axes, cells: pd.DataFrame) -> None:
 
 def draw_slopes(axes: Axes, cells: pd.DataFrame) -> None:
     """Draw α by the chain, with its intervals, and by the law of the limit."""
-    for chi, color in COLORS.items():
-        rows = cells.query(f"far == {chi}")
-        if rows.empty:
-            continue
+    for chi in cells["far"].dropna().unique().tolist():
+        rows, color = cells.query(f"far == {chi}"), COLORS[chi]
         value, low, high = (rows[f"far_alpha{end}"] for end in ("", " low", " high"))
         axes.errorbar(
             rows["decades"], value, [value - low, high - value], fmt="o", color=color, markersize=3, capsize=2
