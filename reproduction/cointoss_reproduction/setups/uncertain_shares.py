@@ -14,7 +14,7 @@ from cointoss import Scenario
 from cointoss.study import Array, Estimate, jackknife, share_of
 from cointoss_reproduction.precision.branching import EARLY, Branches, branch
 from cointoss_reproduction.precision.planar_coin import PlanarRelease, planar_coin, units
-from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS
+from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case
 
 ACCURACIES = tuple(float(f"1e-{n}") for n in range(3, 25))
 """ε, of the height of the release [m]; the same number is that of another quantity in its own unit."""
@@ -32,6 +32,12 @@ FEWEST = 5
 """Groups of ancestors whose boundaries are counted."""
 LEAST = 1e-300
 """The least share, in place of 0 where no ancestor has an uncertain toss."""
+
+
+def case_of(floor: str, chi: float) -> Scenario:
+    """Return the scenario of the maps, of a restitution, with one of the floors and media of `CHIS`."""
+    law = "perfectly_rough" if floor == ROUGH else "smooth"
+    return case(air=floor == AIR, restitution=chi).replace("floor.contact", law)
 
 
 @cache

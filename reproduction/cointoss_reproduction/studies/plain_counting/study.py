@@ -22,7 +22,7 @@ from cointoss_reproduction.setups.edge_classes import (
     nickel,
 )
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case
-from cointoss_reproduction.setups.uncertain_shares import ACCURACIES, AIR, SMOOTH
+from cointoss_reproduction.setups.uncertain_shares import ACCURACIES, AIR, SMOOTH, case_of
 
 SEED = 271
 FINEST = 1e-13
@@ -61,7 +61,7 @@ def uncertain(
         name: {row["accuracy"]: estimate(row, column) for row in rows}
         for name, (column, rows) in others.items()
     }
-    for row in turned_over(case(air=floor == AIR, restitution=chi), tosses):
+    for row in turned_over(case_of(floor, chi), tosses):
         found = {name: of.get(row["accuracy"]) for name, of in known.items()}
         yield row | found | {f"over_{name}": _over(row["share"], other) for name, other in found.items()}
 

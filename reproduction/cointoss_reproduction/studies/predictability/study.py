@@ -10,13 +10,13 @@ import pandas as pd
 from cointoss_reproduction.frame.cells import Cells, estimate
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.precision.branching import Branches
-from cointoss_reproduction.setups.planar_maps import case
 from cointoss_reproduction.setups.uncertain_shares import (
     ACCURACIES,
     AIR,
     CHIS,
     ROUGH,
     SMOOTH,
+    case_of,
     flat_share,
     share_at,
     slope_between,
@@ -65,12 +65,9 @@ def uncertain(
     """
     if chi not in chis.get(floor, ()) or (quantity != "height" and (floor, chi) != (SMOOTH, CHI)):
         return None
-    scenario = case(air=floor == AIR, restitution=chi)
-    if floor == ROUGH:
-        scenario = scenario.replace("floor.contact", "perfectly_rough")
     seed = SEED, list(CHIS).index(floor), round(100 * chi), AXES["quantity"].index(quantity)
     found = uncertain_shares(
-        scenario,
+        case_of(floor, chi),
         np.random.default_rng(seed),
         quantity=quantity,
         levels=levels,

@@ -16,10 +16,9 @@ from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case, planar_rows
 from cointoss_reproduction.setups.uncertain_shares import (
     ACCURACIES,
-    AIR,
     CHIS,
-    ROUGH,
     SMOOTH,
+    case_of,
     share_at,
     slope_between,
 )
@@ -56,12 +55,9 @@ def compare(
     """Yield f and α of the planar coin at each accuracy, by the chain and as `predictability` has them."""
     if chi not in CHIS[floor]:
         return
-    scenario = case(air=floor == AIR, restitution=chi)
-    if floor == ROUGH:
-        scenario = scenario.replace("floor.contact", "perfectly_rough")
     where = f"quantity == 'height' and floor == '{floor}' and chi == {chi}"
     known = {row["accuracy"]: row for row in kept_rows("predictability", out, where)}
-    for row in rows_of(by_chain(scenario, levels, tosses)):
+    for row in rows_of(by_chain(case_of(floor, chi), levels, tosses)):
         other = known.get(row["accuracy"])
         f, alpha = (other and estimate(other, name) for name in ("share", "alpha"))
         yield with_ratio(row, f) | {"counted_alpha": alpha if row["window"] else None}
