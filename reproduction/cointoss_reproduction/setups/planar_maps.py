@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
+from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from cointoss import Air, Scenario, analytic, coin_mj, load
@@ -16,6 +17,7 @@ from cointoss.study import (
     Array,
     MapAxis,
     OutcomeCodes,
+    draw_panel,
     rows_from_states,
     run,
     states_of,
@@ -66,6 +68,15 @@ def lines_of(faces: NDArray[np.int8]) -> list[str]:
 def map_of(lines: Iterable[str]) -> NDArray[np.int8]:
     """Return the map that has been written as lines."""
     return np.array([[ord(letter) - ord("a") for letter in line] for line in lines], dtype=np.int8)
+
+
+def draw_titled(
+    axes: Axes, faces: OutcomeCodes, title: str, *, x: MapAxis = HEIGHT, y: MapAxis = SPIN
+) -> None:
+    """Draw a map into `axes`, below a title."""
+    draw_panel(axes, faces, x=x, y=y)
+    axes.set_title(title)
+    axes.grid(visible=False)
 
 
 def planar_rows(scenario: Scenario, heights: Array, spins: Array) -> Array:

@@ -13,13 +13,12 @@ from cointoss.study import (
     MapAxis,
     Progress,
     crossings,
-    draw_panel,
     rows_from_states,
     share,
 )
 from cointoss_reproduction.frame.declared import Data, Findings, declared
 from cointoss_reproduction.setups.kellers_map import FASTEST, HIGHEST, middles, thrown
-from cointoss_reproduction.setups.planar_maps import case, toss_rows_by_mujoco
+from cointoss_reproduction.setups.planar_maps import case, draw_titled, toss_rows_by_mujoco
 
 BODIES = ("disc", "bar")
 SPEEDS = np.array([0.025, 0.05, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.225, 0.25])
@@ -84,9 +83,7 @@ def _draw(data: Data) -> Figure:
     y = MapAxis(name="v₀/g", unit="s", start=0.0, stop=HIGHEST)
     titles = {"Keller": "Keller: caught", **{body: f"{body}, bouncing" for body in BODIES}}
     for axes, (name, title) in zip(maps, titles.items(), strict=True):
-        draw_panel(axes, data[name], x=x, y=y)
-        axes.set_title(title)
-        axes.grid(visible=False)
+        draw_titled(axes, data[name], title, x=x, y=y)
         axes.label_outer()
     for body in BODIES:
         widths.semilogy(SPEEDS, data[f"{body}, width"], "o-", label=body)

@@ -5,16 +5,15 @@ from matplotlib.figure import Figure
 
 from cointoss import Face, Outcome, Scenario
 from cointoss.coin_mj import impacts_of
-from cointoss.study import OutcomeCodes, Progress, crossings, distance_to_doubt, draw_panel, fractions, share
+from cointoss.study import OutcomeCodes, Progress, crossings, distance_to_doubt, fractions, share
 from cointoss_reproduction.frame.declared import Data, Findings, declared
 from cointoss_reproduction.setups.planar_maps import (
-    HEIGHT,
     HEIGHTS,
     MEDIA,
-    SPIN,
     SPINS,
     Grid,
     case,
+    draw_titled,
     faces_after,
     final_faces,
     planar_rows,
@@ -98,9 +97,7 @@ def _closed_form(grid: Grid) -> OutcomeCodes:
 def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(6.4, 5.6))
     for axes, letter, (name, maps) in zip(picture.subplots(2, 2).flat, "abcd", data.items(), strict=True):
-        draw_panel(axes, maps, x=HEIGHT, y=SPIN)
-        axes.set_title(f"({letter}) {name}")
-        axes.grid(visible=False)
+        draw_titled(axes, maps, f"({letter}) {name}")
     return picture
 
 

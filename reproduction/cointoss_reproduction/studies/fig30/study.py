@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cointoss import Scenario, analytic
-from cointoss.study import GREY, Array, MapAxis, Progress, draw_panel, share
+from cointoss.study import GREY, Array, MapAxis, Progress, share
 from cointoss_reproduction.frame.cells import Cells, table_of
 from cointoss_reproduction.frame.declared import Data, Findings, declared
 from cointoss_reproduction.precision.magnified import MAGNIFICATION, Magnified, magnify
@@ -21,6 +21,7 @@ from cointoss_reproduction.setups.planar_maps import (
     SPINS,
     Grid,
     case,
+    draw_titled,
     final_faces,
     planar_rows,
     toss_rows_by_mujoco,
@@ -213,16 +214,15 @@ def _draw(data: Data) -> Figure:
         for column, (height, spin) in enumerate(WINDOWS):
             axes = grid[row, column]
             z, w = data[f"{medium}, center"]
-            draw_panel(
+            draw_titled(
                 axes,
                 data[f"{medium}, enlargement {column}"],
+                f"in {medium}, {height:g} m wide",
                 x=MapAxis(name="height", unit="m", start=z - height / 2, stop=z + height / 2),
                 y=MapAxis(name="spin", unit="rad/s", start=w - spin / 2, stop=w + spin / 2),
             )
-            axes.set_title(f"in {medium}, {height:g} m wide")
             axes.ticklabel_format(useOffset=False)
             axes.locator_params(axis="x", nbins=4)
-            axes.grid(visible=False)
     counts, slopes = grid[:, 2]
     windows = _window(np.arange(WINDOWS_BELOW))
     for medium, color in MEDIA.items():

@@ -10,16 +10,15 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from cointoss import EndingCriteria, Outcome, Scenario, analytic
-from cointoss.study import Array, Estimate, draw_panel, quotient, share, share_of
+from cointoss.study import Array, Estimate, quotient, share, share_of
 from cointoss_reproduction.frame.cells import Cells, column, estimate
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.planar_maps import (
-    HEIGHT,
     HEIGHTS,
     MEDIA,
-    SPIN,
     SPINS,
     case,
+    draw_titled,
     faces_after,
     lines_of,
     map_of,
@@ -226,9 +225,7 @@ def _draw(cells: pd.DataFrame) -> Figure:
     panels = picture.subplots(2, len(SHOWN), sharex=True, sharey=True).flat
     for axes, (medium, n) in zip(panels, product(MEDIA, SHOWN), strict=True):
         lines = column(cells, "faces", f"medium == '{medium}' and impacts == {n}")
-        draw_panel(axes, map_of(lines), x=HEIGHT, y=SPIN)
-        axes.set_title(f"n = {n}, in {medium}")
-        axes.grid(visible=False)
+        draw_titled(axes, map_of(lines), f"n = {n}, in {medium}")
         axes.label_outer()
     return picture
 
