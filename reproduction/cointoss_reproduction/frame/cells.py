@@ -19,6 +19,8 @@ from cointoss.study import Estimate, Progress, read_bounded, write_text
 from cointoss_reproduction.frame.files import MOST_BYTES, TABLE, folder_of
 from cointoss_reproduction.frame.provenance import sources
 
+Row = dict[str, Any]
+"""A row of a table, by the names of its columns."""
 Rows = Mapping[str, Any] | Iterable[Mapping[str, Any]] | pd.DataFrame | None
 """A row of a table, several, or none."""
 Cell = Callable[..., Rows]

@@ -10,7 +10,7 @@ import pandas as pd
 
 from cointoss import Ending, Engine
 from cointoss.study import Estimate, chance_alike, difference, percent, share, share_of
-from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.cells import Cells, Row
 from cointoss_reproduction.frame.selection import measured
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.edge_classes import (
@@ -70,7 +70,6 @@ SHARED = {
     for name in [f"{wobble}, h/D = {aspect:.2g}, χ = {chi:g}{resistance}"]
 }
 """Hand and class of the coins that both engines toss, by name."""
-Row = dict[str, Any]
 
 
 def on_floor(wobble: str, factor: str, parts: int = 1) -> Row:

@@ -7,7 +7,7 @@ import numpy as np
 
 import cointoss
 from cointoss import Scenario, Toss, analytic
-from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.cells import Cells, Row
 from cointoss_reproduction.frame.study import study
 
 MASS, RADIUS, GRAVITY = 2e-3, 1.25e-2, 9.81
@@ -24,7 +24,6 @@ FROM, TO, LAST, SAMPLES = 0.5, 1e-2, 1e-4, 120
 TOYS = {"friction and air": (), "friction alone": ("air.viscosity", 0.0)}
 EARLY, LATE = (0.05, 0.15), (7e-3, 2e-2)
 """Tilts between which the toy's exponent is fitted [rad]."""
-Row = dict[str, Any]
 
 
 def disc(field: str, size: float, tilt: float) -> Scenario:

@@ -15,7 +15,7 @@ from cointoss.study import (
     sample_piece,
     turned,
 )
-from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.cells import Cells, Row
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.edge_classes import (
     AS_SAID,
@@ -41,7 +41,6 @@ DISKS = {"rolling": (2e-5, 17.8), "pivoting": (1e-4, 3.0)}
 """δ, or p, on the floor of Euler's disk [m], and how long it is followed [s]."""
 MASS, RADIUS = 2e-3, 1.25e-2
 """Mass and radius of all coins but the nickel [kg, m]."""
-Row = dict[str, Any]
 
 
 def rolling_stop(share_of_inertia: float) -> Row:
