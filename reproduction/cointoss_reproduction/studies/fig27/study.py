@@ -64,7 +64,7 @@ def follow(medium: str, toss: int, followed: int = FOLLOWED) -> Iterator[dict[st
         return
     scenario, grown = _case(medium), {}
     if toss:
-        scenario = _spun(scenario, _spins(toss)[-1])
+        scenario = scenario.replace("release.angular_velocity", _spins(toss)[-1])
         shorter = scenario if medium == "air" else scenario.replace("ending.max_impacts", FOLLOWED_IMPACTS)
         growth = growth_by_tangent(shorter)
         grown = {"exponent": growth.mean(), "of_first": growth[:FIRST].mean()}
@@ -77,7 +77,7 @@ def follow(medium: str, toss: int, followed: int = FOLLOWED) -> Iterator[dict[st
 def count(others: int = 200) -> Iterator[dict[str, int]]:
     """Yield how many impacts tosses in air with other spins have."""
     for spin in _spins(others):
-        yield {"impacts": len(_angles(_spun(_case("air"), spin)))}
+        yield {"impacts": len(_angles(_case("air").replace("release.angular_velocity", spin)))}
 
 
 def compare_neighbours() -> Iterator[dict[str, Any]]:
@@ -102,10 +102,6 @@ def _case(medium: str) -> Scenario:
 
 def _spins(count: int) -> Array:
     return np.random.default_rng(SEED).uniform(-40, 40, (count, 3))
-
-
-def _spun(scenario: Scenario, spin: Array) -> Scenario:
-    return scenario.replace("release.angular_velocity", spin)
 
 
 def _angles(scenario: Scenario) -> Array:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from cointoss import Scenario, Toss, analytic, coin_mj, load
+from cointoss import Scenario, Toss, load
 from cointoss.study import (
     FINE,
     Array,
@@ -19,6 +19,7 @@ from cointoss.study import (
 )
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.setups.both_engines import ENGINES
 from cointoss_reproduction.setups.free_fall import MEDIA, MODELS
 
 flight_tangent = by_numba(flight_tangent)
@@ -27,7 +28,6 @@ sample = by_numba(sample)
 LONGEST = {"vacuum": 100.0, "air": 2000.0}
 """How long the coins fall [s]; in air the last turning is slow to end."""
 SAMPLES = 40
-ENGINES = {"analytic": analytic.toss, "MuJoCo": coin_mj.toss}
 SHORT, CHANGE = 0.6, 1e-6
 """Time of two nearby tosses by both engines [s], and how far apart they start, relative to the spin."""
 SPIN = 40.0
