@@ -305,8 +305,8 @@ def test_a_quantity_of_a_release_varies_alone():
 
 @pytest.mark.slow
 def test_the_side_on_which_a_flat_coin_lands_first_may_decide_its_face():
-    found = standing_coins.flat_landings(60)
+    found = standing_coins.beside_flat_landings(60)
     assert len(found) == 60
-    differs = found[:, 0] == 1
-    assert 0.1 < differs.mean() < 0.6
-    assert np.median(found[differs, 1]) > 0.1
+    differing = [one["off"] for one in found if one["differs"]]
+    assert 6 < len(differing) < 36
+    assert np.median(differing) > 0.1

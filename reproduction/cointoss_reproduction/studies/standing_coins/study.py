@@ -80,11 +80,6 @@ def in_vacuum(lines: int = 120) -> list[dict[str, bool]]:
     return [{"meets": set(one.outcomes) == _HEADS_AND_TAILS} for one in found]
 
 
-def beside_flat_landings(flat: int = 2000) -> list[dict[str, Any]]:
-    """Return what planar coins do beside each of `flat` releases that land flat."""
-    return [{"differs": bool(differs), "off": off} for differs, off in flat_landings(flat)]
-
-
 def _lines(count: int, *, thick: bool, air: bool) -> tuple[list[Scenario], Array, list[str]]:
     """Return scenarios, states and quantities that vary, of random lines of releases."""
     kind = CoinClass(thick=thick, imperfect=False, air=air, coulomb=False)
@@ -212,32 +207,27 @@ def falls(times: Array, near: Standing) -> float:
     return float(np.interp(np.log(FALLEN), np.log(off[last]), times[first:][last]))
 
 
-def flat_landings(count: int) -> Array:
-    """Toss planar coins beside releases whose first touch is exactly flat, in vacuum, in 128 bits.
-
-    Args:
-        count: of such releases, at random.
+def beside_flat_landings(flat: int = 2000) -> list[dict[str, Any]]:
+    """Toss planar coins beside `flat` releases whose first touch is exactly flat, in vacuum, in 128 bits.
 
     Returns:
         Whether the outcomes at the two sides differ, and how near to standing the nearer one comes, of those
-        that are decided, (n, 2).
+        that are decided.
     """
     scenario = case(air=False)
     coin, own, rng = planar_coin(scenario), units(scenario), np.random.default_rng(SEED)
     found = []
-    while len(found) < count:
+    while len(found) < flat:
         spin, half_turns = Fraction(rng.uniform(*SPINS)), int(rng.integers(1, 10))
         height = own.gravity / 2 * (half_turns * _PI / spin) ** 2
         if HEIGHTS[0] < height < HEIGHTS[1]:
             both = spread(PlanarRelease(height - BESIDE, spin), "height", 2 * BESIDE, 2)
             found.append(toss_many(coin, own, both, to_contact=True))
-    return np.array(
-        [
-            (one.outcome != other.outcome, min(one.from_upright, other.from_upright))
-            for one, other in found
-            if Outcome.UNDECIDED not in (one.outcome, other.outcome)
-        ]
-    )
+    return [
+        {"differs": one.outcome != other.outcome, "off": min(one.from_upright, other.from_upright)}
+        for one, other in found
+        if Outcome.UNDECIDED not in (one.outcome, other.outcome)
+    ]
 
 
 _PI = Fraction("3.14159265358979323846264338327950288419716939937510582097494")
