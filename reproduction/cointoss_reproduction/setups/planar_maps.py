@@ -28,9 +28,6 @@ HEIGHTS, SPINS = (0.2, 0.6), (20.0, 60.0)
 HEIGHT = MapAxis(name="height", unit="m", start=HEIGHTS[0], stop=HEIGHTS[1])
 SPIN = MapAxis(name="spin", unit="rad/s", start=SPINS[0], stop=SPINS[1])
 MEDIA = {"air": BLUE, "vacuum": VERMILION}
-LANDINGS = {"soft floor": BLUE, "bouncing": VERMILION}
-"""How a toss ends, at its first touch or after its bounces; both with the colours of their curves."""
-
 toss_rows_by_mujoco = partial(coin_mj.toss_rows, settings=coin_mj.FINE)
 """MuJoCo's tosses where single ones are compared."""
 
@@ -123,6 +120,13 @@ def faces_after(
     shorter = rows.copy()
     shorter[:, PLACE["ending.max_impacts"]] = impacts + 1
     return toss_rows(shorter).after(impacts)
+
+
+LANDINGS: dict[str, Callable[[Array], NDArray[np.int8]]] = {
+    "soft floor": lambda rows: faces_after(rows, 0),
+    "bouncing": lambda rows: analytic.toss_rows(rows).outcome,
+}
+"""How tosses of rows end, (n, 54) to (n,): at their first touch, or after their bounces."""
 
 
 def touched_faces(scenario: Scenario, heights: Array, spins: Array, touches: int) -> NDArray[np.int8]:

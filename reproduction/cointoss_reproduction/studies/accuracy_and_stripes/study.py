@@ -7,11 +7,10 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from cointoss import analytic
 from cointoss.study import Array, mean_share, ratio_of_medians
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
-from cointoss_reproduction.setups.planar_maps import HEIGHTS, LANDINGS, SPINS, case, faces_after, planar_rows
+from cointoss_reproduction.setups.planar_maps import HEIGHTS, LANDINGS, SPINS, case, planar_rows
 
 SEED = 53
 LADDER = np.geomspace(1e-10, 0.1, 91)
@@ -52,8 +51,7 @@ def found(cells: pd.DataFrame) -> dict[str, Any]:
 
 
 def _faces(landing: str, heights: Array, spins: Array) -> NDArray[np.int8]:
-    rows = planar_rows(case(air=True), heights, spins)
-    return faces_after(rows, 0) if landing == "soft floor" else analytic.toss_rows(rows).outcome
+    return LANDINGS[landing](planar_rows(case(air=True), heights, spins))
 
 
 def stripe_widths(landing: str, heights: Array, spins: Array) -> Array:

@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss import Face, analytic
+from cointoss import Face
 from cointoss.study import Array, jackknife, scatter_of_shares
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
-from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case, faces_after, planar_rows
+from cointoss_reproduction.setups.planar_maps import HEIGHTS, LANDINGS, SPINS, case, planar_rows
 
 SEED = 37
 CELLS = (1, 2, 4, 8, 16, 32)
@@ -27,10 +27,6 @@ HABITS: dict[str, Callable[[Array, Array], Array]] = {
     "about a quarter": lambda z, w: np.exp(-((z - 0.25) ** 2 + (w - 0.25) ** 2) / (2 * 0.1**2)),
 }
 """Densities of a hand's releases over the map, whose axes both run from 0 to 1."""
-LANDINGS: dict[str, Callable[[Array], NDArray[np.int8]]] = {
-    "soft floor": lambda rows: faces_after(rows, 0),
-    "bouncing": lambda rows: analytic.toss_rows(rows).outcome,
-}
 
 
 def landed(landing: Callable[[Array], NDArray[np.int8]], tosses: int = 200_000) -> Iterator[dict[str, Any]]:
