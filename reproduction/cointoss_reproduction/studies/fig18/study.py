@@ -27,7 +27,7 @@ def fall(medium: Air) -> Iterator[dict[str, Any]]:
         How far each is from the ideal one, and MuJoCo from the analytic engine [m, rad]; how far the ideal
         one is held back [m] and until when [s]; the path of that, and distance [mm] and angle [°] of others.
     """
-    tosses = {name: by_both(load(file).replace("air", medium)) for name, (file, _) in MODELS.items()}
+    tosses = {name: by_both(load(file).replace("air", medium)) for name, file in MODELS.items()}
     t = np.linspace(0, min(map(first_touch, tosses.values())), 400)
     paths = {name: both["analytic"].sample(t) for name, both in tosses.items()}
     ideal = paths[REFERENCE]

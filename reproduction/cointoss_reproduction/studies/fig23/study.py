@@ -31,7 +31,7 @@ def toss() -> Iterator[dict[str, Any]]:
     """
     pairs = {
         name: by_both(load(file).replace("air", MEDIA["air"], "ending.max_impacts", IMPACTS))
-        for name, (file, _) in MODELS.items()
+        for name, file in MODELS.items()
     }
     by_analytic = {name: pair["analytic"] for name, pair in pairs.items()}
     horizons = {name: _horizon(pair) for name, pair in pairs.items()}

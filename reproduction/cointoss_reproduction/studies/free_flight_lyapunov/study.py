@@ -38,7 +38,7 @@ def falling(medium: str, model: str) -> Iterator[dict[str, Any]]:
     """Follow all small changes of a coin's flight."""
     longest = LONGEST[medium]
     times = np.geomspace(0.1, longest, SAMPLES)
-    exponents = _exponents(load(MODELS[model][0]).replace("air", MEDIA[medium]), times)
+    exponents = _exponents(load(MODELS[model]).replace("air", MEDIA[medium]), times)
     for t, each in zip(times, exponents, strict=True):
         yield {"end": "largest", "time": t, "exponent": each.max()}
         yield {"end": "smallest", "time": t, "exponent": each.min()}
@@ -49,7 +49,7 @@ def falling(medium: str, model: str) -> Iterator[dict[str, Any]]:
 
 def nearby(engine: Callable[[Scenario], Toss]) -> dict[str, float]:
     """Return how fast two nearby tosses part, in air, and in vacuum about the middle axis [1/s]."""
-    case = load(MODELS["3D imperfect"][0]).replace("air", MEDIA["air"])
+    case = load(MODELS["3D imperfect"]).replace("air", MEDIA["air"])
     middle, direction, _ = _about_the_middle_axis()
     about_middle = _growth_of_difference(engine, middle, direction)
     return {
@@ -139,7 +139,7 @@ def _about_the_middle_axis() -> tuple[Scenario, Array, float]:
     Returns:
         The toss, the change that grows, and its rate, Ω √((J_2 - J_1)(J_3 - J_2)/(J_1 J_3)) [1/s].
     """
-    case = load(MODELS["3D imperfect"][0])
+    case = load(MODELS["3D imperfect"])
     J, axes = np.linalg.eigh(case.coin.inertia_about_C)
     rate = SPIN * np.sqrt((J[1] - J[0]) * (J[2] - J[1]) / (J[0] * J[2]))
     # J_1 ω̇_1 = (J_2 - J_3) Ω ω_3 in axes of the right hand.
