@@ -75,7 +75,9 @@ def make(progress: Progress) -> Findings:
         },
         outwards=[field.moves_outwards for field in fields],
         off=np.array([_apart(sums[0], other) for other in (integrals[0], _by_mujoco(thick))]),
-        one_outwards=[_one_moves_outwards(of) for of in (of_thin, fields)],
+        one_outwards=[
+            np.mean(of.upper.moves_outwards != of.lower.moves_outwards) for of in (of_thin, fields)
+        ],
         faces_apart=np.abs(of_thin.upper.velocity - of_thin.lower.velocity).max(),
         off_at_1=[_apart(one, integrals[1]) for one in sums],
     )
@@ -84,11 +86,6 @@ def make(progress: Progress) -> Findings:
 def _fields(case: Scenario, points: dict[str, int]) -> SurfaceFields:
     # Released flat: body and space frame are one.
     return velocity_fields(case.body, case.release.velocity, case.release.angular_velocity, **points)
-
-
-def _one_moves_outwards(fields: SurfaceFields) -> float:
-    """Return the part of the points of which exactly one of their two faces moves outwards."""
-    return float(np.mean(fields.upper.moves_outwards != fields.lower.moves_outwards))
 
 
 def _sum(case: Scenario, fields: SurfaceFields, b: float) -> Wrench:

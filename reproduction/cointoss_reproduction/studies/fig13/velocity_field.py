@@ -1,5 +1,6 @@
 """The velocities of a coin's surface, and the parts of them on which the air acts: data of Figs 13-15."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -7,12 +8,10 @@ import numpy as np
 
 from cointoss.study import Array, Body
 
-Triple = tuple[float, float, float]
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class VelocityField:
-    """Points of one surface and their velocities, body frame; arrays are read-only."""
+    """Points of one surface and their velocities, body frame."""
 
     point: Array
     """The points of the surface from B, (n, 3) [m]; eqs (60), (62), (64)."""
@@ -32,11 +31,6 @@ class VelocityField:
         """Where the surface moves outwards, (n,): s_i of eqs (67)-(71); velocities there are Fig. 14(b)."""
         return np.sum(self.velocity * self.normal, axis=1) > 0
 
-    def __post_init__(self) -> None:
-        """Make the arrays read-only."""
-        for array in (self.point, self.normal, self.velocity, self.outward, self.tangential):
-            array.setflags(write=False)
-
 
 class SurfaceFields(NamedTuple):
     """The velocities of a whole coin, surface by surface."""
@@ -51,8 +45,8 @@ class SurfaceFields(NamedTuple):
 
 def velocity_fields(
     body: Body,
-    v: Triple,
-    w: Triple,
+    v: Sequence[float],
+    w: Sequence[float],
     *,
     rings: int = 6,
     spokes: int = 24,
@@ -82,7 +76,7 @@ def velocity_fields(
     )
 
 
-def _field(body: Body, v: Triple, w: Triple, point: Array, normal: Array) -> VelocityField:
+def _field(body: Body, v: Sequence[float], w: Sequence[float], point: Array, normal: Array) -> VelocityField:
     velocity = np.array(v) + np.cross(w, point - np.array(body.center))
     speed = np.sum(velocity * normal, axis=1, keepdims=True)
     return VelocityField(
