@@ -1,9 +1,9 @@
 """350,757 flips by 48 people, and distributions of p, the probability of the same side, without wobble."""
 
-import csv
 from importlib import resources
 
 import numpy as np
+import pandas as pd
 from scipy.stats import expon, norm
 
 from cointoss import Flips
@@ -18,8 +18,7 @@ EXPONENTIAL = People(expon(), (0.0, 60.0), lambda x, latent: 0.5 + x[0] * latent
 def read_started() -> tuple[Flips, Flips]:
     """Return the counts of Bartoš et al. (2025) of flips that started with heads up, and with tails up."""
     path = resources.files(__name__.rpartition(".")[0]) / "same_side_flips.csv"
-    rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines()))
-    count = {name: np.array([int(row[name]) for row in rows]) for name in rows[0]}
+    count = {name: column.to_numpy() for name, column in pd.read_csv(str(path)).items()}
     heads, tails = (
         Flips(same=count[f"{side}_to_{side}"], flips=count[f"{side}_to_{side}"] + count[f"{side}_to_{other}"])
         for side, other in (("heads", "tails"), ("tails", "heads"))
