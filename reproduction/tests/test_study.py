@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from cointoss.compare.metrics.estimates import share_of
-from cointoss_reproduction.frame.cells import Cells, column, read_table, table_of, text_of
+from cointoss_reproduction.frame.cells import Cells, column, read_table, table_of
 from cointoss_reproduction.frame.selection import measured, picture_of, tables_of
 from saved import unseen
 
@@ -31,7 +31,7 @@ def test_a_table_has_a_row_for_each_cell_that_answers_with_the_names_on_its_axes
 
 
 def test_a_table_is_read_as_it_was_written(tmp_path):
-    (tmp_path / "cells.csv").write_text(text_of(CELLS))
+    CELLS.to_csv(tmp_path / "cells.csv", index=False)
     pd.testing.assert_frame_equal(read_table(tmp_path / "cells.csv"), CELLS)
 
 

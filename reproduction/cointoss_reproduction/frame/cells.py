@@ -106,11 +106,6 @@ def kept_rows(study: str, out: Path | None, where: str) -> list[dict[Any, Any]]:
     return read_table(path).query(where, engine="python").to_dict("records")
 
 
-def text_of(table: pd.DataFrame) -> str:
-    """Return a table as comma-separated values in full precision."""
-    return table.to_csv(index=False, lineterminator="\n")
-
-
 def column(cells: pd.DataFrame, name: str, where: str = "") -> NDArray[Any]:
     """Return a column of the rows that `where`, a pandas query, selects."""
     rows = cells.query(where, engine="python") if where else cells

@@ -59,7 +59,10 @@ def _claims(claims: Sequence[Claim]) -> Iterator[str]:
     for head, group in heads.items():
         if group:
             yield head
-            yield from (f"## {_sentence(claim)}\n\n{_measured(claim)}" for claim in group)
+            yield from (
+                f"## {VERDICTS[claim.holds]}: {_escaped(claim.claim)}\n\n{_measured(claim)}"
+                for claim in group
+            )
 
 
 def verdicts_of(claims: Iterable[Claim]) -> str:
@@ -86,10 +89,6 @@ def _decided_first(claims: Iterable[Claim]) -> str:
     decided = (claim for claim in ordered if claim.holds is not None and len(claim.claim) <= MOST_IN_TITLE)
     first = next(decided, None)
     return "" if first is None else "it does not hold that " * (not first.holds) + _escaped(first.claim)
-
-
-def _sentence(claim: Claim) -> str:
-    return f"{VERDICTS[claim.holds]}: {_escaped(claim.claim)}"
 
 
 def _escaped(text: str) -> str:

@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from cointoss.study import STYLE
-from cointoss_reproduction.frame.cells import text_of
 from cointoss_reproduction.frame.claim import to_json
 from cointoss_reproduction.frame.files import CLAIMS, TABLE
 from cointoss_reproduction.frame.result import Result
@@ -24,7 +23,7 @@ def save(folder: Path, result: Result, draw: Mapping[str, Callable[[Any], Figure
     (folder / CLAIMS).write_text(to_json(result.claims), encoding="utf-8")
     data = result.data
     if isinstance(data, pd.DataFrame):
-        (folder / TABLE).write_text(text_of(data), encoding="utf-8")
+        data.to_csv(folder / TABLE, index=False, lineterminator="\n")
     else:
         np.savez_compressed(folder / "data.npz", allow_pickle=False, **data)
     for name, picture in draw.items():
