@@ -72,8 +72,12 @@ def orders(known: list[dict[str, Any]]) -> str:
         [
             card["engine"],
             f"{1e3 * card['dt']:.3g} ms",
-            f"{sum(case['status'] == 'met' for case in card['cases'])} of {asked(card)}",
-            *(order(of_case(card, name)) for name in ("parabola", TIMED, "touch_spin")),
+            f"{sum(case['status'] == 'met' for case in card['cases'])} of "
+            f"{sum(case['status'] != 'not realisable' for case in card['cases'])}",
+            *(
+                "–" if found["order"] is None else f"{found['order']:.1f}"
+                for found in (of_case(card, name) for name in ("parabola", TIMED, "touch_spin"))
+            ),
             cost(card),
         ]
         for card in known
@@ -97,11 +101,6 @@ def settings(known: list[dict[str, Any]]) -> str:
     return table("engine | settings | likely", rows, words=True)
 
 
-def asked(card: dict[str, Any]) -> int:
-    """Return how many cases an engine can do."""
-    return sum(case["status"] != "not realisable" for case in card["cases"])
-
-
 def of_case(card: dict[str, Any], name: str) -> dict[str, Any]:
     """Return what came of a case; of one that is younger than the card, nothing."""
     return next((case for case in card["cases"] if case["name"] == name), NONE)
@@ -113,11 +112,6 @@ def shown(case: dict[str, Any]) -> str:
         return {"failed": "failed", "not measured": ""}.get(case["status"], "–")
     height = case.get("height") or 0.0
     return f"{case['error']:.1g}{'↓' * (height < 0)}{'↑' * (height > 0)}"
-
-
-def order(case: dict[str, Any]) -> str:
-    """Return the order of a case's error in the step."""
-    return "–" if case["order"] is None else f"{case['order']:.1f}"
 
 
 def cost(card: dict[str, Any]) -> str:

@@ -5,8 +5,8 @@ from pathlib import Path
 
 from tests.helpers.browser import READY, Page, browser
 from tests.helpers.lab import TOSSED, WHOLE
+from tests.helpers.pages import TOP
 
-TOP = Path(__file__).parents[2]
 PAGES = {"lab": ("lab.html", 860, f"{WHOLE} && {TOSSED}"), "report": ("table/report.html", 1440, READY)}
 """The name of each picture: its page in out/, its height, and what is true when it is ready."""
 

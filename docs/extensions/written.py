@@ -10,13 +10,13 @@ import others
 import pictures
 from myst_nb.core.read import read_myst_markdown_notebook
 from myst_nb.core.utils import coalesce_streams
+from papers import DOCS
 
 from cointoss.study import table, write_text, written_together
 from cointoss_reproduction.frame import gallery, pages, runner
 from cointoss_reproduction.frame.claim import to_json
 from cointoss_reproduction.frame.files import PAGE, SHEETS, folder_of
 
-DOCS = Path(__file__).parents[1]
 SHOWN = ("text/plain", "image/png")
 """Kinds of data that notebooks are kept with: an interactive page would add megabytes."""
 
