@@ -125,12 +125,8 @@ def value_of(field: str, names: Mapping[str, Any]) -> Any:
 def _index(text: str, of: Any, names: Mapping[str, Any]) -> Any:
     if isinstance(of, Mapping) and text in of:
         return text
-    key, *more = (_key(key, names) for key in text.split(", "))
+    key, *more = (int(key) if key.lstrip("-").isdigit() else names.get(key, key) for key in text.split(", "))
     return (key, *more) if more else key
-
-
-def _key(key: str, names: Mapping[str, Any]) -> Any:
-    return int(key) if key.lstrip("-").isdigit() else names.get(key, key)
 
 
 def _in_words(text: str, names: Mapping[str, Any]) -> str:
