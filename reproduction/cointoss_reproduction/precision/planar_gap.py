@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
+from functools import reduce
 from typing import Any
 
 from flint import arb, arb_poly, ctx
@@ -23,10 +24,7 @@ def polynomial(coefficients: Sequence[Any], s: Any) -> Any:
     """Return a polynomial's value, lowest coefficient first."""
     if isinstance(s, arb):
         return arb_poly(coefficients)(s)
-    total = arb(0)
-    for c in reversed(coefficients):
-        total = total * s + c
-    return total
+    return reduce(lambda total, c: total * s + c, reversed(coefficients), arb(0))
 
 
 def slopes(coefficients: Sequence[Any]) -> list[Any]:

@@ -8,6 +8,7 @@ Taylor models and other validated functional inclusion methods, 2003.)
 
 import operator
 from collections.abc import Callable
+from functools import reduce
 from math import comb
 from typing import Any
 
@@ -43,6 +44,13 @@ def _of_all(name: str) -> Callable[["TaylorModel"], Any]:
     return lambda x: call(x.whole[0])
 
 
+def _quotient(x: Any, y: Any) -> "TaylorModel":
+    """Return x/y, unless y may be 0."""
+    if not (whole(y) > 0 or whole(y) < 0):
+        raise UndecidedError
+    return _of_two(operator.truediv)(x, y)
+
+
 class TaylorModel:
     """A number x(p)."""
 
@@ -54,12 +62,9 @@ class TaylorModel:
     __sub__ = _of_two(operator.sub)
     __rsub__ = _of_two(lambda x, y: y - x)
     __mul__ = __rmul__ = _of_two(operator.mul)
+    __truediv__ = _quotient
     __pow__ = _of_two(operator.pow)
     __neg__, sin, cos, sqrt, asin = map(_of_one, ("__neg__", "sin", "cos", "sqrt", "asin"))
-
-    def __truediv__(self, other: Any) -> "TaylorModel":
-        """Return x/y."""
-        return _quotient(self, other)
 
     def __rtruediv__(self, other: Any) -> "TaylorModel":
         """Return y/x."""
@@ -90,9 +95,8 @@ class TaylorModel:
         found = []
         for k in range(ORDER + 1):
             known = [comb(k + j, k) * self.middle[k + j] for j in range(ORDER - k)]
-            total = comb(ORDER, k) * self.whole[ORDER]
-            for c in reversed(known):
-                total = total * ACROSS + c
+            last = comb(ORDER, k) * self.whole[ORDER]
+            total = reduce(lambda total, c: total * ACROSS + c, reversed(known), last)
             found.append(_common(self.whole[k], total))
         return TaylorModel(self.middle, arb_series(found))
 
@@ -138,13 +142,6 @@ def zero(
 def _part(x: Any, name: str) -> Any:
     """Return the series of a number, about its middle or about every p."""
     return getattr(x, name) if isinstance(x, TaylorModel) else x
-
-
-def _quotient(x: Any, y: Any) -> TaylorModel:
-    """Return x/y, unless y may be 0."""
-    if not (whole(y) > 0 or whole(y) < 0):
-        raise UndecidedError
-    return _of_two(operator.truediv)(x, y)
 
 
 def _common(one: Any, other: Any) -> Any:
