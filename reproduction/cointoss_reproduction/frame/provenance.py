@@ -93,10 +93,10 @@ def unlike(there: Mapping[str, Any] | None, here: Mapping[str, Any]) -> str:
     if there is None:
         return f"no {PROVENANCE} there"
     other = ["other sources"] if there["sources"] != here["sources"] else []
-    for kind in ("versions", "machine"):
-        other += [
-            f"{name} {there[kind].get(name)} there, {value} here"
-            for name, value in here[kind].items()
-            if there[kind].get(name) != value
-        ]
+    other += [
+        f"{name} {there[kind].get(name)} there, {value} here"
+        for kind in ("versions", "machine")
+        for name, value in here[kind].items()
+        if there[kind].get(name) != value
+    ]
     return "; ".join(other)

@@ -67,12 +67,12 @@ def make(progress: Progress, points: int = 400, points_mujoco: int = 16, tosses:
 
 def _first_touches(scenario: Scenario, grid: Grid) -> OutcomeCodes:
     """Return MuJoCo's map of the face up at the first touch, (y, x)."""
-    faces, once = [], scenario.replace("ending.max_impacts", 1)
-    for w in grid.spins.tolist():
-        for z in grid.heights.tolist():
-            released = once.replace("release.position.z", z, "release.angular_velocity.xi", w)
-            tossed = impacts_of(released)
-            faces.append(tossed.face[0])
+    once = scenario.replace("ending.max_impacts", 1)
+    faces = [
+        impacts_of(once.replace("release.position.z", z, "release.angular_velocity.xi", w)).face[0]
+        for w in grid.spins.tolist()
+        for z in grid.heights.tolist()
+    ]
     return np.array(faces, dtype=np.int8).reshape(grid.shape)
 
 

@@ -117,11 +117,11 @@ def _growth_of_difference(engine: Callable[[Scenario], Toss], case: Scenario, di
     """Return (1/t) ln of the growth of a small change of ω in one direction, from two tosses [1/s]."""
     w = np.array(case.release.angular_velocity)
     change = CHANGE * np.linalg.norm(w) * direction / np.linalg.norm(direction)
-    spins = []
-    for sign in (1, -1):
-        toss = engine(case.replace("release.angular_velocity", w + sign * change))
-        spins.append(toss.sample(SHORT).angular_velocity[0])
-    return float(np.log(np.linalg.norm(spins[0] - spins[1]) / np.linalg.norm(2 * change)) / SHORT)
+    one, other = (
+        engine(case.replace("release.angular_velocity", w + by)).sample(SHORT).angular_velocity[0]
+        for by in (change, -change)
+    )
+    return float(np.log(np.linalg.norm(one - other) / np.linalg.norm(2 * change)) / SHORT)
 
 
 def _growth_of_tangent(case: Scenario, direction: Array) -> float:

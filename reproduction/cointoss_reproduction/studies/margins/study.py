@@ -152,11 +152,11 @@ def parts_proved(cells: pd.DataFrame) -> Array:
 def found(cells: pd.DataFrame) -> dict[str, Any]:
     """Return what the claims name, by coin the share of margins below a hand's accuracy; and the tables."""
     small = {coin: {"small": share(sizes_of(cells, quantity) <= HAND)} for coin, quantity in COINS.items()}
-    rows = []
-    for quantity in QUANTITIES:
-        sizes = sizes_of(cells, quantity.name)
-        shown = [_words(quantile(sizes, part)) for part in PARTS]
-        rows.append([f"{quantity.name} [{quantity.unit}]", *shown, f"{np.mean(np.isinf(sizes)):.1%}"])
+    sizes = {f"{one.name} [{one.unit}]": sizes_of(cells, one.name) for one in QUANTITIES}
+    rows = [
+        [name, *(_words(quantile(found, part)) for part in PARTS), f"{np.mean(np.isinf(found)):.1%}"]
+        for name, found in sizes.items()
+    ]
     proved = parts_proved(cells)
     half, tenth = 1 / np.median(proved), 1 / np.quantile(proved, 0.1)
     tables = paragraphs(
