@@ -29,6 +29,8 @@ from cointoss.models.scenario import Scenario, keeping_all
 from cointoss.models.stages import reached, stage
 
 _INTEGRATED = "Dormand-Prince of order 8(5,3), Euler parameters kept at norm 1"
+# A coin is on its edge where |n_z| is below.
+_UPRIGHT = 1e-6
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -209,10 +211,11 @@ def _flight(body: Body) -> str:
 def _in_contact(body: Body, log: EventLog) -> InContact:
     """Return states and gaps at start and end of each stretch of contact in one mode, and the landings.
 
-    Where a second rim lands, a flight that takes no time ends in contact.
+    Where a second rim lands, on its edge, a flight that takes no time ends in contact.
     """
     stays = (log.modes != Mode.FLIGHT) & (log.modes != Mode.ENDED)
-    lands = ~stays[:-1] & stays[1:] & (np.diff(log.start_times) == 0)
+    n_z = 1 - 2 * (log.start_states[:, 7] ** 2 + log.start_states[:, 8] ** 2)
+    lands = ~stays[:-1] & stays[1:] & (np.diff(log.start_times) == 0) & (np.abs(n_z[:-1]) < _UPRIGHT)
 
     def at_both_ends(of: NDArray[np.bool_]) -> Changes:
         first = np.flatnonzero(of)

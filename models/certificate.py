@@ -42,6 +42,8 @@ FLIGHTS = 10
 """The number of flights that are sampled, the longest ones. In vacuum their energy needs no samples."""
 LANDINGS_MEASURED = 100
 """The number of landings that are measured, spread evenly over all; one with friction takes 1 ms."""
+NONE_TAKEN = 1e-9
+"""A landing that changes (v, ω) by less than this part of it takes nothing but rounding."""
 STANDS = 1e-9
 """A coin stands on both rims if n_z changes no faster than this part of |ω|."""
 VACUUM_SAMPLES = 4
@@ -153,7 +155,8 @@ def momenta(body: Body, states: States) -> Array:
 def landing_residuals(body: Body, rules: Rules, landings: Changes) -> Array:
     """Return by how much what a landing takes differs from its closed form, `taken_by_landing`, (k,).
 
-    Relative to the larger of the two changes of (v, ω), in the norm of the kinetic energy.
+    Relative to the larger of the two changes of (v, ω), or to `NONE_TAKEN` of (v, ω), in the norm of the
+    kinetic energy.
 
     Args:
         body: the coin.
@@ -166,7 +169,8 @@ def landing_residuals(body: Body, rules: Rules, landings: Changes) -> Array:
         R, R_after = (rotation_matrix(tuple(states.quaternion[i])) for states in landings)
         stands = abs(cross(R_after[2], tuple(after[i, 3:]))[2]) < STANDS * norm(tuple(after[i, 3:]))
         taken, found = taken_by_landing(body, rules, R, before[i], stands), after[i] - before[i]
-        missed, *sizes = ((change @ mass @ change) ** 0.5 for change in (found - taken, found, taken))
+        sized = found - taken, found, taken, NONE_TAKEN * before[i]
+        missed, *sizes = ((change @ mass @ change) ** 0.5 for change in sized)
         residuals.append(missed / max(sizes) if missed > 0 else 0.0)
     return np.array(residuals)
 

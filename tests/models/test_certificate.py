@@ -202,6 +202,22 @@ def test_a_landing_of_the_other_rim_on_a_smooth_floor_takes_only_rocking():
     assert certificate.landing_residuals(body, case.rules, Changes(before, before)) == pytest.approx([1.0])
 
 
+ZLOTY_ON_EDGE = load("zloty").replace("floor.restitution_threshold", 0.3)
+"""Its first plastic impact leaves nothing for the landing after it."""
+ON_A_FACE = scenario(
+    coin={"mass": 0.007, "radius": 0.0125, "thickness": 4e-4, "center_of_mass": [-0.001, 0.0005, 8e-5]},
+    air={"normal": 0.8, "tangential": 0.2},
+    floor={"contact": "smooth", "restitution": 0.0, "rolling_friction": 1e-4, "slope": 0.02},
+    release={
+        "position": [0, 0, 0.2241743225227771],
+        "velocity": [0.2937353480213742, 0.08885489348007108, -0.08087307750083453],
+        "quaternion": [-0.45657533317707627, 0.740682271112038, -0.43258722233855257, -0.23621395696268885],
+        "angular_velocity": [10.956966842409322, 8.420150700638054, 26.081749645622907],
+    },
+)
+"""The other end of a rim lands on the way to lying flat, where the points of both rims are one."""
+
+
 def spun(contact: str) -> Scenario:
     """Return a thin coin that leans by 0.01 rad off its edge, 1 pm high, and turns about its diameter."""
     lean, thickness, radius = 0.01, 4e-4, ZLOTY["radius"]
@@ -224,6 +240,12 @@ def test_each_landing_in_contact_is_a_plastic_impact(engine, error, law):
     assert found[certificate.LANDINGS] > 5
     assert 0 < found[certificate.LANDING] < error
     assert (certificate.KEPT in found) == (law == "smooth")
+
+
+@pytest.mark.parametrize("start", [ZLOTY_ON_EDGE, ON_A_FACE])
+def test_a_rim_that_lands_far_from_the_edge_or_with_nothing_to_take_is_no_error(start):
+    found = measured(analytic.toss(start))
+    assert found.get(certificate.LANDING, 0.0) < 1e-6
 
 
 def test_momenta_that_a_smooth_floor_keeps_are_measured():
