@@ -22,17 +22,17 @@ from cointoss_reproduction.studies.endings.study import (
 )
 from saved import missed, result_of
 
-AIR, VACUUM = "thin, μ = 0.2, air", "2 mm, smooth"
-ALIKE, APART = (counted([0, heads, 2390, 3610 - heads, 0, 0]) for heads in (2400, 200))
+AIR, VACUUM, OTHERWISE = "thin, μ = 0.2, air", "2 mm, smooth", "2 mm, rough"
+ALIKE, APART = (counted([0, heads, heads - 10, 6010 - 2 * heads, 0, 0]) for heads in (2400, 200))
 SINGLES = {"trusted": 10, "otherwise": 0, "kept": 9}
 
 
 def doctored(kind: str = "", engine: str | None = None, **numbers: int) -> pd.DataFrame:
-    """Return a table in which the engines differ in the known classes alone, with other numbers in a row."""
+    """Return a table in which the engines differ where it is known alone, with other numbers in a row."""
     usual = {(one, by): ALIKE for one in CLASSES for by in ENGINES} | {
         (one, "mujoco"): APART for one in KNOWN
     }
-    rows = usual | {(one, None): SINGLES for one in CLASSES}
+    rows = usual | {(one, None): SINGLES | {"otherwise": int(one == OTHERWISE)} for one in CLASSES}
     changed = {key: row | numbers if key == (kind, engine) else row for key, row in rows.items()}
     table = pd.DataFrame([{"kind": one, "engine": by, **row} for (one, by), row in changed.items()])
     return table.astype(dict.fromkeys([*ALIKE, *SINGLES], "Int64"))
@@ -104,7 +104,7 @@ def test_a_class_is_refuted_where_its_ends_differ_by_more_than_chance():
         (VACUUM, "mujoco", {"edges": 1000, "perpetual": 210}, ["but for the classes known"]),
         (VACUUM, "analytic", {"heads": 9000, "faces": 11390}, ["a balanced coin", "but for the classes"]),
         *((known, "mujoco", ALIKE, ["the engines end the same"]) for known in KNOWN),
-        (VACUUM, None, {"otherwise": 1}, ["of tosses whose impacts"]),
+        (OTHERWISE, None, {"otherwise": 0}, ["of tosses whose impacts"]),
     ],
 )
 def test_a_claim_that_the_counts_do_not_bear_out_is_seen(kind, engine, numbers, seen):
