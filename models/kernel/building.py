@@ -80,17 +80,17 @@ def _build(module: str, name: str, folder: Path, systems: Sequence[str]) -> None
     with (
         tempfile.TemporaryFile("w+") as errors,
         stage(f"building the {name} engine{shown}, once", detail=lambda: "".join(parts), shown=True),
-    ):
-        process = subprocess.Popen(
+        subprocess.Popen(
             command, env=environment, text=True, stdin=given, stdout=given, stderr=errors
-        )
-        assert process.stdin is not None
-        assert process.stdout is not None
-        # It ends where nobody holds its standard input any more. An interruption does not wait for that.
-        with process.stdin, process.stdout:
-            for line in process.stdout:
+        ) as process,
+    ):
+        try:
+            for line in process.stdout or ():
                 parts[:] = [line.strip()]
             process.wait()
+        except BaseException:
+            process.kill()  # LLVM would keep it from heeding less
+            raise
         errors.seek(0)
         problem = errors.read()
     if process.returncode == REFUSED:
