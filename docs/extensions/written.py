@@ -76,7 +76,6 @@ def write(docs: Path) -> None:
     write_blocks(docs / "made", blocks)
     others.draw(docs)
     benchmarks.draw(docs)
-    (docs / "house.svg").write_text(pictures.house(), encoding="utf-8")
     (docs / "automaton.svg").write_text(pictures.automaton(), encoding="utf-8")
     for page in (docs / "examples").glob("*.md"):
         nbformat.write(notebook_of(page), page.with_suffix(".ipynb"))

@@ -27,9 +27,8 @@ def test_every_block_that_is_written_is_included_by_one_page(tmp_path):
     assert (tmp_path / "made" / "ports.md").read_text(encoding="utf-8") == "b\n"
 
 
-@pytest.mark.parametrize("name", ["house", "automaton"])
-def test_a_picture_of_the_code_is_of_this_tree(name):
-    assert getattr(written.pictures, name)() == (DOCS / f"{name}.svg").read_text(encoding="utf-8")
+def test_the_picture_of_the_modes_is_of_this_tree():
+    assert written.pictures.automaton() == (DOCS / "automaton.svg").read_text(encoding="utf-8")
 
 
 def told(notebook):
