@@ -5,6 +5,9 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+MOVED: dict[str, str] = {}
+"""Names that are another distribution's now: what to import instead, and what to install for it."""
+
 
 def homes_of(file: str) -> dict[str, tuple[str, str]]:
     """Return the home of each name that a module imports under `if TYPE_CHECKING`, and its name there.
@@ -24,8 +27,10 @@ def brought(homes: dict[str, tuple[str, str]], name: str, module: str) -> Any:
     """Return what a name of a module stands for.
 
     Raises:
-        AttributeError: for a name that it does not offer.
+        AttributeError: for a name that it does not offer; one that has moved is told its new place.
     """
+    if name in MOVED:
+        raise AttributeError(f"{module}.{name} is {MOVED[name]}", obj=None)
     if name not in homes:
         from cointoss.models.errors import meant
 

@@ -35,6 +35,13 @@ COMMANDS = {
     "video": "Film one toss, drawn by MuJoCo, until the coin lies still.",
 }
 """The commands, each in a module of its name, which is imported when it is called; and what each does."""
+OF_OTHERS = {
+    "reproduce": (
+        "cointoss-reproduction",
+        "Compute the paper's figures and claims again, and studies beyond them.",
+    ),
+}
+"""Commands that are offered by another distribution: its name, and what each does."""
 NO_MEMORY = "out of memory, or of threads; accepted: more of them for this process, see ulimit -a"
 """What is said where memory ends."""
 _ROOM = 160 << 20
@@ -104,12 +111,18 @@ class _Commands(click.Group):
             return getattr(import_module(f"cointoss.compare.commands.{cmd_name}"), cmd_name)
         is_offered = cmd_name in self.offered
         if not is_offered and not ctx.resilient_parsing:  # as where a shell completes
+            if cmd_name in OF_OTHERS:
+                of = OF_OTHERS[cmd_name][0]
+                ctx.fail(f"{cmd_name}: a command of {of}, which is not installed; accepted: pip install {of}")
             names = self.list_commands(ctx)
             ctx.fail(f"{cmd_name}: no such command; {meant(cmd_name, names)}accepted: {', '.join(names)}")
         return self.offered[cmd_name].load() if is_offered else None
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        offered = {name: point.dist.metadata["Summary"] for name, point in self.offered.items()}
+        offered = {
+            name: OF_OTHERS[name][1] if name in OF_OTHERS else point.dist.metadata["Summary"]
+            for name, point in self.offered.items()
+        }
         listed = {name: click.Command(name, help=text) for name, text in (offered | COMMANDS).items()}
         click.Group(commands=listed).format_commands(ctx, formatter)
 
