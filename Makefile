@@ -127,6 +127,7 @@ wheels: $(VENV)/.ready-slow engines
 	@for system in $(SYSTEMS); do export COINTOSS_SYSTEM=$$system COINTOSS_ENGINES=$(CURDIR)/out/engines; \
 	  $(STEP) "pip: making the wheel for $$system" $(WHEEL) dist/cointoss_dynamics-*.tar.gz || exit; done
 	@$(STEP) "pip: making the wheel of the studies" $(WHEEL) ./reproduction
+	@$(STEP) "pip: making the wheel of the yardstick" $(WHEEL) ./yardstick
 
 # All that docs/ holds of results, computed anew in several hours, and the pages of them. A claim that comes out
 # otherwise than known is printed, and is no reason to stop.
@@ -164,12 +165,12 @@ lint: $(VENV)/.ready-lint
 sink: $(TESTED)
 	$(BIN)/python -m tests.helpers.ceilings --sink
 
-$(READY): pyproject.toml
+$(READY): pyproject.toml yardstick/pyproject.toml
 	@$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 11) and 'cointoss needs Python >= 3.11')"
 	@$(STEP) "making $(VENV)" $(PYTHON) -m venv $(VENV)
 	@$(STEP) "pip: updating itself" $(BIN)/python -m pip install --quiet --no-compile "pip>=25.1"
 	@$(STEP) "pip: installing what builds cointoss" $(PIP) --group build
-	@$(STEP) "pip: installing cointoss and what it needs" $(PIP) --no-build-isolation --editable .
+	@$(STEP) "pip: installing cointoss and what it needs" $(PIP) --no-build-isolation --editable . --editable yardstick
 	@touch $@
 
 # What pyproject.toml lists as groups, each where it is needed. The studies are installed with the tests, which are theirs

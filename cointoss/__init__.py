@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from cointoss import models as models
     from cointoss.analytic.impact.own_law import OwnLaw as OwnLaw
     from cointoss.coin_mj.bounces.recipe import solref as solref
-    from cointoss.compare.conform.card import Card as Card
-    from cointoss.compare.conform.suite import conform as conform
     from cointoss.compare.engines import Engine as Engine
     from cointoss.compare.engines import toss as toss
     from cointoss.compare.film.back_end import BackEndError as BackEndError

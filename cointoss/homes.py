@@ -5,7 +5,10 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-MOVED: dict[str, str] = {}
+MOVED = {
+    "Card": "cointoss_yardstick.Card now; accepted: pip install cointoss-yardstick",
+    "conform": "cointoss_yardstick.conform now; accepted: pip install cointoss-yardstick",
+}
 """Names that are another distribution's now: what to import instead, and what to install for it."""
 
 
@@ -29,9 +32,9 @@ def brought(homes: dict[str, tuple[str, str]], name: str, module: str) -> Any:
     Raises:
         AttributeError: for a name that it does not offer; one that has moved is told its new place.
     """
-    if name in MOVED:
-        raise AttributeError(f"{module}.{name} is {MOVED[name]}", obj=None)
     if name not in homes:
+        if name in MOVED:
+            raise AttributeError(f"{module}.{name} is {MOVED[name]}", obj=None)
         from cointoss.models.errors import meant
 
         told = meant(name, homes).strip() or f"accepted: {', '.join(sorted(homes))}"

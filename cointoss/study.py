@@ -50,11 +50,14 @@ if TYPE_CHECKING:
     from cointoss.compare.basins.picture import MapAxis as MapAxis
     from cointoss.compare.basins.picture import draw_panel as draw_panel
     from cointoss.compare.basins.stripes import crossings as crossings
+    from cointoss.compare.commands.common import ChoiceType as ChoiceType
     from cointoss.compare.commands.common import WrittenPlace as WrittenPlace
     from cointoss.compare.commands.common import device_option as device_option
     from cointoss.compare.commands.common import plain_errors as plain_errors
+    from cointoss.compare.commands.common import print_json as print_json
     from cointoss.compare.commands.common import refuse as refuse
     from cointoss.compare.commands.names import completing as completing
+    from cointoss.compare.commands.options import options_of as options_of
     from cointoss.compare.engines import fingerprints as fingerprints
     from cointoss.compare.film.back_end import drawing_problem as drawing_problem
     from cointoss.compare.film.back_end import require_mujoco as require_mujoco
@@ -94,10 +97,13 @@ if TYPE_CHECKING:
     from cointoss.compare.metrics.margin import ReleaseQuantity as ReleaseQuantity
     from cointoss.compare.metrics.margin import is_planar as is_planar
     from cointoss.compare.metrics.margin import smallest_changes as smallest_changes
+    from cointoss.compare.metrics.sequences import agreement_horizon as agreement_horizon
     from cointoss.compare.metrics.sequences import common_prefix as common_prefix
     from cointoss.compare.metrics.trajectories import attitude_angle as attitude_angle
     from cointoss.compare.metrics.trajectories import distance as distance
     from cointoss.compare.metrics.trajectories import parting_time as parting_time
+    from cointoss.compare.output.accepted import Form as Form
+    from cointoss.compare.output.accepted import Within as Within
     from cointoss.compare.output.accepted import Written as Written
     from cointoss.compare.output.files import remove as remove
     from cointoss.compare.output.files import require_folder as require_folder
@@ -125,9 +131,13 @@ if TYPE_CHECKING:
     from cointoss.compare.output.tables import table as table
     from cointoss.compare.output.tables import unfolding as unfolding
     from cointoss.compare.output.terminal import laid_out as laid_out
+    from cointoss.compare.report.compared_tosses import Against as Against
+    from cointoss.homes import brought as brought
+    from cointoss.homes import homes_of as homes_of
     from cointoss.models.answers import Answers as Answers
     from cointoss.models.attitude import quaternion_from_angles as quaternion_from_angles
     from cointoss.models.attitude import rotation_matrix as rotation_matrix
+    from cointoss.models.barriers import barrier as barrier
     from cointoss.models.barriers import energy as energy
     from cointoss.models.barriers import highest_on_floor as highest_on_floor
     from cointoss.models.batch import PLACE as PLACE
@@ -140,6 +150,7 @@ if TYPE_CHECKING:
     from cointoss.models.body import in_vacuum as in_vacuum
     from cointoss.models.bounded import read_bounded as read_bounded
     from cointoss.models.certificate import energies as energies
+    from cointoss.models.certificate import momentum_residuals as momentum_residuals
     from cointoss.models.certificate import turned as turned
     from cointoss.models.cores import cores_used as cores_used
     from cointoss.models.distribution import versions_of as versions_of
@@ -160,6 +171,7 @@ if TYPE_CHECKING:
     from cointoss.models.scenario import vector as vector
     from cointoss.models.stages import Progress as Progress
     from cointoss.models.stages import stage as stage
+    from cointoss.models.tiles import in_tiles as in_tiles
 
 _HOMES = homes_of(__file__)
 __all__ = list(_HOMES)  # pyright: ignore[reportUnsupportedDunderAll]

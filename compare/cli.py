@@ -20,7 +20,6 @@ COMMANDS = {
     "basin": "Map the outcome over two fields of a scenario.",
     "bounce": "Print how two geoms of your own MuJoCo model bounce off each other.",
     "compare": "Toss one coin by several engines and write a report.",
-    "conform": "Test an engine on cases with known answers, and print a card of its errors.",
     "explore": "Show a map in the browser: click a pixel, see both engines toss it.",
     "find": "Find a toss that shows a sequence of faces, or ends on its edge.",
     "fit": "Find the values of a scenario's fields that explain what was seen of a coin, or that none do.",
@@ -36,10 +35,11 @@ COMMANDS = {
 }
 """The commands, each in a module of its name, which is imported when it is called; and what each does."""
 OF_OTHERS = {
-    "reproduce": (
-        "cointoss-reproduction",
-        "Compute the paper's figures and claims again, and studies beyond them.",
+    "conform": (
+        "cointoss-yardstick",
+        "Test an engine on cases with known answers, and print a card of its errors.",
     ),
+    "reproduce": ("cointoss-reproduction", "Compute the paper's figures and the studies."),
 }
 """Commands that are offered by another distribution: its name, and what each does."""
 NO_MEMORY = "out of memory, or of threads; accepted: more of them for this process, see ulimit -a"

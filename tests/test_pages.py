@@ -12,7 +12,8 @@ import click
 import pytest
 
 import cointoss as package
-from cointoss.compare.cli import COMMANDS, main
+import cointoss_yardstick
+from cointoss.compare.cli import COMMANDS, OF_OTHERS, main
 from cointoss.models.reading import parse
 from tests.helpers.command_line import cointoss, printed
 from tests.helpers.pages import (
@@ -167,9 +168,9 @@ def test_a_notebook_has_code_that_parses_and_ends_with_exercises_and_solutions(n
 def test_every_public_name_is_described_in_the_pages_of_the_api():
     text = "\n".join(page.read_text(encoding="utf-8") for page in DOCS.glob("api/*.md"))
     described = set(re.findall(r"^\.\. auto\w+:: (\S+)$", text, flags=re.MULTILINE))
-    engines = (package.analytic, package.coin_mj)
+    houses = (package.analytic, package.coin_mj, cointoss_yardstick)
     public = {f"cointoss.{name}" for name in dir(package)}
-    public |= {f"{engine.__name__}.{name}" for engine in engines for name in engine.__all__}
+    public |= {f"{house.__name__}.{name}" for house in houses for name in house.__all__}
     assert public - described == {
         "cointoss.models",
         "cointoss.analytic",
@@ -180,7 +181,7 @@ def test_every_public_name_is_described_in_the_pages_of_the_api():
 
 def test_what_a_page_names_of_the_code_is_there():
     """Paths of files, and a function that a table says to lie in one."""
-    files = r"`((?:analytic|coin_mj|compare|cointoss|models|tests|docs)/[\w./-]*\w\.\w+)`"
+    files = r"`((?:analytic|coin_mj|compare|cointoss|models|yardstick|tests|docs)/[\w./-]*\w\.\w+)`"
     named = {(page, path) for page in PAGES for path in re.findall(files, page.read_text(encoding="utf-8"))}
     assert len(named) > 50
     assert [(page.name, path) for page, path in named if not (TOP / path).exists()] == []
@@ -230,9 +231,11 @@ def test_an_answer_that_is_not_the_one_shown_is_seen(tmp_path, page, departs):
     assert not_answered(block, code, "one 1\ntwo 2\nthree 3\n") == departs
 
 
-@pytest.mark.parametrize("name", sorted(COMMANDS))
-def test_every_command_has_a_help_that_names_all_its_options(name):
-    assert subcommand(name).get_short_help_str(limit=1000) == COMMANDS[name]
+@pytest.mark.parametrize(
+    ("name", "help_"), sorted((COMMANDS | {name: text for name, (_, text) in OF_OTHERS.items()}).items())
+)
+def test_every_command_has_a_help_that_names_all_its_options(name, help_):
+    assert subcommand(name).get_short_help_str(limit=1000) == help_
     answered = printed(name, "--help")
     assert len(options(subcommand(name))) > 1
     assert all(option in answered for option in options(subcommand(name)))

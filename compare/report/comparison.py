@@ -15,11 +15,10 @@ from cointoss.compare.output.style import GREY, looks_of
 from cointoss.compare.report.compared_tosses import ComparedTosses
 from cointoss.compare.report.contents import require_folder, slug_of
 from cointoss.compare.report.folder import write_report
+from cointoss.compare.report.simulators import simulator_of
 from cointoss.compare.report.verdict import verdicts_of
-from cointoss.compare.simulators.answering import EngineError
-from cointoss.compare.simulators.simulator import Simulator, simulator_of
 from cointoss.models.reading import ScenarioSource, parse
-from cointoss.models.records import UnsupportedError
+from cointoss.models.records import UnsupportedError, UnusableEngineError
 from cointoss.models.scenario import Scenario
 from cointoss.models.sources import scenario_text
 from cointoss.models.stages import stage
@@ -129,8 +128,8 @@ def compare(
     Args:
         scenario: what to toss, or its path or name.
         engines: "analytic", "mujoco", or any engine that simulates: an object with a function
-            `simulate(scenario, times)`, or its name, as in `cointoss.conform`. The analytic engine comes
-            first, and is added where it is missing.
+            `simulate(scenario, times)`, or its name, as in `cointoss_yardstick.conform`; it needs that
+            package. The analytic engine comes first, and is added where it is missing.
         settings: of our engines, by their names; by default those of one toss.
 
     Returns:
@@ -172,9 +171,9 @@ def compared(
         others = [
             each if each == Engine.MUJOCO else stack.enter_context(simulator_of(each)) for each in asked
         ]
-        names = ["analytic", *(each.name if isinstance(each, Simulator) else str(each) for each in others)]
+        names = ["analytic", *(str(each) if isinstance(each, str) else each.name for each in others)]
         if len({slug_of(each) for each in names} - {""}) < len(names):
-            raise EngineError(
+            raise UnusableEngineError(
                 f"engines: {', '.join(names)}, accepted: names that differ in letters or digits"
             )
         if not chosen.keys() <= set(names):
@@ -183,11 +182,11 @@ def compared(
         tosses, absent = [measure], {}
         for each, called in zip(others, names[1:], strict=True):
             try:
-                if isinstance(each, Simulator):
+                if isinstance(each, str):
+                    tosses.append(toss(scenario, each, settings=chosen.get(called)))
+                else:
                     with stage(f"tossing by {called}"):
                         tosses.append(each.toss(scenario, measure.end_time + AFTER))
-                else:
-                    tosses.append(toss(scenario, each, settings=chosen.get(called)))
             except UnsupportedError as error:
                 absent[called] = str(error)
     return Comparison(name=name, text=text, tosses=tuple(tosses), absent=absent, settings=chosen)

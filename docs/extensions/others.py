@@ -11,11 +11,11 @@ import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 
-from cointoss.compare.conform.case import cases
-from cointoss.compare.output.style import GREY, PALE, STYLE
-from cointoss.study import table, unfolding
+from cointoss.study import GREY, PALE, STYLE, table, unfolding
+from cointoss_yardstick.suite.case import cases
 
 PICTURE = "other_engines.png"
+ADAPTERS = "yardstick/adapters"
 LEVELS = (0.0, 0.01, 0.1, 1.0)
 """Errors at which the colour changes; the last is for all above."""
 COLORS = ("#cfe8dc", "#fff3c9", "#fbd9b4", "#f4b6a6")
@@ -36,12 +36,12 @@ def cards(adapters: Path) -> list[dict[str, Any]]:
 
 def blocks(docs: Path) -> dict[str, str]:
     """Return the tables by the names of their files."""
-    known = cards(docs.parent / "adapters")
+    known = cards(docs.parent / ADAPTERS)
     return {
         "errors": errors(known),
         "orders": orders(known),
         "settings": settings(known),
-        "findings": findings(docs.parent / "adapters"),
+        "findings": findings(docs.parent / ADAPTERS),
     }
 
 
@@ -122,7 +122,7 @@ def cost(card: dict[str, Any]) -> str:
 
 def draw(docs: Path) -> None:
     """Draw the errors of all engines in all cases, at their own steps."""
-    known = cards(docs.parent / "adapters")
+    known = cards(docs.parent / ADAPTERS)
     with mpl.rc_context(STYLE):
         drawn(known).savefig(docs / PICTURE, dpi=110, metadata={"Software": None})
 

@@ -10,7 +10,7 @@ from click.testing import CliRunner
 
 from cointoss.compare.cli import COMMANDS, NO_MEMORY, main
 from cointoss.models.sources import scenario_text
-from tests.helpers.command_line import HEAVY, HERE, cointoss, in_a_shell, python
+from tests.helpers.command_line import HEAVY, HERE, cointoss, in_a_shell, python, refused
 
 
 def test_a_field_that_nothing_uses_is_named_in_one_line_by_every_command(tmp_path):
@@ -126,7 +126,8 @@ def test_a_back_end_that_is_none_is_one_line_and_exit_status_2(tmp_path, command
 
 
 HOMES = {name: f"cointoss.compare.commands.{name}" for name in COMMANDS} | {
-    "reproduce": "cointoss_reproduction.command"
+    "conform": "cointoss_yardstick.command",
+    "reproduce": "cointoss_reproduction.command",
 }
 """The module of each command."""
 
@@ -160,6 +161,15 @@ def test_a_command_imports_no_more_than_it_needs(words, needed, tmp_path):
     assert HEAVY & imported <= needed
     assert {name for name in HOMES if HOMES[name] in imported} <= {words.partition(" ")[0]}
     assert not {"scipy.integrate", "scipy.optimize", "scipy.special", "scipy.stats"} & imported
+
+
+@pytest.mark.parametrize("line", ["conform analytic", "compare fig24a --engine stick:Stick"])
+def test_without_the_yardstick_what_needs_it_says_what_to_install(line, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(main, "offered", {})
+    monkeypatch.setattr("cointoss.compare.report.simulators.entry_points", lambda **_: ())
+    assert "pip install cointoss-yardstick" in refused(*line.split())
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(("given", "used"), [({}, "1"), ({"OPENBLAS_NUM_THREADS": "3"}, "3")])

@@ -19,7 +19,8 @@ from typing import NamedTuple
 from cointoss.models.kernel.base_folder import base_folder
 
 ROOT = Path(__file__).parents[2]
-COPIED = ("pyproject.toml", "cointoss", "models", "analytic", "coin_mj", "compare", "reproduction", "tests")
+HOUSES = ("reproduction", "yardstick")
+COPIED = ("pyproject.toml", "cointoss", "models", "analytic", "coin_mj", "compare", *HOUSES, "tests")
 _FAILED = 1
 """Status of pytest where a test failed; others say that it could not run them."""
 
@@ -76,7 +77,7 @@ def status_of(tree: Path, tests: Iterable[str], *, compiled: bool) -> tuple[int,
     environment = os.environ | {
         "COINTOSS_CACHE": str(tree.parent / "code"),
         "PYTHONDONTWRITEBYTECODE": "1",
-        "PYTHONPATH": str(tree / "reproduction"),
+        "PYTHONPATH": os.pathsep.join(str(tree / house) for house in HOUSES),
     }
     command = [sys.executable, "-m", "pytest", "-q", "-x", "-m", "", "-p", "no:cacheprovider"]
     command += dict.fromkeys(tests)

@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 
 from cointoss import analytic
-from cointoss.compare.simulators.worker import STATE
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
 
@@ -24,5 +23,5 @@ class Off:
             raise NotImplementedError(f"{self.name} tosses nothing")
         toss = analytic.toss(scenario.replace("floor.restitution", self.factor * scenario.floor.restitution))
         states = toss.sample(np.minimum(times, toss.end_time))
-        columns = {name: getattr(states, name) for name in STATE}
+        columns = {name: column for name, column in vars(states).items() if name != "time"}
         return columns | {"impact_time": toss.impacts.time, "impact_impulse": toss.impacts.impulse}

@@ -1,1 +1,0 @@
-"""A suite of cases with known answers, for any engine; imports simulators, metrics, engines and output."""

@@ -1,1 +1,0 @@
-"""Engines of anybody, which are asked for states alone; imports metrics, engines and output."""

@@ -1,0 +1,1 @@
+"""Engines of anybody, which are asked for states alone."""

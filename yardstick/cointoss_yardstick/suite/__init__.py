@@ -1,0 +1,1 @@
+"""A suite of cases with known answers, for any engine; imports simulators."""

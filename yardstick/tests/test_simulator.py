@@ -1,0 +1,352 @@
+"""An engine is asked for states alone; what they show, and what is refused of them."""
+
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cointoss import Ending, Outcome, UnsupportedError, UnusableEngineError, analytic, load
+from cointoss.study import attitude_angle, rotation_matrix
+from cointoss_yardstick.simulators.observed import ObservedToss, Samples
+from cointoss_yardstick.simulators.simulator import simulator_of
+from own_engines import Hanging, Newton
+from tests.helpers.command_line import python
+from tests.helpers.draws import IMPERFECT, scenario
+from tests.helpers.processes import HANGS
+
+TUMBLING = {
+    "position": [0.0, 0.0, 0.3],
+    "velocity": [0.1, -0.2, 0.3],
+    "angles": [0.4, 0.6, 0.1],
+    "angular_velocity": [20.0, 35.0, -10.0],
+}
+WHOLE = ("position", "quaternion", "velocity", "angular_velocity")
+
+
+class Answers:
+    """An engine that answers by a function."""
+
+    def __init__(self, simulate):
+        self.simulate = simulate
+
+
+def changed(**how):
+    """Return an engine that answers as the analytic one, but for some columns, each changed by a function."""
+
+    def simulate(case, times):
+        states = analytic.toss(case).sample(times)
+        columns = {name: getattr(states, name).copy() for name in WHOLE}
+        return columns | {name: change(columns.get(name), case, times) for name, change in how.items()}
+
+    return Answers(simulate)
+
+
+@pytest.fixture
+def tumbling():
+    return scenario(coin=IMPERFECT, release=TUMBLING, ending={"test": "lying"})
+
+
+@pytest.mark.parametrize("name", ["fig24a", "table"])
+def test_states_alone_show_the_impacts_of_the_toss(name):
+    """At a spacing of 0.1 ms; what turns in it before a sample is put back by Euler's equations."""
+    case = load(name).replace("ending", {"test": "rigorous"})
+    known = analytic.toss(case)
+    told = simulator_of("analytic").observe(case, known.end_time + 0.01)
+    seen = ObservedToss(scenario=case, states=told.states).toss("seen", {})
+    first = known.impacts.time < (known.contacts[0, 0] if len(known.contacts) else np.inf)
+    n = min(int(first.sum()), 10)
+    assert n >= 4
+    assert seen.sequence[:n] == known.sequence[:n]
+    assert seen.impacts.time[:n] == pytest.approx(known.impacts.time[:n], abs=1e-9)
+    size = np.linalg.norm(known.impacts.impulse[:n], axis=1)
+    off = np.linalg.norm(seen.impacts.impulse[:n] - known.impacts.impulse[:n], axis=1) / size
+    assert 0 < off.max() < 1e-3
+    spin = np.linalg.norm(known.impacts.angular_velocity_after[:n], axis=1).max()
+    assert seen.impacts.angular_velocity_after[:n] == pytest.approx(
+        known.impacts.angular_velocity_after[:n], abs=1e-3 * spin
+    )
+    assert (seen.outcome, seen.ending) == (known.outcome, Ending.SETTLED)
+    assert seen.end_time == pytest.approx(known.end_time, abs=2e-3)
+
+
+def test_impulses_of_a_coarse_answer_err_as_its_spacing_allows(tumbling):
+    known = analytic.toss(tumbling)
+    for every in (2e-4, 1e-3):
+        told = simulator_of("analytic").observe(tumbling, 0.5, every=every)
+        seen = ObservedToss(scenario=tumbling, states=told.states)
+        size = np.linalg.norm(known.impacts.impulse[:2], axis=1)
+        off = np.linalg.norm(seen.impacts.impulse[:2] - known.impacts.impulse[:2], axis=1) / size
+        assert seen.spans[:2] == pytest.approx(every)
+        assert off.max() < 300 * every
+
+
+def test_an_engine_may_give_its_impacts(tumbling):
+    known = analytic.toss(tumbling)
+    seen = simulator_of("analytic").observe(tumbling, 0.6).toss("seen", {})
+    n = len(seen.impacts)
+    assert n > 2
+    assert np.array_equal(seen.impacts.impulse, known.impacts.impulse[:n])
+
+
+def test_a_coin_that_lies_is_held_by_its_weight():
+    case = scenario(coin=IMPERFECT, floor={"restitution": 0.0}, release={"position": [0, 0, 0.05]})
+    seen = simulator_of(Newton()).observe(case, 0.3)
+    (_, contacts), toss = seen.stretches, seen.toss("seen", {"solver": "Newton"})
+    assert (toss.outcome, toss.ending) == (Outcome.HEADS, Ending.SETTLED)
+    assert len(contacts) == 1
+    assert seen.states.time[contacts[0][1]] == pytest.approx(0.3)
+    path = toss.path.sample(np.array([0.0, 0.0005, 0.2]))
+    assert path.position[:, 2] == pytest.approx([0.05, 0.05, path.position[2, 2]], abs=1e-5)
+    assert toss.path.floor_force(np.array([0.25]))[0, 2] == pytest.approx(2e-3 * 9.81, rel=1e-6)
+    assert {each.name for each in toss.certificate} >= {"solver", "spacing of the times"}
+
+
+def test_a_caught_coin_and_one_that_stands_end_so():
+    caught = scenario(release=TUMBLING, ending={"caught": 0.2})
+    seen = simulator_of("analytic").observe(caught.replace("ending.caught", None), 0.3)
+    toss = ObservedToss(scenario=caught, states=seen.states).toss("seen", {})
+    assert toss.ending == Ending.CAUGHT
+    assert toss.end_time == pytest.approx(analytic.toss(caught).end_time, abs=1e-4)
+    upright = {"position": [0, 0, 1.25e-2], "angles": [0, np.pi / 2, 0]}
+    stands = scenario(coin={"thickness": 4e-3}, floor={"restitution": 0.0}, release=upright)
+    found = simulator_of("analytic").observe(stands, 0.1).toss("seen", {})
+    assert (found.outcome, found.ending) == (Outcome.EDGE, Ending.STANDING)
+    goes_on = simulator_of("analytic").observe(scenario(release=TUMBLING), 0.1).toss("seen", {})
+    assert (goes_on.outcome, goes_on.ending) == (Outcome.UNDECIDED, Ending.MAX_TIME)
+    few = scenario(release=TUMBLING, ending={"max_impacts": 2})
+    stopped = simulator_of(Newton()).toss(few, 1.0)
+    assert (len(stopped.impacts), stopped.ending) == (2, Ending.MAX_IMPACTS)
+
+
+WRONG = {
+    "NaN": (
+        changed(velocity=lambda v, _, times: np.where(times[:, None] > 0.2, np.nan, v)),
+        r"velocity at t = 0\.2001 s: \[nan nan nan\], accepted: numbers",
+    ),
+    "too few rows": (
+        changed(position=lambda x, *_: x[:7]),
+        r"position: shape \(7, 3\), accepted: \(3001, 3\)",
+    ),
+    "not of norm 1": (changed(quaternion=lambda e, *_: 2 * e), r"quaternion at t = 0 s: norm 2, accepted: 1"),
+    "scalar last": (
+        changed(quaternion=lambda e, *_: np.roll(e, -1, axis=1)),
+        r"quaternion at t = 0: .*; the scalar is last, accepted: that of the release",
+    ),
+    "space to body": (
+        changed(quaternion=lambda e, *_: e * [1, -1, -1, -1]),
+        r"quaternion at t = 0: .*; it turns from space to body",
+    ),
+    "spin in space": (
+        changed(
+            angular_velocity=lambda w, case, _: w @ np.array(rotation_matrix(case.release.attitude)).T,
+        ),
+        r"angular_velocity at t = 0: .*; it is in the space frame",
+    ),
+    "velocity in the body": (
+        changed(velocity=lambda v, case, _: v @ np.array(rotation_matrix(case.release.attitude))),
+        r"velocity at t = 0: .*; it is in the body frame",
+    ),
+    "another point": (
+        changed(
+            position=lambda x, case, _: (
+                x - np.array(rotation_matrix(case.release.attitude)) @ case.coin.center_of_mass
+            )
+        ),
+        r"position at t = 0: .*; it is that of the geometric centre",
+    ),
+    "y up": (
+        changed(position=lambda x, *_: x[:, [0, 2, 1]]),
+        r"position at t = 0: the coin starts 7\.1 mm below the floor",
+    ),
+    "below the floor": (
+        changed(position=lambda x, *_: x - [0, 0, 0.4]),
+        r"position at t = 0: the coin starts 107 mm below the floor",
+    ),
+    "elsewhere": (
+        changed(position=lambda x, *_: x - [0, 0, -0.1]),
+        r"position at t = 0: \(0, 0, 0\.4\), accepted: that of the release, \(0, 0, 0\.3\)",
+    ),
+    "out of order": (
+        changed(time=lambda _, __, times: times[::-1].copy()),
+        r"time: .* s after .* s, accepted: times in order",
+    ),
+    "at other times": (
+        changed(time=lambda _, __, times: times * 1.1),
+        r"time: .* s for .* s, accepted: the times asked for",
+    ),
+    "times of another number": (
+        changed(time=lambda *_: np.zeros(3)),
+        r"time: shape \(3,\), accepted: \(3001,\)",
+    ),
+    "impulses without times": (
+        changed(impact_time=lambda *_: np.zeros(2), impact_impulse=lambda *_: np.zeros((3, 3))),
+        "impact_time: accepted: times in order, and impact_impulse with three numbers for each",
+    ),
+    "a spring that pulls": (
+        changed(stiffness=lambda *_: -1.0),
+        r"stiffness: -1\.0 N/m, accepted: a number above 0",
+    ),
+    "raises": (
+        Answers(lambda *_: 1 / 0),
+        r"Answers: ZeroDivisionError: division by zero \(test_simulator\.py:\d+\)",
+    ),
+    "another kind": (
+        Answers(lambda *_: 3),
+        r"simulate returned int without position, accepted: position, quat",
+    ),
+}
+
+
+@pytest.mark.parametrize(("engine", "told"), WRONG.values(), ids=WRONG)
+def test_a_wrong_answer_is_refused_in_one_line_that_says_what_it_seems_to_be(engine, told, tumbling):
+    with pytest.raises(UnusableEngineError, match=told) as refusal:
+        simulator_of(engine).observe(tumbling, 0.3)
+    assert "\n" not in str(refusal.value)
+    assert str(refusal.value).startswith("Answers: ")
+
+
+def test_states_in_turn_and_records_are_answers_too(tumbling):
+    as_record = Answers(lambda case, times: analytic.toss(case).sample(times))
+    in_turn = Answers(
+        lambda case, times: [getattr(analytic.toss(case).sample(times), name) for name in WHOLE]
+    )
+    known = simulator_of("analytic").observe(tumbling, 0.3)
+    for engine in (as_record, in_turn):
+        seen = simulator_of(engine).observe(tumbling, 0.3)
+        assert np.abs(seen.states.quaternion - known.states.quaternion).max() < 1e-15
+
+
+@pytest.mark.parametrize(
+    ("engine", "words"),
+    [
+        (3, "int: has no function simulate"),
+        (
+            type("Fast", (), {"simulate": print, "dt": 2}),
+            "dt = 2: accepted: a step above 0 and below 1 s, or none",
+        ),
+        (
+            type("Listed", (), {"simulate": print, "settings": [1]}),
+            "settings: of type list, accepted: a dict",
+        ),
+    ],
+)
+def test_what_is_no_engine_is_refused(engine, words):
+    with pytest.raises(TypeError, match=words):
+        simulator_of(engine() if isinstance(engine, type) else engine)
+
+
+def test_a_step_is_set_for_a_call_and_put_back(tumbling):
+    engine = Newton()
+    coarse = simulator_of(engine).observe(tumbling, 0.2, dt=0.01)
+    assert np.diff(coarse.states.time) == pytest.approx(0.01)
+    assert engine.dt == 1e-3
+
+
+@pytest.mark.parametrize("served", [False, True])
+def test_an_engine_that_hangs_is_ended_and_said(served, tumbling):
+    engine = "yardstick.tests.own_engines:hanging" if served else Hanging()
+    begun = time.monotonic()
+    asked = simulator_of(engine, 2.0)
+    with pytest.raises(UnusableEngineError, match="no answer within 2 s; ended"):
+        asked.observe(tumbling, 0.3)
+    assert time.monotonic() - begun < 60
+    asked.answering.close()
+
+
+def test_an_engine_in_another_process_answers_as_in_this_one(tumbling):
+    asked = simulator_of("yardstick.tests.own_engines:right")
+    here, there = (each.observe(tumbling, 0.3) for each in (simulator_of(Newton()), asked))
+    assert np.array_equal(here.states.position, there.states.position)
+    assert (asked.name, asked.dt) == ("Newton's steps", 1e-3)
+    with pytest.raises(UnsupportedError, match=r"^floor\.slope: 0\.1, accepted of Newton's steps: 0$"):
+        asked.observe(tumbling.replace("floor.slope", 0.1), 0.3)
+    with pytest.raises(UnsupportedError, match=r"floor\.contact = coulomb: accepted: smooth"):
+        asked.observe(tumbling.replace("floor.contact", "coulomb"), 0.3)
+    asked.answering.close()
+
+
+ASKS_AND_ENDS = """
+import os, threading, time
+from cointoss import load
+from cointoss_yardstick.simulators.simulator import simulator_of
+
+asked = simulator_of("yardstick.tests.own_engines:hanging")
+threading.Thread(target=asked.observe, args=(load("fig24a"), 1.0), daemon=True).start()
+time.sleep(1)
+print(asked.answering._process.pid, flush=True)
+os._exit(0)
+"""
+
+
+def test_the_process_of_an_engine_ends_with_the_one_that_asks():
+    stat = Path("/proc") / python("-c", ASKS_AND_ENDS).stdout.strip() / "stat"
+    deadline = time.monotonic() + HANGS
+    while stat.exists() and ") Z " not in stat.read_text() and time.monotonic() < deadline:
+        time.sleep(0.1)
+    assert not stat.exists() or ") Z " in stat.read_text()
+
+
+def test_a_process_that_ends_is_said_and_started_again(tumbling):
+    asked = simulator_of("yardstick.tests.own_engines:crashing")
+    for _ in range(2):
+        with pytest.raises(UnusableEngineError, match="its process ended with status 3: out of luck"):
+            asked.observe(tumbling, 0.3)
+    asked.answering.close()
+
+
+def test_another_python_needs_numpy_alone(tumbling, tmp_path, monkeypatch):
+    """As where an engine pins other versions: a scenario is then its fields as attributes."""
+    (tmp_path / "bare.py").write_text(BARE)
+    monkeypatch.chdir(tmp_path)
+    asked = simulator_of("bare:Engine")
+    seen = asked.observe(tumbling, 0.01)
+    assert asked.name == "Engine"
+    assert seen.states.quaternion[-1] == pytest.approx(np.array(tumbling.release.attitude))
+    with pytest.raises(UnsupportedError, match="SimpleNamespace"):
+        asked.observe(tumbling.replace("floor.restitution", 0.0), 0.01)
+    asked.answering.close()
+
+
+BARE = """
+import sys
+sys.modules["cointoss"] = None
+
+class Engine:
+    def simulate(self, scenario, times):
+        print("what it prints is no answer")
+        if scenario.floor.restitution == 0:
+            raise NotImplementedError(type(scenario).__name__)
+        assert len(scenario.coin.moments) == 3
+        release = scenario.release
+        rows = release.position, release.attitude, release.velocity, release.angular_velocity
+        return [[row] * len(times) for row in rows]
+"""
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ("nowhere", "engine: nowhere, accepted: analytic, mujoco, or package.module:name"),
+        (
+            "no_such_package:engine",
+            "no_such_package:engine: ModuleNotFoundError: No module named 'no_such_package'",
+        ),
+        ("yardstick.tests.own_engines:none", "own_engines has no none"),
+        ("yardstick.tests.own_engines:Newton.name", "has no function simulate"),
+    ],
+)
+def test_a_name_that_is_no_engine_is_refused(given, words):
+    with pytest.raises(UnusableEngineError, match=words):
+        simulator_of(given)
+    with pytest.raises(UnusableEngineError, match=r"can't be run .*; accepted: a Python"):
+        simulator_of("/no/python -m some:engine")
+
+
+def test_between_samples_an_attitude_is_the_same_by_either_sign():
+    known = analytic.toss("fig24a").sample(np.linspace(0, 0.2, 201))
+    turned = replace(known, quaternion=known.quaternion * np.where(np.arange(201) % 3, 1, -1)[:, None])
+    times, none = np.linspace(0, 0.2, 999), np.zeros((200, 3))
+    angles = attitude_angle(Samples(turned, none).sample(times), analytic.toss("fig24a").sample(times))
+    assert angles.max() < 1e-3
