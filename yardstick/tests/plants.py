@@ -34,7 +34,7 @@ class Planted:
     def simulate(self, case: Any, times: Any) -> dict[str, Any]:
         """Return the states, of which the first are right."""
         told = Own(Engine.ANALYTIC).simulate(self.before(case), times)
-        right = {name: told[name] for name in STATE}
+        right = {name: told[name].copy() for name in STATE}
         wrong = right | self.after(case, times[:, None], right)
         for name, first in zip(STATE, np.split(state_at_release(case.release), [3, 6, 10]), strict=True):
             wrong[name][0] = first

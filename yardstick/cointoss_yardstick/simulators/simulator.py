@@ -163,31 +163,16 @@ class Own:
 
     def simulate(self, scenario: Scenario, times: Array) -> dict[str, Array]:
         """Return the states, and the impacts of the toss; see `Simulates`."""
-        parts, begun, after = [], 0.0, scenario.replace("ending", {"test": "lying"})
-        while True:
-            toss = self._package.toss(after.replace("ending.max_time", max(float(times[-1]) - begun, 1e-9)))
-            parts.append((begun, toss))
-            begun += toss.end_time
-            if begun >= times[-1] or toss.ending in _AT_REST:
-                break
-            if not toss.end_time:
-                raise UnsupportedError(f"the toss stopped at {begun:.4g} s: {toss.ending.sentence}")
-            last = toss.sample(toss.end_time)  # as where a period is repeated for ever
-            after = after.replace("release", {name: getattr(last, name)[0] for name in _STATE})
-        starts = np.array([start for start, _ in parts])
-        which = np.searchsorted(starts, times, side="right") - 1
-        states = [
-            toss.sample(np.minimum(times[which == k] - start, toss.end_time))
-            for k, (start, toss) in enumerate(parts)
-        ]
-        found = {name: np.concatenate([getattr(each, name) for each in states]) for name in _STATE}
-        for name in ("velocity", "angular_velocity"):
-            found[name][times > begun] = 0.0
-        return found | {
-            "impact_time": np.concatenate([start + toss.impacts.time for start, toss in parts]),
-            "impact_impulse": np.concatenate([toss.impacts.impulse for _, toss in parts]),
-        }
-
-
-_STATE = ("position", "velocity", "quaternion", "angular_velocity")
-_AT_REST = (Ending.LYING, Ending.SETTLED, Ending.STANDING, Ending.AT_REST)
+        until = max(float(times[-1]), 1e-9)
+        asked = scenario.replace("ending", {"test": "lying", "max_time": until, "until": until})
+        toss = self._package.toss(asked)
+        lies = toss.ending == Ending.LYING
+        end = toss.end_time if lies else toss.path_end
+        if end < until and not lies:
+            raise UnsupportedError(f"the toss stopped at {end:.4g} s: {toss.ending.sentence}")
+        states, moves = toss.sample(np.minimum(times, end)), (times <= end)[:, None]
+        found = {"position": states.position, "quaternion": states.quaternion}
+        found |= {name: getattr(states, name) * moves for name in ("velocity", "angular_velocity")}
+        if lies or not len(toss.later_times):  # of later touches no impulse is known
+            found |= {"impact_time": toss.impacts.time, "impact_impulse": toss.impacts.impulse}
+        return found
