@@ -6,7 +6,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from adapters.shared import THRESHOLD, friction_of
+from adapters.shared import THRESHOLD, by_name, friction_of, rotations
 
 MODEL = """<mujoco>
   <option timestep="{dt}" gravity="0 0 -{gravity}" {option}><flag {flag}/></option>
@@ -42,7 +42,7 @@ def model_of(scenario: Any, settings: dict[str, str | float], dt: float, *refuse
         NotImplementedError: naming a field, its value and what is accepted.
     """
     coin, floor, L = scenario.coin, scenario.floor, float(settings.get("units per metre", 1))
-    slides = friction_of(scenario, *refused, THRESHOLD)
+    slides = friction_of(scenario, (*refused, THRESHOLD))
     friction = [slides, slides, floor.pivoting_friction * L, *[floor.rolling_friction * L] * 2]
     J = np.asarray(coin.moments)[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]] * L**2
     rows = {"C": np.asarray(coin.center_of_mass) * L, "J": J, "friction": friction}
@@ -54,3 +54,19 @@ def model_of(scenario: Any, settings: dict[str, str | float], dt: float, *refuse
     if any(friction) and settings["bounce"] == ONE_STEP and "cone" not in str(settings["option"]):
         words["option"] = f'{settings["option"]} cone="elliptic"'
     return mujoco.MjModel.from_xml_string(MODEL.format(**words))
+
+
+def joint_of(scenario: Any, L: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
+    """Return qpos and qvel of the coin's joint at the release, with L units per metre, (7,) and (6,)."""
+    C, release = np.asarray(scenario.coin.center_of_mass), scenario.release
+    R, w = rotations(np.atleast_2d(release.attitude))[0], np.asarray(release.angular_velocity)
+    v = release.velocity - R @ np.cross(w, C)
+    return np.array([*L * (release.position - R @ C), *release.attitude]), np.array([*L * v, *w])
+
+
+def states_of(scenario: Any, rows: np.ndarray, L: float = 1.0) -> dict[str, np.ndarray]:
+    """Return the coin's states by name, of rows of qpos and qvel with L units per metre, (n, 13)."""
+    C, (x, q, v, w) = np.asarray(scenario.coin.center_of_mass), np.split(rows, [3, 7, 10], axis=1)
+    R = rotations(q)
+    velocity = v / L + np.einsum("nij,nj->ni", R, np.cross(w, C))
+    return by_name(np.hstack([x / L + R @ C, velocity, q, w]))

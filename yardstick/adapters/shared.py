@@ -1,14 +1,18 @@
-"""What adapters share: the friction of a floor, and rotation matrices; needs NumPy alone."""
+"""What adapters share: the steps and the states of a toss, the friction of a floor; needs NumPy alone."""
 
+from collections.abc import Callable, Iterable
 from operator import attrgetter
 from typing import Any
 
 import numpy as np
 
+STATE = ("position", "velocity", "quaternion", "angular_velocity")
+THINNEST = 1e-5
+"""The least thickness of a shape [m]."""
 AIR = ("air.normal", "air.tangential")
-RESISTANCE = ("floor.rolling_friction", "floor.pivoting_friction")
 THRESHOLD = "floor.restitution_threshold"
-"""Fields of a scenario that an engine may have no counterpart of."""
+BEYOND = (*AIR, "floor.rolling_friction", "floor.pivoting_friction", THRESHOLD)
+"""Fields of a scenario that most engines have no counterpart of."""
 OF_COINTOSS = (
     *("floor.restitution_exponent", "floor.restitution_viscous", "floor.slope"),
     *("floor.contour_friction", "floor.contour_viscosity", "air.viscosity"),
@@ -16,7 +20,32 @@ OF_COINTOSS = (
 """Fields that no adapter hands to its engine."""
 
 
-def friction_of(scenario: Any, *refused: str, rough: float = 1e3) -> float:
+def rows_at(
+    times: Iterable[float], dt: float, step: Callable[[], object], state: Callable[[], Iterable[Any]]
+) -> np.ndarray:
+    """Return the states at the steps nearest to times, a row each.
+
+    Args:
+        times: from 0 on [s].
+        dt: the step [s].
+        step: takes one.
+        state: returns the parts of the present state.
+    """
+    rows, taken = [], 0
+    for due in np.rint(np.asarray(list(times)) / dt).astype(int):
+        for _ in range(due - taken):
+            step()
+        taken = due
+        rows.append(np.hstack([*state()]))
+    return np.array(rows, float)
+
+
+def by_name(rows: np.ndarray) -> dict[str, np.ndarray]:
+    """Return rows of position, velocity, quaternion and spin, (n, 13), as `simulate` returns them."""
+    return dict(zip(STATE, np.split(rows, [3, 6, 10], axis=1), strict=True))
+
+
+def friction_of(scenario: Any, refused: Iterable[str] = BEYOND, rough: float = 1e3) -> float:
     """Return the friction coefficient of the floor's contact law.
 
     Args:

@@ -7,11 +7,7 @@ from typing import Any
 import dartpy
 import numpy as np
 
-from adapters.shared import AIR, RESISTANCE, THRESHOLD, friction_of
-
-ROWS = ("position", "velocity", "quaternion", "angular_velocity")
-THINNEST = 1e-5
-REFUSED = (*AIR, *RESISTANCE, THRESHOLD)
+from adapters.shared import THINNEST, by_name, friction_of, rows_at
 
 
 @dataclass
@@ -29,18 +25,14 @@ class Dart:
 
     def simulate(self, scenario: Any, times: Iterable[float]) -> dict[str, np.ndarray]:
         """Return the coin's states, rows at times: those of the steps nearest to them."""
-        world, body = self._world(scenario, friction_of(scenario, *REFUSED))
-        rows, taken = [], 0
-        for step in np.rint(np.asarray(list(times)) / self.dt).astype(int):
-            for _ in range(step - taken):
-                world.step()
-            taken = step
+        world, body = self._world(scenario, friction_of(scenario))
+
+        def state() -> tuple[Any, ...]:
             pose = body.getWorldTransform()
             q, spin = pose.quaternion(), pose.rotation().T @ body.getAngularVelocity()
-            rows.append(
-                (body.getCOM(), body.getCOMLinearVelocity(), np.array([q.w(), q.x(), q.y(), q.z()]), spin)
-            )
-        return dict(zip(ROWS, map(np.array, zip(*rows, strict=True)), strict=True))
+            return body.getCOM(), body.getCOMLinearVelocity(), (q.w(), q.x(), q.y(), q.z()), spin
+
+        return by_name(rows_at(times, self.dt, world.step, state))
 
     def _world(self, scenario: Any, friction: float) -> tuple[Any, Any]:
         """Return a new world and the coin in it; the origin of its frame is the geometric centre."""

@@ -16,13 +16,10 @@ from pydrake.multibody.tree import RotationalInertia, SpatialInertia
 from pydrake.systems.analysis import ResetIntegratorFromFlags, Simulator
 from pydrake.systems.framework import DiagramBuilder
 
-from adapters.shared import AIR, RESISTANCE, THRESHOLD, friction_of
+from adapters.shared import THINNEST, by_name, friction_of
 
-ROWS = ("position", "velocity", "quaternion", "angular_velocity")
-THINNEST = 1e-5
 ALLOWANCE = 1e-3
 """How deep a body lies by default, MultibodyPlantConfig.penetration_allowance [m]."""
-REFUSED = (*AIR, *RESISTANCE, THRESHOLD)
 
 
 def dissipation(restitution: float, speed: float) -> float:
@@ -60,7 +57,7 @@ class Drake:
 
         A discrete plant is advanced to the middle of its step, so that rounding never adds or omits one.
         """
-        plant, body, simulator = self._plant(scenario, friction_of(scenario, *REFUSED))
+        plant, body, simulator = self._plant(scenario, friction_of(scenario))
         context = plant.GetMyMutableContextFromRoot(simulator.get_mutable_context())
         centre, release = np.asarray(scenario.coin.center_of_mass, float), scenario.release
         turn = RotationMatrix(Quaternion(release.attitude / np.linalg.norm(release.attitude)))
@@ -78,12 +75,10 @@ class Drake:
                 turn, spin = pose.rotation(), motion.rotational()
                 arm = turn @ centre
                 q, v = turn.ToQuaternion().wxyz(), motion.translational() + np.cross(spin, arm)
-                rows.append((pose.translation() + arm, v, q, turn.inverse() @ spin))
-        rows += [tuple(np.full(size, np.nan) for size in (3, 3, 4, 3))] * (len(times) - len(rows))
+                rows.append(np.hstack([pose.translation() + arm, v, q, turn.inverse() @ spin]))
+        rows += [np.full(13, np.nan)] * (len(times) - len(rows))
         k = self.stiffness or scenario.coin.mass * scenario.gravity / ALLOWANCE
-        return dict(zip(ROWS, map(np.array, zip(*rows, strict=True)), strict=True)) | {
-            "stiffness": np.array(k)
-        }
+        return by_name(np.array(rows)) | {"stiffness": np.array(k)}
 
     def _plant(self, scenario: Any, friction: float) -> tuple[Any, Any, Simulator]:
         """Return the plant, the coin and the simulator; the body's frame lies in the geometric centre."""

@@ -14,10 +14,9 @@ import numpy as np
 from exudyn.itemInterface import SensorNode
 from exudyn.rigidBodyUtilities import EulerParameters2RotationMatrix, RigidBodyInertia
 
-from adapters.shared import AIR, RESISTANCE, THRESHOLD, friction_of
+from adapters.shared import friction_of
 
 WIDE = 1e3
-REFUSED = (*AIR, *RESISTANCE, THRESHOLD)
 OUTPUTS = ("CoordinatesTotal", "Velocity", "AngularVelocityLocal")
 
 
@@ -45,7 +44,7 @@ class Exudyn:
     def simulate(self, scenario: Any, times: Iterable[float]) -> dict[str, np.ndarray]:
         """Return the coin's states, rows at times: those of the steps nearest to them; NaN where it stops."""
         steps = np.rint(np.asarray(list(times)) / self.dt).astype(int)
-        system, node = self._system(scenario, friction_of(scenario, *REFUSED))
+        system, node = self._system(scenario, friction_of(scenario))
         sensors = [system.AddSensor(_sensor(node, output)) for output in OUTPUTS]
         system.Assemble()
         count, inner = max(int(steps[-1]), 1), max(1, round(self.dt / (self.step or self.dt)))

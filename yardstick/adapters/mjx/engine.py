@@ -10,8 +10,8 @@ import numpy as np
 from jax import lax
 from mujoco import mjx
 
-from adapters.mjcf import ONE_STEP, SPRING, model_of
-from adapters.shared import AIR, rotations
+from adapters.mjcf import ONE_STEP, SPRING, joint_of, model_of, states_of
+from adapters.shared import AIR
 
 ROWS = 256
 """Number of states that a compiled call returns."""
@@ -40,13 +40,10 @@ class Mjx:
 
     def simulate(self, scenario: Any, times: np.ndarray) -> dict[str, np.ndarray]:
         """Return the states at the steps next to the times, (n, 3) and (n, 4); spin in the body frame."""
-        C, release, states = np.asarray(scenario.coin.center_of_mass), scenario.release, []
-        w, R = np.asarray(release.angular_velocity), rotations(np.atleast_2d(release.attitude))[0]
-        L = float(self.settings["units per metre"])
+        L, states = float(self.settings["units per metre"]), []
         with jax.enable_x64(self.settings["precision"] == "float64"):
             model = mjx.put_model(model_of(scenario, self.settings, self.dt, *AIR))
-            q = jnp.array([*L * (release.position - R @ C), *release.attitude])
-            v = jnp.array([*L * (release.velocity - R @ np.cross(w, C)), *w])
+            q, v = map(jnp.array, joint_of(scenario, L))
             data = mjx.make_data(model).replace(qpos=q, qvel=v)
             numbers = np.diff(np.rint(np.asarray(times) / self.dt).astype(np.int32), prepend=0)
             for chunk in np.split(
@@ -54,10 +51,7 @@ class Mjx:
             ):
                 data, rows = advanced(model, data, jnp.array(chunk))
                 states.append(np.concatenate(rows, axis=1))
-        q, v = np.split(np.concatenate(states)[: len(numbers)].astype(float), [7], axis=1)
-        R, w = rotations(q[:, 3:]), v[:, 3:]
-        position, velocity = q[:, :3] / L + R @ C, v[:, :3] / L + np.einsum("nij,nj->ni", R, np.cross(w, C))
-        return {"position": position, "velocity": velocity, "quaternion": q[:, 3:], "angular_velocity": w}
+        return states_of(scenario, np.concatenate(states)[: len(numbers)].astype(float), L)
 
 
 VERSION = f"MJX {version('mujoco-mjx')}"

@@ -7,7 +7,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from adapters.mjcf import ONE_STEP, SPRING, model_of
+from adapters.mjcf import ONE_STEP, SPRING, joint_of, model_of, states_of
 
 
 def drag_of(scenario: Any) -> np.ndarray:
@@ -29,16 +29,10 @@ class Mujoco:
 
     def simulate(self, scenario: Any, times: np.ndarray) -> dict[str, np.ndarray]:
         """Return the states at the steps next to the times, (n, 3) and (n, 4); spin in the body frame."""
-        model, drag, release = (
-            model_of(scenario, self.settings, self.dt, "air.exponent"),
-            drag_of(scenario),
-            scenario.release,
-        )
-        data, C, rows = mujoco.MjData(model), np.asarray(scenario.coin.center_of_mass), []
+        model, drag = model_of(scenario, self.settings, self.dt, "air.exponent"), drag_of(scenario)
+        data, rows = mujoco.MjData(model), []
         R, q, v = data.xmat[1].reshape(3, 3), data.qpos, data.qvel
-        q[3:], v[3:] = release.attitude, release.angular_velocity
-        mujoco.mj_kinematics(model, data)
-        q[:3], v[:3] = release.position - R @ C, release.velocity - R @ np.cross(v[3:], C)
+        q[:], v[:] = joint_of(scenario)
 
         def air(_: mujoco.MjModel, data: mujoco.MjData) -> None:
             data.qfrc_passive -= np.concatenate([R @ (drag[:3] * (R.T @ v[:3])), drag[3:] * v[3:]])
@@ -46,11 +40,9 @@ class Mujoco:
         mujoco.set_mjcb_passive(air if drag.any() else None)
         for n in np.diff(np.rint(np.asarray(times) / self.dt).astype(int), prepend=0):
             mujoco.mj_step(model, data, int(n)) if n else None
-            mujoco.mj_kinematics(model, data)
-            rows.append(np.concatenate([q[:3] + R @ C, v[:3] + R @ np.cross(v[3:], C), q[3:], v[3:]]))
+            rows.append(np.concatenate([q, v]))
         mujoco.set_mjcb_passive(None)
-        names = ("position", "velocity", "quaternion", "angular_velocity")
-        return dict(zip(names, np.split(np.array(rows), [3, 6, 10], axis=1), strict=True))
+        return states_of(scenario, np.array(rows))
 
 
 RIGID = "0.9999 0.9999 0.001 0.5 2"

@@ -8,8 +8,8 @@ import mujoco_warp
 import numpy as np
 import warp
 
-from adapters.mjcf import ONE_STEP, SPRING, model_of
-from adapters.shared import AIR, rotations
+from adapters.mjcf import ONE_STEP, SPRING, joint_of, model_of, states_of
+from adapters.shared import AIR, rows_at
 
 
 @dataclass
@@ -22,24 +22,20 @@ class MujocoWarp:
 
     def simulate(self, scenario: Any, times: np.ndarray) -> dict[str, np.ndarray]:
         """Return the states at the steps next to the times, (n, 3) and (n, 4); spin in the body frame."""
-        C, release, rows, done = np.asarray(scenario.coin.center_of_mass), scenario.release, [], 0
-        w, R = np.asarray(release.angular_velocity), rotations(np.atleast_2d(release.attitude))[0]
         with warp.ScopedDevice("cpu"):
             plain = model_of(scenario, self.settings, self.dt, *AIR)
             model, data = mujoco_warp.put_model(plain), mujoco_warp.make_data(plain)
             with warp.ScopedCapture() as step:
                 mujoco_warp.step(model, data)
-            data.qpos.assign(np.array([[*release.position - R @ C, *release.attitude]], np.float32))
-            data.qvel.assign(np.array([[*release.velocity - R @ np.cross(w, C), *w]], np.float32))
-            for due in np.rint(np.asarray(times) / self.dt).astype(int):
-                for _ in range(due - done):
-                    warp.capture_launch(step.graph)
-                done = due
-                rows.append(np.concatenate([data.qpos.numpy()[0], data.qvel.numpy()[0]]))
-        q, v = np.split(np.array(rows, float), [7], axis=1)
-        R, w = rotations(q[:, 3:]), v[:, 3:]
-        position, velocity = q[:, :3] + R @ C, v[:, :3] + np.einsum("nij,nj->ni", R, np.cross(w, C))
-        return {"position": position, "velocity": velocity, "quaternion": q[:, 3:], "angular_velocity": w}
+            for column, start in zip((data.qpos, data.qvel), joint_of(scenario), strict=True):
+                column.assign(start[None].astype(np.float32))
+            rows = rows_at(
+                times,
+                self.dt,
+                lambda: warp.capture_launch(step.graph),
+                lambda: (data.qpos.numpy()[0], data.qvel.numpy()[0]),
+            )
+        return states_of(scenario, rows)
 
 
 VERSION = f"MuJoCo Warp {version('mujoco-warp')}"

@@ -11,7 +11,7 @@ import numpy as np
 import warp
 from newton import solvers
 
-from adapters.shared import AIR, THRESHOLD, friction_of, rotations
+from adapters.shared import AIR, THRESHOLD, by_name, friction_of, rotations, rows_at
 
 SPRING = "spring ke = m/(2 dt)^2 with the textbook's damping kd"
 ACCELERATION = "spring ke = 1/(2 dt)^2 with the textbook's damping kd, friction at least 0.01"
@@ -20,7 +20,7 @@ ACCELERATION = "spring ke = 1/(2 dt)^2 with the textbook's damping kd, friction 
 def model_of(scenario: Any, settings: dict[str, str | float], dt: float) -> newton.Model:
     """Return the model of a coin over a floor; raise NotImplementedError for what is not here."""
     coin, floor, release = scenario.coin, scenario.floor, scenario.release
-    friction = friction_of(scenario, *AIR, THRESHOLD)
+    friction = friction_of(scenario, (*AIR, THRESHOLD))
     builder = newton.ModelBuilder(gravity=(0, 0, -scenario.gravity))
     shape, e = builder.default_shape_cfg, floor.restitution
     shape.density, shape.restitution = 0.0, e
@@ -62,7 +62,6 @@ class Newton:
 
     def simulate(self, scenario: Any, times: np.ndarray) -> dict[str, np.ndarray]:
         """Return the states at the steps next to the times, (n, 3) and (n, 4); spin in the body frame."""
-        rows, done = [], 0
         with warp.ScopedDevice("cpu"):
             model = model_of(scenario, self.settings, self.dt)
             solver, contacts, control = self.solver(model), model.contacts(), model.control()
@@ -74,22 +73,22 @@ class Newton:
             newton.eval_fk(model, model.joint_q, model.joint_qd, state)
             state.joint_q.assign(model.joint_q)
             state.joint_qd.assign(model.joint_qd)
-            for due in np.rint(np.asarray(times) / self.dt).astype(int):
-                for _ in range(due - done):
-                    warp.capture_launch(step.graph)
-                done = due
-                rows.append(np.concatenate([state.body_q.numpy()[0], state.body_qd.numpy()[0]]))
-        p, q, scalar, v, w = np.split(np.array(rows, float), [3, 6, 7, 10], axis=1)
+            rows = rows_at(
+                times,
+                self.dt,
+                lambda: warp.capture_launch(step.graph),
+                lambda: (state.body_q.numpy()[0], state.body_qd.numpy()[0]),
+            )
+        p, q, scalar, v, w = np.split(rows, [3, 6, 7, 10], axis=1)
         quaternion = np.hstack([scalar, q])
         R = rotations(quaternion)
-        w = np.einsum("nij,ni->nj", R, w)
-        position = p + R @ np.asarray(scenario.coin.center_of_mass)
+        position, spin = p + R @ np.asarray(scenario.coin.center_of_mass), np.einsum("nij,ni->nj", R, w)
         k = (
             {"stiffness": scenario.coin.mass / (2 * self.dt) ** 2}
             if self.settings["bounce"] == SPRING
             else {}
         )
-        return {"position": position, "velocity": v, "quaternion": quaternion, "angular_velocity": w} | k
+        return by_name(np.hstack([position, v, quaternion, spin])) | k
 
 
 def named(what: str, solver: Callable[..., Any], bounce: str = "coefficient", **options: Any) -> Newton:

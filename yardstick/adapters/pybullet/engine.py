@@ -7,11 +7,9 @@ from typing import Any
 import numpy as np
 import pybullet as bullet
 
-from adapters.shared import AIR, RESISTANCE, THRESHOLD, friction_of
+from adapters.shared import THINNEST, by_name, friction_of, rows_at
 
-ROWS = ("position", "velocity", "quaternion", "angular_velocity")
-THINNEST, ROUGH = 1e-5, 10.0
-REFUSED = (*AIR, *RESISTANCE, THRESHOLD)
+ROUGH = 10.0
 
 
 def _state(coin: int) -> tuple[np.ndarray, ...]:
@@ -41,14 +39,10 @@ class PyBullet:
 
     def simulate(self, scenario: Any, times: Iterable[float]) -> dict[str, np.ndarray]:
         """Return the coin's states, rows at times: those of the steps nearest to them."""
-        coin, rows, taken = self._coin(scenario, friction_of(scenario, *REFUSED, rough=ROUGH)), [], 0
-        for step in np.rint(np.asarray(list(times)) / self.dt).astype(int):
-            for _ in range(step - taken):
-                bullet.stepSimulation()
-            taken = step
-            rows.append(_state(coin)[:4])
+        coin = self._coin(scenario, friction_of(scenario, rough=ROUGH))
+        rows = rows_at(times, self.dt, bullet.stepSimulation, lambda: _state(coin)[:4])
         bullet.disconnect()
-        return dict(zip(ROWS, map(np.array, zip(*rows, strict=True)), strict=True))
+        return by_name(rows)
 
     def _coin(self, scenario: Any, friction: float) -> int:
         """Return the number of the coin in a new world."""

@@ -7,11 +7,7 @@ from typing import Any
 import numpy as np
 import rapier3d as rapier
 
-from adapters.shared import AIR, RESISTANCE, THRESHOLD, friction_of
-
-ROWS = ("position", "velocity", "quaternion", "angular_velocity")
-THINNEST = 1e-5
-REFUSED = (*AIR, *RESISTANCE, THRESHOLD)
+from adapters.shared import THINNEST, by_name, friction_of, rows_at
 
 
 def _xyz(vector: Any) -> np.ndarray:
@@ -43,16 +39,15 @@ class Rapier:
 
     def simulate(self, scenario: Any, times: Iterable[float]) -> dict[str, np.ndarray]:
         """Return the coin's states, rows at times: those of the steps nearest to them."""
-        world, handle = self._world(scenario, friction_of(scenario, *REFUSED))
-        rows, taken, body = [], 0, world.rigid_bodies[handle]
-        for step in np.rint(np.asarray(list(times)) / self.dt).astype(int):
-            for _ in range(step - taken):
-                world.step()
-            taken = step
+        world, handle = self._world(scenario, friction_of(scenario))
+        body = world.rigid_bodies[handle]
+
+        def state() -> tuple[Any, ...]:
             q, turn = body.rotation, _matrix(body.rotation)
             x, spin = _xyz(body.translation) + turn @ scenario.coin.center_of_mass, turn.T @ _xyz(body.angvel)
-            rows.append((x, _xyz(body.linvel), np.array([q.w, q.i, q.j, q.k]), spin))
-        return dict(zip(ROWS, map(np.array, zip(*rows, strict=True)), strict=True))
+            return x, _xyz(body.linvel), (q.w, q.i, q.j, q.k), spin
+
+        return by_name(rows_at(times, self.dt, world.step, state))
 
     def _world(self, scenario: Any, friction: float) -> tuple[Any, Any]:
         """Return a new world and the coin's handle; the origin of its frame is the geometric centre."""

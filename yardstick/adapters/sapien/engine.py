@@ -8,11 +8,9 @@ import numpy as np
 import sapien
 from sapien import physx
 
-from adapters.shared import AIR, RESISTANCE, THRESHOLD, friction_of
+from adapters.shared import THINNEST, by_name, friction_of, rows_at
 
-ROWS = ("position", "velocity", "quaternion", "angular_velocity")
-THINNEST, UPRIGHT = 1e-5, (np.sqrt(0.5), 0, -np.sqrt(0.5), 0)
-REFUSED = (*AIR, *RESISTANCE, THRESHOLD)
+UPRIGHT = (np.sqrt(0.5), 0, -np.sqrt(0.5), 0)
 
 
 @dataclass
@@ -35,17 +33,14 @@ class Sapien:
 
     def simulate(self, scenario: Any, times: Iterable[float]) -> dict[str, np.ndarray]:
         """Return the coin's states, rows at times: those of the steps nearest to them."""
-        scene, coin = self._scene(scenario, friction_of(scenario, *REFUSED))
-        rows, taken = [], 0
-        for step in np.rint(np.asarray(list(times)) / self.dt).astype(int):
-            for _ in range(step - taken):
-                scene.step()
-            taken = step
+        scene, coin = self._scene(scenario, friction_of(scenario))
+
+        def state() -> tuple[Any, ...]:
             centre = coin.entity_pose * coin.cmass_local_pose
             turn = coin.entity_pose.to_transformation_matrix()[:3, :3].astype(float)
-            spin = turn.T @ coin.angular_velocity
-            rows.append((centre.p, coin.linear_velocity, coin.entity_pose.q, spin))
-        return dict(zip(ROWS, (np.array(c, float) for c in zip(*rows, strict=True)), strict=True))
+            return centre.p, coin.linear_velocity, coin.entity_pose.q, turn.T @ coin.angular_velocity
+
+        return by_name(rows_at(times, self.dt, scene.step, state))
 
     def _scene(self, scenario: Any, friction: float) -> tuple[Any, Any]:
         """Return a new scene and the coin in it; the origin of its frame is the geometric centre."""
