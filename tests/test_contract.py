@@ -4,8 +4,7 @@ import ast
 from importlib import import_module
 from pathlib import Path
 
-TOP = Path(__file__).parents[1]
-HOUSES = [TOP / "reproduction" / "cointoss_reproduction", TOP / "yardstick" / "cointoss_yardstick"]
+HOUSES = [Path(__file__).parents[1] / name / f"cointoss_{name}" for name in ("reproduction", "yardstick")]
 DOORS = ("cointoss", "cointoss.analytic", "cointoss.coin_mj", "cointoss.study")
 
 

@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from cointoss.study import rotation_matrix
-
-R, H = 1.25e-2, 2e-3
+from cointoss_yardstick.simulators.worker import STATE
 
 
 class Newton:
@@ -58,17 +57,7 @@ class Newton:
                 v, w = v + S * normal / m, w + S * inverse @ lever
             x = x + self.dt * v
             e = _turned(e, w * self.dt)
-        return dict(
-            zip(
-                ("position", "quaternion", "velocity", "angular_velocity"),
-                _columns(rows, wanted),
-                strict=True,
-            )
-        )
-
-
-def _columns(rows: list[Any], wanted: Any) -> list[Any]:
-    return [np.array(column)[wanted] for column in zip(*rows, strict=True)]
+        return dict(zip(STATE, (np.array(column)[wanted] for column in zip(*rows, strict=True)), strict=True))
 
 
 def _turned(e: Any, by: Any) -> Any:

@@ -20,10 +20,12 @@ from right_values import RIGHT
 from tests.helpers.command_line import cointoss, printed, python, refused
 
 CASES = {case.name: case for case in cases()}
-SLOW = {("mujoco", "shares")}
 EACH = [
     pytest.param(
-        str(engine), name, marks=pytest.mark.long if (engine, name) in SLOW else (), id=f"{engine}-{name}"
+        str(engine),
+        name,
+        marks=[pytest.mark.long] * ((engine, name) == ("mujoco", "shares")),
+        id=f"{engine}-{name}",
     )
     for engine in Engine
     for name in CASES

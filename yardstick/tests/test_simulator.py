@@ -333,7 +333,7 @@ class Engine:
             "no_such_package:engine",
             "no_such_package:engine: ModuleNotFoundError: No module named 'no_such_package'",
         ),
-        ("yardstick.tests.own_engines:none", "own_engines has no none"),
+        ("yardstick.tests.own_engines:none", "own_engines' has no attribute 'none'"),
         ("yardstick.tests.own_engines:Newton.name", "has no function simulate"),
     ],
 )

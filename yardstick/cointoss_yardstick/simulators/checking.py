@@ -86,33 +86,24 @@ def _require_release(scenario: Scenario, states: States) -> None:
         raise ValueError(
             f"position at t = 0: the coin starts {-1e3 * lowest:.3g} mm below the floor, accepted: {x}"
         )
-    at_first = {name: getattr(states, name)[0] for name in WIDTHS}
-    q = at_first["quaternion"]
-    R = np.array(rotation_matrix((float(e[0]), float(e[1]), float(e[2]), float(e[3]))))
-    least = float(np.linalg.norm(at_first["angular_velocity"]) / (np.linalg.norm(w) or 1.0))
-    seems: list[tuple[str, Array, Array, str]] = [
-        ("quaternion", np.roll(e, -1), q, "the scalar is last"),
-        ("quaternion", e * [1, -1, -1, -1], q, "it turns from space to body"),
-        ("angular_velocity", R @ w, at_first["angular_velocity"], "it is in the space frame"),
-        ("angular_velocity", w * least, at_first["angular_velocity"], "it is limited, or damped"),
-        (
-            "position",
-            x - R @ np.array(body.center),
-            at_first["position"],
-            "it is that of the geometric centre",
+    R, size = np.array(rotation_matrix(tuple(e.tolist()))), np.linalg.norm(w)
+    limited = w * (np.linalg.norm(states.angular_velocity[0]) / (size or 1.0))
+    expected = {
+        "quaternion": (
+            e,
+            {"the scalar is last": np.roll(e, -1), "it turns from space to body": e * [1, -1, -1, -1]},
         ),
-        ("velocity", R.T @ v, at_first["velocity"], "it is in the body frame"),
-    ]
-    for name, expected in (("quaternion", e), ("position", x), ("velocity", v), ("angular_velocity", w)):
-        given = at_first[name]
-        if _alike(given, expected, name):
-            continue
-        why = next(
-            (f"; {said}" for one, other, _, said in seems if one == name and _alike(given, other, name)), ""
-        )
-        raise ValueError(
-            f"{name} at t = 0: {_told(given)}{why}, accepted: that of the release, {_told(expected)}"
-        )
+        "position": (x, {"it is that of the geometric centre": x - R @ np.array(body.center)}),
+        "velocity": (v, {"it is in the body frame": R.T @ v}),
+        "angular_velocity": (w, {"it is in the space frame": R @ w, "it is limited, or damped": limited}),
+    }
+    for name, (right, seems) in expected.items():
+        given = getattr(states, name)[0]
+        if not _alike(given, right, name):
+            why = next((f"; {said}" for said, other in seems.items() if _alike(given, other, name)), "")
+            raise ValueError(
+                f"{name} at t = 0: {_told(given)}{why}, accepted: that of the release, {_told(right)}"
+            )
 
 
 def _alike(a: Array, b: Array, name: str) -> bool:

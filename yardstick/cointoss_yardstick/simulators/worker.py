@@ -11,8 +11,8 @@ import sys
 import threading
 import time
 import traceback
-from importlib import import_module
 from pathlib import Path
+from pkgutil import resolve_name
 from types import SimpleNamespace
 from typing import Any, BinaryIO
 
@@ -36,21 +36,6 @@ def write_message(stream: BinaryIO, **arrays: Any) -> None:
     np.savez(packed, **arrays)
     stream.write(SIZE.pack(packed.tell()) + packed.getvalue())
     stream.flush()
-
-
-def imported(path: str) -> Any:
-    """Return what "package.module:name" names; without a name, the module.
-
-    Raises:
-        ImportError: where there is none.
-    """
-    module, _, name = path.partition(":")
-    found = import_module(module)
-    for part in filter(None, name.split(".")):
-        if not hasattr(found, part):
-            raise ImportError(f"{module} has no {part}")
-        found = getattr(found, part)
-    return found
 
 
 STATE = ("position", "quaternion", "velocity", "angular_velocity")
@@ -149,7 +134,7 @@ def serve(path: str) -> None:
     threading.Thread(target=end_with, args=(os.getppid(),), daemon=True).start()
     sys.path[0] = str(Path.cwd())
     try:
-        engine = imported(path)
+        engine = resolve_name(path)
         engine = engine() if isinstance(engine, type) else engine
         write_message(given, about=json.dumps(about(engine)))
     except Exception as error:  # told to the one who asks
