@@ -128,6 +128,7 @@ wheels: $(VENV)/.ready-slow engines
 	  $(STEP) "pip: making the wheel for $$system" $(WHEEL) dist/cointoss_dynamics-*.tar.gz || exit; done
 	@$(STEP) "pip: making the wheel of the studies" $(WHEEL) ./reproduction
 	@$(STEP) "pip: making the wheel of the yardstick" $(WHEEL) ./yardstick
+	@$(STEP) "pip: making the wheel of the bounces" $(WHEEL) ./bounce
 
 # All that docs/ holds of results, computed anew in several hours, and the pages of them. A claim that comes out
 # otherwise than known is printed, and is no reason to stop.
@@ -165,12 +166,12 @@ lint: $(VENV)/.ready-lint
 sink: $(TESTED)
 	$(BIN)/python -m tests.helpers.ceilings --sink
 
-$(READY): pyproject.toml yardstick/pyproject.toml
+$(READY): pyproject.toml bounce/pyproject.toml yardstick/pyproject.toml
 	@$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 11) and 'cointoss needs Python >= 3.11')"
 	@$(STEP) "making $(VENV)" $(PYTHON) -m venv $(VENV)
 	@$(STEP) "pip: updating itself" $(BIN)/python -m pip install --quiet --no-compile "pip>=25.1"
 	@$(STEP) "pip: installing what builds cointoss" $(PIP) --group build
-	@$(STEP) "pip: installing cointoss and what it needs" $(PIP) --no-build-isolation --editable . --editable yardstick
+	@$(STEP) "pip: installing cointoss and what it needs" $(PIP) --no-build-isolation --editable . --editable bounce --editable yardstick
 	@touch $@
 
 # What pyproject.toml lists as groups, each where it is needed. The studies are installed with the tests, which are theirs

@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from cointoss import coin_mj as coin_mj
     from cointoss import models as models
     from cointoss.analytic.impact.own_law import OwnLaw as OwnLaw
-    from cointoss.coin_mj.bounces.recipe import solref as solref
     from cointoss.compare.engines import Engine as Engine
     from cointoss.compare.engines import toss as toss
     from cointoss.compare.film.back_end import BackEndError as BackEndError

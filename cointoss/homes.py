@@ -5,9 +5,16 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-MOVED = {
-    "Card": "cointoss_yardstick.Card now; accepted: pip install cointoss-yardstick",
-    "conform": "cointoss_yardstick.conform now; accepted: pip install cointoss-yardstick",
+_OF_BOUNCE = (
+    *("Bounce", "PairBounce", "PairRest", "PhysxBounce", "Rebounds"),
+    *("bounce", "physx_bounce", "solref", "solref_of"),
+)
+MOVED: dict[str, str] = {
+    **{name: f"cointoss_bounce.{name} now; accepted: pip install cointoss-bounce" for name in _OF_BOUNCE},
+    **{
+        name: f"cointoss_yardstick.{name} now; accepted: pip install cointoss-yardstick"
+        for name in ("Card", "conform")
+    },
 }
 """Names that are another distribution's now: what to import instead, and what to install for it."""
 

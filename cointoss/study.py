@@ -19,24 +19,6 @@ if TYPE_CHECKING:
     from cointoss.analytic.single_impacts import strike as strike
     from cointoss.analytic.toss import Pieces as Pieces
     from cointoss.analytic.toss import state_at_release as state_at_release
-    from cointoss.coin_mj.bounces.bodies import BALL as BALL
-    from cointoss.coin_mj.bounces.bodies import FlatBody as FlatBody
-    from cointoss.coin_mj.bounces.contact import DEFAULT as DEFAULT
-    from cointoss.coin_mj.bounces.contact import GRAVITY as GRAVITY
-    from cointoss.coin_mj.bounces.contact import HARDEST as HARDEST
-    from cointoss.coin_mj.bounces.contact import INTEGRATORS as INTEGRATORS
-    from cointoss.coin_mj.bounces.contact import ContactSettings as ContactSettings
-    from cointoss.coin_mj.bounces.contact import one_step_solref as one_step_solref
-    from cointoss.coin_mj.bounces.contact import spring_solref as spring_solref
-    from cointoss.coin_mj.bounces.drops import LONGEST as LONGEST
-    from cointoss.coin_mj.bounces.drops import PHASES as PHASES
-    from cointoss.coin_mj.bounces.drops import SPEED as SPEED
-    from cointoss.coin_mj.bounces.drops import drops_of as drops_of
-    from cointoss.coin_mj.bounces.flight import energy_change as energy_change
-    from cointoss.coin_mj.bounces.pair import SPEEDS as SPEEDS
-    from cointoss.coin_mj.bounces.recipe import SPRING_STEPS as SPRING_STEPS
-    from cointoss.coin_mj.bounces.recipe import recipe_of as recipe_of
-    from cointoss.coin_mj.bounces.rest import rest_of as rest_of
     from cointoss.coin_mj.entries import forward as forward
     from cointoss.coin_mj.model.machine import machine_of as machine_of
     from cointoss.coin_mj.model.scene import build as build

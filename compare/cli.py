@@ -18,7 +18,6 @@ from cointoss.models.errors import meant
 
 COMMANDS = {
     "basin": "Map the outcome over two fields of a scenario.",
-    "bounce": "Print how two geoms of your own MuJoCo model bounce off each other.",
     "compare": "Toss one coin by several engines and write a report.",
     "explore": "Show a map in the browser: click a pixel, see both engines toss it.",
     "find": "Find a toss that shows a sequence of faces, or ends on its edge.",
@@ -28,18 +27,25 @@ COMMANDS = {
     "lab": "Toss coins in the browser: a map that follows sliders, and each of its tosses.",
     "scenarios": "List the scenarios that come with the package, or print the file of one.",
     "shares": "Count how often a coin tossed by hand shows heads, tails or its edge, along a field.",
-    "solref": "Print settings of MuJoCo or another simulator for a restitution, or the restitution "
-    "of given settings.",
     "toss": "Toss one coin and print its impacts.",
     "video": "Film one toss, drawn by MuJoCo, until the coin lies still.",
 }
 """The commands, each in a module of its name, which is imported when it is called; and what each does."""
 OF_OTHERS = {
+    "bounce": (
+        "cointoss-bounce",
+        "Print how two geoms of your own MuJoCo model bounce off each other.",
+    ),
     "conform": (
         "cointoss-yardstick",
         "Test an engine on cases with known answers, and print a card of its errors.",
     ),
     "reproduce": ("cointoss-reproduction", "Compute the paper's figures and the studies."),
+    "solref": (
+        "cointoss-bounce",
+        "Print settings of MuJoCo or another simulator for a restitution, or the restitution "
+        "of given settings.",
+    ),
 }
 """Commands that are offered by another distribution: its name, and what each does."""
 NO_MEMORY = "out of memory, or of threads; accepted: more of them for this process, see ulimit -a"
@@ -78,6 +84,8 @@ class _Commands(click.Group):
         except click.UsageError as error:
             command = error.ctx.command_path if error.ctx else "cointoss"
             refuse(f"{error.format_message().rstrip('.')} (see {command} --help)")
+        except click.ClickException as error:  # of another distribution's command
+            refuse(error.format_message(), status=error.exit_code)
         except click.Abort:  # KeyboardInterrupt
             refuse("interrupted", status=130)
         except (ImportError, MemoryError, OSError, RuntimeError, SystemError) as error:

@@ -12,6 +12,7 @@ import click
 import pytest
 
 import cointoss as package
+import cointoss_bounce
 import cointoss_yardstick
 from cointoss.compare.cli import COMMANDS, OF_OTHERS, main
 from cointoss.models.reading import parse
@@ -168,7 +169,7 @@ def test_a_notebook_has_code_that_parses_and_ends_with_exercises_and_solutions(n
 def test_every_public_name_is_described_in_the_pages_of_the_api():
     text = "\n".join(page.read_text(encoding="utf-8") for page in DOCS.glob("api/*.md"))
     described = set(re.findall(r"^\.\. auto\w+:: (\S+)$", text, flags=re.MULTILINE))
-    houses = (package.analytic, package.coin_mj, cointoss_yardstick)
+    houses = (package.analytic, package.coin_mj, cointoss_bounce, cointoss_yardstick)
     public = {f"cointoss.{name}" for name in dir(package)}
     public |= {f"{house.__name__}.{name}" for house in houses for name in house.__all__}
     assert public - described == {
@@ -181,7 +182,7 @@ def test_every_public_name_is_described_in_the_pages_of_the_api():
 
 def test_what_a_page_names_of_the_code_is_there():
     """Paths of files, and a function that a table says to lie in one."""
-    files = r"`((?:analytic|coin_mj|compare|cointoss|models|yardstick|tests|docs)/[\w./-]*\w\.\w+)`"
+    files = r"`((?:analytic|bounce|coin_mj|compare|cointoss|models|yardstick|tests|docs)/[\w./-]*\w\.\w+)`"
     named = {(page, path) for page in PAGES for path in re.findall(files, page.read_text(encoding="utf-8"))}
     assert len(named) > 50
     assert [(page.name, path) for page, path in named if not (TOP / path).exists()] == []

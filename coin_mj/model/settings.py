@@ -10,7 +10,6 @@ from typing import NamedTuple
 from cointoss.models.contact_laws.table import is_rough, uses_friction
 from cointoss.models.entries import damping_ratio_of
 from cointoss.models.parts import Floor
-from cointoss.models.spring import restitution_of
 
 ROUGH = 100.0
 """Coefficient of friction that stands for a perfectly rough floor."""
@@ -209,8 +208,3 @@ def friction_of(floor: Floor) -> float:
     if is_rough(floor.contact):
         return ROUGH
     return floor.friction if uses_friction(floor.contact) else 0.0
-
-
-def contact_duration(zeta: float) -> float:
-    """Return how long that contact lasts, in units of 1/√k: χ = exp(-ζ √k t)."""
-    return -math.log(restitution_of(zeta)) / zeta if zeta else math.pi

@@ -7,7 +7,8 @@ import pytest
 
 from cointoss import ContactLaw
 from cointoss.coin_mj import FINE, Friction, MujocoSettings, Realisation
-from cointoss.study import ContactSettings, drops_of, one_step_solref, spring_solref
+from cointoss_bounce.contact import ContactSettings, one_step_solref, spring_solref
+from cointoss_bounce.drops import drops_of
 from cointoss_reproduction.setups.mujoco_impacts import (
     by_law,
     by_mujoco,

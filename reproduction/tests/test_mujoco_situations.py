@@ -2,8 +2,8 @@
 
 import pytest
 
-from cointoss.coin_mj import solref
-from cointoss.study import recipe_of
+from cointoss_bounce import solref
+from cointoss_bounce.recipe import recipe_of
 from cointoss_reproduction.frame.cells import Cells, table_of
 from cointoss_reproduction.studies.mujoco_situations.bodies import (
     RADIUS,

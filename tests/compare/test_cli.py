@@ -126,8 +126,10 @@ def test_a_back_end_that_is_none_is_one_line_and_exit_status_2(tmp_path, command
 
 
 HOMES = {name: f"cointoss.compare.commands.{name}" for name in COMMANDS} | {
+    "bounce": "cointoss_bounce.command",
     "conform": "cointoss_yardstick.command",
     "reproduce": "cointoss_reproduction.command",
+    "solref": "cointoss_bounce.command",
 }
 """The module of each command."""
 

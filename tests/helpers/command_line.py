@@ -8,6 +8,7 @@ from pathlib import Path
 from click.testing import CliRunner, Result
 
 from cointoss.compare.cli import main
+from cointoss_bounce.command import main as mj_bounce_main
 
 HERE = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2]), "PYTHONDONTWRITEBYTECODE": "1"}
 
@@ -32,6 +33,11 @@ HEAVY = {
 def cointoss(*arguments: object) -> Result:
     """Return the answer of `cointoss` to those arguments."""
     return CliRunner().invoke(main, [str(part) for part in arguments], catch_exceptions=False)
+
+
+def mj_bounce(*arguments: object) -> Result:
+    """Return the answer of `mj-bounce` to those arguments."""
+    return CliRunner().invoke(mj_bounce_main, [str(part) for part in arguments], catch_exceptions=False)
 
 
 def printed(*arguments: object) -> str:

@@ -19,7 +19,7 @@ from typing import NamedTuple
 from cointoss.models.kernel.base_folder import base_folder
 
 ROOT = Path(__file__).parents[2]
-HOUSES = ("reproduction", "yardstick")
+HOUSES = ("bounce", "reproduction", "yardstick")
 COPIED = ("pyproject.toml", "cointoss", "models", "analytic", "coin_mj", "compare", *HOUSES, "tests")
 _FAILED = 1
 """Status of pytest where a test failed; others say that it could not run them."""

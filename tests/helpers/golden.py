@@ -1,10 +1,10 @@
 """Transcripts of commands and Python, with all they print; `python -m tests.helpers.golden` writes them anew.
 
 A line of a transcript that begins with $ is a command; below it is what it prints, after ! what it says on
-stderr, and after = its exit status where that is not 0. Beside `cointoss` there are `cat FILE`, `plain PAGE`,
-which prints the text of a page, `part FILE KEY`, which prints a part of JSON, and `files`, which lists what
-was written. A line that begins with >>> is Python; below it is its value, or after ! its error. Versions are
-left out; a line after : is a remark.
+stderr, and after = its exit status where that is not 0. Beside `cointoss` and `mj-bounce` there are
+`cat FILE`, `plain PAGE`, which prints the text of a page, `part FILE KEY`, which prints a part of JSON, and
+`files`, which lists what was written. A line that begins with >>> is Python; below it is its value, or after
+! its error. Versions are left out; a line after : is a remark.
 """
 
 import json
@@ -19,20 +19,25 @@ from shutil import copy
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from tests.helpers.command_line import cointoss
+from tests.helpers.command_line import cointoss, mj_bounce
 
 GOLDEN = Path(__file__).parents[1] / "compare" / "golden"
-FILES = GOLDEN / "files"
+BOUNCE = Path(__file__).parents[2] / "bounce" / "tests" / "golden"
+PROGRAMS = {"cointoss": cointoss, "mj-bounce": mj_bounce}
 NUMBER = re.compile(r"(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)")
 TAG = re.compile(r"(?s)<(script|style)\b.*?</\1>|<!--.*?-->|<[^>]*>")
 VERSION = re.compile(r'(?m)(?<=": ")\d+\.\d+\.\d+[^"]*|^\d+\.\d+\.\d+\S*$')
 
 
-def answer(command: str) -> str:
-    """Return what a command prints in this folder, says, and ends with, as in a transcript."""
+def answer(command: str, given: set[str]) -> str:
+    """Return what a command prints in this folder, says, and ends with, as in a transcript.
+
+    Args:
+        command: a line of a transcript.
+        given: the files that were there before.
+    """
     program, *words = shlex.split(command)
     if program == "files":
-        given = {path.name for path in FILES.iterdir()}
         written = (path for path in Path().rglob("*") if path.is_file() and path.name not in given)
         return "".join(sorted(f"{path}\n" for path in written))
     if program == "cat":
@@ -42,7 +47,7 @@ def answer(command: str) -> str:
     if program == "plain":
         text = unescape(TAG.sub("\n", Path(words[0]).read_text(encoding="utf-8")))
         return "".join(f"{' '.join(line.split())}\n" for line in text.splitlines() if line.strip())
-    answered = cointoss(*words)
+    answered = PROGRAMS[program](*words)
     said = "".join(f"! {line}\n" for line in answered.stderr.splitlines())
     return answered.stdout + said + (f"= {answered.exit_code}\n" if answered.exit_code else "")
 
@@ -59,13 +64,18 @@ def value(source: str, names: dict[str, Any]) -> str:
     return "" if found is None else f"{found!r}\n"
 
 
-def replayed(transcript: str) -> str:
-    """Return a transcript of the same commands, in a new folder with the files of `golden/files`."""
+def replayed(transcript: str, home: Path = GOLDEN) -> str:
+    """Return a transcript of the same commands, in a new folder with the files of its home."""
     names: dict[str, Any] = {}
-    answers = {"$": answer, ">>>": partial(value, names=names), ":": lambda _: ""}
+    files = [*(home / "files").iterdir()]
+    answers = {
+        "$": partial(answer, given={file.name for file in files}),
+        ">>>": partial(value, names=names),
+        ":": lambda _: "",
+    }
     lines = [line for line in transcript.splitlines() if line.startswith(("$ ", ": ", ">>> "))]
     with TemporaryDirectory() as folder:
-        for file in FILES.iterdir():
+        for file in files:
             copy(file, folder)
         with chdir(folder):
             told = [answers[line.split()[0]](line.partition(" ")[2]) for line in lines]
@@ -86,5 +96,5 @@ def assert_alike(found: str, golden: str) -> None:
 
 
 if __name__ == "__main__":
-    for file in sorted(GOLDEN.glob("*.txt")):
-        file.write_text(replayed(file.read_text(encoding="utf-8")), encoding="utf-8")
+    for file in sorted([*GOLDEN.glob("*.txt"), *BOUNCE.glob("*.txt")]):
+        file.write_text(replayed(file.read_text(encoding="utf-8"), file.parent), encoding="utf-8")

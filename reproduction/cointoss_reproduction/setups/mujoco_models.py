@@ -5,7 +5,7 @@
 
 import mujoco
 
-from cointoss.study import ContactSettings
+from cointoss_bounce.contact import ContactSettings
 
 RECIPE = 'cone="elliptic" impratio="1e-6" noslip_iterations="20"'
 """Options with which a ball has restitution and Coulomb friction together."""

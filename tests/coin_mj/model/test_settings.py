@@ -20,6 +20,7 @@ from cointoss.coin_mj.model.settings import (
 )
 from cointoss.coin_mj.steps.impact import time_to_release
 from cointoss.models.spring import damping_ratio_of, restitution_of
+from cointoss_bounce import contact, spring
 
 
 @pytest.mark.parametrize("zeta", [0.0, 0.05, 0.3, 0.99, 1.0, 1.01, 2.0, 5.0])
@@ -102,3 +103,19 @@ def test_the_less_energy_an_impact_takes_the_less_its_steps_may_change(restituti
     share = max(1 - restitution**2, LEAST_LOSS) / LOSS
     steps = resolved(MANY, restitution, 20.0).steps
     assert (3 / steps) ** 5 <= share**2 < (3 / (steps - 1)) ** 5
+
+
+@pytest.mark.parametrize("zeta", [0.0, 0.05, 0.3, 0.99, 1.0, 1.01, 5.0])
+def test_who_installs_cointoss_bounce_alone_has_the_same_spring(zeta):
+    e = restitution_of(zeta)
+    assert spring.restitution_of(zeta) == pytest.approx(e, rel=1e-14)
+    assert spring.damping_ratio_of(e) == pytest.approx(damping_ratio_of(e), rel=1e-14)
+    assert spring.contact_duration(zeta) == pytest.approx(time_to_release(1.0, 2 * zeta, 0.0, -1.0), rel=1e-9)
+
+
+@pytest.mark.parametrize("e", [0.01, 0.5, 1.0])
+def test_who_installs_cointoss_bounce_alone_has_the_same_contacts(e):
+    own = rebound_of(e, MujocoSettings(stiffness=(np.pi / (40 * 1e-3)) ** 2))
+    assert contact.spring_solref(e, 1e-3, 40) == pytest.approx((-own.stiffness, -own.damping), rel=1e-14)
+    one = rebound_of(e, MujocoSettings(contact=Realisation.ONE_STEP, step=1e-3))
+    assert contact.one_step_solref(e, 1e-3) == (-one.stiffness, -one.damping)

@@ -12,17 +12,11 @@ import mujoco
 import numpy as np
 import pandas as pd
 
-from cointoss.study import (
-    BALL,
-    GRAVITY,
-    SPEED,
-    SPRING_STEPS,
-    Array,
-    ContactSettings,
-    FlatBody,
-    one_step_solref,
-    recipe_of,
-)
+from cointoss.study import Array
+from cointoss_bounce.bodies import BALL, FlatBody
+from cointoss_bounce.contact import GRAVITY, ContactSettings, one_step_solref
+from cointoss_bounce.drops import SPEED
+from cointoss_bounce.recipe import SPRING_STEPS, recipe_of
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.mujoco_models import sliding_ball

@@ -9,7 +9,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from cointoss.study import GRAVITY, LONGEST, PHASES, SPEED, Array, ContactSettings
+from cointoss.study import Array
+from cointoss_bounce.contact import GRAVITY, ContactSettings
+from cointoss_bounce.drops import LONGEST, PHASES, SPEED
 from cointoss_reproduction.setups.mujoco_models import model_of
 
 SIZE = 0.1

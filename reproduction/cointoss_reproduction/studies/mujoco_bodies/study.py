@@ -5,17 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from cointoss.study import (
-    DEFAULT,
-    GRAVITY,
-    HARDEST,
-    SPEED,
-    SPRING_STEPS,
-    Array,
-    one_step_solref,
-    recipe_of,
-    spring_solref,
-)
+from cointoss.study import Array
+from cointoss_bounce.contact import DEFAULT, GRAVITY, HARDEST, one_step_solref, spring_solref
+from cointoss_bounce.drops import SPEED
+from cointoss_bounce.recipe import SPRING_STEPS, recipe_of
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.studies.mujoco_bodies.bodies import (

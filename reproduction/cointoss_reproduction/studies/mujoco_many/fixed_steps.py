@@ -13,8 +13,6 @@ import numpy as np
 from cointoss import Scenario
 from cointoss.coin_mj import MujocoSettings, Realisation
 from cointoss.study import (
-    LONGEST,
-    PHASES,
     Array,
     build,
     contact_velocity,
@@ -26,6 +24,7 @@ from cointoss.study import (
     shape_thickness,
     to_mass_center,
 )
+from cointoss_bounce.drops import LONGEST, PHASES
 
 
 def restitutions_of_coins(cases: Sequence[Scenario], settings: MujocoSettings, dt: float) -> Array:

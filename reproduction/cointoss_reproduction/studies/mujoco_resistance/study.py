@@ -11,7 +11,8 @@ import mujoco
 import numpy as np
 
 from cointoss import Scenario, coin_mj
-from cointoss.study import DEFAULT, HARDEST, Array
+from cointoss.study import Array
+from cointoss_bounce.contact import DEFAULT, HARDEST
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
 

@@ -6,7 +6,9 @@
 import mujoco
 import numpy as np
 
-from cointoss.study import PHASES, SPEED, Array, ContactSettings
+from cointoss.study import Array
+from cointoss_bounce.contact import ContactSettings
+from cointoss_bounce.drops import PHASES, SPEED
 from cointoss_reproduction.setups.mujoco_models import RECIPE, model_of, sliding_ball
 
 STACK = (0.1, 0.1, 0.1, 0.1, 10.0)

@@ -5,8 +5,8 @@
 
 import mujoco
 
-from cointoss.coin_mj import PairBounce, bounce
-from cointoss.study import ContactSettings
+from cointoss_bounce import PairBounce, bounce
+from cointoss_bounce.contact import ContactSettings
 from cointoss_reproduction.setups.mujoco_models import FLOOR, model_of, rubbing_pair
 
 BALL = 0.02

@@ -7,22 +7,20 @@ from typing import Any
 
 import numpy as np
 
-from cointoss.coin_mj import PairBounce
-from cointoss.study import (
+from cointoss_bounce import PairBounce
+from cointoss_bounce.contact import (
     GRAVITY,
     HARDEST,
     INTEGRATORS,
-    SPEED,
-    SPEEDS,
-    SPRING_STEPS,
     ContactSettings,
-    drops_of,
-    energy_change,
     one_step_solref,
-    recipe_of,
-    rest_of,
     spring_solref,
 )
+from cointoss_bounce.drops import SPEED, drops_of
+from cointoss_bounce.flight import energy_change
+from cointoss_bounce.pair import SPEEDS
+from cointoss_bounce.recipe import SPRING_STEPS, recipe_of
+from cointoss_bounce.rest import rest_of
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.mujoco_models import RECIPE

@@ -1,1 +1,0 @@
-"""Bounces of MuJoCo's own contacts, measured with `mj_step`; imports the model's settings and models."""
