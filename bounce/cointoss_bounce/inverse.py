@@ -10,11 +10,11 @@ from numbers import Real
 
 import mujoco
 
+from cointoss_bounce.accepted import require, require_bounds
 from cointoss_bounce.bodies import BALL, body_of
 from cointoss_bounce.contact import DEFAULT, GRAVITY, INTEGRATORS, ContactSettings, text_of
 from cointoss_bounce.drops import SPEED, drops_of
 from cointoss_bounce.measured import Measured
-from cointoss_bounce.recipe import require, require_numbers, require_timestep, require_weight
 from cointoss_bounce.rest import rest_of
 from cointoss_bounce.spring import contact_duration, restitution_of
 
@@ -92,9 +92,7 @@ def solref_of(
     Raises:
         ValueError: naming the argument, its value and what is accepted.
     """
-    require_numbers(timestep=timestep)
-    require_timestep(timestep)
-    require_weight(mass, gravity, timestep)
+    require_bounds(timestep, mass=mass, gravity=gravity)
     require("integrator", integrator, integrator in INTEGRATORS, ", ".join(INTEGRATORS))
     given = ContactSettings(
         solref=_solref("solref", solref),

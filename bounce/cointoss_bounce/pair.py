@@ -4,7 +4,8 @@
 # pyright: reportAttributeAccessIssue=false
 
 import math
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 from typing import NamedTuple, SupportsIndex
@@ -12,6 +13,7 @@ from typing import NamedTuple, SupportsIndex
 import mujoco
 import numpy as np
 
+from cointoss_bounce.accepted import require
 from cointoss_bounce.approach import Pair
 from cointoss_bounce.arrays import Array
 from cointoss_bounce.contact import INTEGRATORS
@@ -82,7 +84,7 @@ class PairBounce:
     """The largest angle by which a body turns on each metre of the approach [rad/m]; 0 if thrown straight."""
     thinnest: float
     """Half of the thickness of the thinner geom, where it is thinnest; a plane has none [m]."""
-    speeds: Array = field(default_factory=lambda: np.array(SPEEDS))
+    speeds: Array
     """The speeds at which the geoms come together, (n,) [m/s]."""
     restitutions: Array
     """Without gravity: the normal speed of the points that touched first, where both geoms touch, after over
@@ -121,7 +123,11 @@ class _Touch(NamedTuple):
 
 
 def bounce(
-    model: mujoco.MjModel | Path | str, one: str | SupportsIndex, two: str | SupportsIndex
+    model: mujoco.MjModel | Path | str,
+    one: str | SupportsIndex,
+    two: str | SupportsIndex,
+    *,
+    speeds: Sequence[float] = SPEEDS,
 ) -> PairBounce:
     """Return how two geoms of a model bounce off each other, by plain `mj_step` and the model's own options.
 
@@ -134,15 +140,16 @@ def bounce(
         model: of MuJoCo, or the path of its XML.
         one: a geom, by its name or number.
         two: another.
+        speeds: at which they come together [m/s].
 
     Raises:
         ValueError: naming what does not load, exist or touch, and what is accepted.
     """
     loaded = model if isinstance(model, mujoco.MjModel) else load_model(model)
     require_measurable(loaded)
+    require("speeds", speeds, all(0 < speed < math.inf for speed in speeds), "finite speeds above 0")
     first, second = geom_of(loaded, one), geom_of(loaded, two)
-    if first == second:
-        raise FieldError("geoms", f"{one} and {two}", "two different geoms")
+    require("geoms", f"{one} and {two}", first != second, "two different geoms")
     with unlogged():
         pair = Pair(loaded, first, second)
         touch = pair.contact
@@ -151,10 +158,14 @@ def bounce(
             raise _no_solref(loaded, (first, second), solref)
         gravity = pair.model.opt.gravity.copy()
         pair.model.opt.gravity[:] = 0
-        free = _touches(pair)
+        free = _touches(pair, speeds)
         pair.model.opt.gravity[:] = gravity
-        pulled = _touches(pair)
+        pulled = _touches(pair, speeds)
         rest = rest_between(pair)
+    acts_on = (
+        f"a soft constraint ({', '.join(pair.soft)}) goes on acting after the contact: "
+        "the speed and the energy are those at the parting"
+    )
     return PairBounce(
         geoms=(str(one), str(two)),
         timestep=float(pair.model.opt.timestep),
@@ -167,6 +178,7 @@ def bounce(
         gap=pair.gap,
         turning=pair.turning,
         thinnest=pair.thinnest,
+        speeds=np.array(speeds),
         restitutions=_column(free, "restitution"),
         with_gravity=_column(pulled, "restitution"),
         outcomes=_outcomes(free),
@@ -176,17 +188,7 @@ def bounce(
         depths=_column(free, "depth").max(axis=1),
         rest=rest if isinstance(rest, PairRest) else None,
         no_rest="" if isinstance(rest, PairRest) else rest,
-        notes=_notes(pair),
-    )
-
-
-def _notes(pair: Pair) -> tuple[str, ...]:
-    """Return a note that soft constraints go on acting after the contact, if they do."""
-    if not pair.soft:
-        return ()
-    return (
-        f"a soft constraint ({', '.join(pair.soft)}) goes on acting after the contact: "
-        "the speed and the energy are those at the parting",
+        notes=(acts_on,) if pair.soft else (),
     )
 
 
@@ -200,9 +202,9 @@ def _no_solref(model: mujoco.MjModel, geoms: tuple[int, int], mixed: tuple[float
     return FieldError(name, " ".join(f"{number:g}" for number in numbers), TWO)
 
 
-def _touches(pair: Pair) -> list[list[_Touch]]:
+def _touches(pair: Pair, speeds: Sequence[float]) -> list[list[_Touch]]:
     """Return every touch, by speed and phase."""
-    return [[_touch(pair, speed, (n + 0.5) / PHASES) for n in range(PHASES)] for speed in SPEEDS]
+    return [[_touch(pair, speed, (n + 0.5) / PHASES) for n in range(PHASES)] for speed in speeds]
 
 
 def _column(touches: list[list[_Touch]], name: str) -> Array:

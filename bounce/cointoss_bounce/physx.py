@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
+from cointoss_bounce.accepted import require_bounds
 from cointoss_bounce.contact import GRAVITY
-from cointoss_bounce.recipe import BALL, require_restitution, require_timestep, require_weight
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,7 +46,5 @@ def physx_bounce(restitution: float, timestep: float, *, gravity: float = GRAVIT
     Raises:
         ValueError: naming the argument, its value and what is accepted.
     """
-    require_restitution(restitution)
-    require_timestep(timestep)
-    require_weight(BALL.mass, gravity, timestep)
+    require_bounds(timestep, restitution=restitution, gravity=gravity)
     return PhysxBounce(restitution=restitution, timestep=timestep, gravity=gravity)

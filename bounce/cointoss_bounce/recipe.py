@@ -3,10 +3,11 @@
 import math
 import warnings
 from dataclasses import dataclass, replace
-from numbers import Integral, Real
+from numbers import Integral
 
 import numpy as np
 
+from cointoss_bounce.accepted import require, require_bounds
 from cointoss_bounce.backends import Backend
 from cointoss_bounce.bodies import BALL, FlatBody, body_of
 from cointoss_bounce.contact import (
@@ -19,7 +20,7 @@ from cointoss_bounce.contact import (
     spring_solref,
 )
 from cointoss_bounce.drops import LONGEST, SPEED, drops_of
-from cointoss_bounce.errors import DeepContactWarning, FieldError
+from cointoss_bounce.errors import DeepContactWarning
 from cointoss_bounce.flight import energy_change
 from cointoss_bounce.measured import Measured
 from cointoss_bounce.other_engines import FIRMEST, genesis_settings, newton_settings
@@ -29,13 +30,6 @@ SPRING_STEPS = 40
 """Steps in a contact by a spring, by default."""
 LEAST = 0.01
 """Restitution by a spring."""
-SHORTEST_STEP, LONGEST_STEP = 1e-7, 0.1
-"""The bounds of a simulation's step [s]."""
-WEAKEST, STRONGEST = 1e-3, 1e3
-"""The bounds of gravity [m/s²]."""
-LIGHTEST, HEAVIEST = 1e-6, 1e6
-"""The bounds of the mass of a body that is measured [kg]."""
-STEP_ACCEPTED = "a number of seconds from 1e-7 to 0.1, such as 0.002"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -156,30 +150,23 @@ def solref(
     Warns:
         DeepContactWarning: where a contact of `body` at `SPEED` is deeper than half of its thickness.
     """
-    require_numbers(steps=steps)
-    require_restitution(restitution)
-    require_timestep(timestep)
+    require_bounds(timestep, restitution=restitution, mass=mass, gravity=gravity)
     known = [item.value for item in Backend]
     physx = "; physx_bounce has the settings of isaaclab" if backend == "isaaclab" else ""
     require("backend", backend, backend in known, ", ".join(known) + physx)
-    genesis = backend == Backend.GENESIS
-    spring = spring or genesis
-    require(
-        "restitution",
-        restitution,
-        restitution >= LEAST or not spring,
-        f"a number from {LEAST} to 1 by a spring",
-    )
+    engine = Backend(backend)
+    spring = spring or engine is Backend.GENESIS
+    most, by = (FIRMEST, "genesis") if engine is Backend.GENESIS else (1, "a spring")
+    springs = not spring or LEAST <= restitution <= most
+    require("restitution", restitution, springs, f"a number from {LEAST} to {most} by {by}")
     whole = isinstance(steps, Integral) and 5 <= steps <= LONGEST // 4
     require("steps", steps, whole, f"a whole number from 5 to {LONGEST // 4}")
-    require_weight(mass, gravity, timestep)
-    firmest = f"a number from {LEAST} to {FIRMEST} by genesis"
-    require("restitution", restitution, restitution <= FIRMEST or not genesis, firmest)
-    engine = Backend(backend)
-    recipe = recipe_of(restitution, timestep, steps if spring else None)
-    contact = replace(recipe, exact=engine.takes_diagexact, gravity=gravity)
-    if genesis:
-        contact = replace(contact, integrator="implicitfast")
+    contact = replace(
+        recipe_of(restitution, timestep, steps if spring else None),
+        exact=engine.takes_diagexact,
+        gravity=gravity,
+        **({"integrator": "implicitfast"} if engine is Backend.GENESIS else {}),
+    )
     chosen = body_of(body, mass)
     drops = drops_of(contact, chosen)
     weighing = drops_of(contact, chosen, gravity)
@@ -227,47 +214,6 @@ def exact_of(bounce: Bounce) -> ContactSettings:
         solimp=HARDEST,
         gravity=bounce.gravity,
     )
-
-
-def require(name: str, value: object, holds: bool, accepted: str) -> None:
-    """Refuse an argument that does not hold.
-
-    Raises:
-        FieldError: naming the argument, its value and what is accepted.
-    """
-    if not holds:
-        raise FieldError(name, value, accepted)
-
-
-def require_numbers(**numbers: object) -> None:
-    """Refuse arguments that are no numbers."""
-    for name, value in numbers.items():
-        require(name, value, isinstance(value, Real) and not isinstance(value, bool), "a number")
-
-
-def require_restitution(restitution: float) -> None:
-    """Refuse a restitution that is none."""
-    require_numbers(restitution=restitution)
-    require("restitution", restitution, 0 <= restitution <= 1, "a number from 0 to 1")
-
-
-def require_timestep(timestep: float) -> None:
-    """Refuse a step that MuJoCo's own settings do not suit."""
-    require_numbers(timestep=timestep)
-    require("timestep", timestep, SHORTEST_STEP <= timestep <= LONGEST_STEP, STEP_ACCEPTED)
-
-
-def require_weight(mass: float, gravity: float, timestep: float) -> None:
-    """Refuse a mass or a gravity with which nothing can be measured.
-
-    In a step gravity may change the speed by half of that of a touch.
-    """
-    require_numbers(mass=mass, gravity=gravity)
-    strongest = min(STRONGEST, SPEED / 2 / timestep)
-    masses = f"from {LIGHTEST:g} to {HEAVIEST:g} kg"
-    gravities = f"from {WEAKEST:g} to {strongest:g} m/s^2 at this step"
-    require("mass", mass, LIGHTEST <= mass <= HEAVIEST, masses)
-    require("gravity", gravity, WEAKEST <= gravity <= strongest, gravities)
 
 
 def _warn_if_deep(body: FlatBody, depth: float) -> None:

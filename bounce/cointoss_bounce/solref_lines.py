@@ -70,7 +70,6 @@ def _integrators(spring: bool) -> str:
 
 def _friction(found: Bounce) -> list[str]:
     """Return what friction the contact has, line by line."""
-
     slips = f"slip at some {1e6 * found.creep:.2g} um/s" if found.creep < 1e-3 else "slip out"
     if found.backend is Backend.GENESIS:
         return [
@@ -102,7 +101,6 @@ def _physx(found: PhysxBounce) -> str:
 
 def _rebounds(found: Rebounds) -> str:
     """Return how a ball bounces with given settings, line by line."""
-
     theory = found.formula
     by = ["", "", "", ""]
     if theory is not None:

@@ -12,8 +12,8 @@ from xml.etree import ElementTree
 import mujoco
 import numpy as np
 
+from cointoss_bounce.accepted import BOUNDS, require
 from cointoss_bounce.errors import FieldError
-from cointoss_bounce.recipe import LONGEST_STEP, SHORTEST_STEP, STEP_ACCEPTED
 from cointoss_bounce.unlogged import unlogged
 
 MOST_POINTS = 10_000_000
@@ -45,14 +45,22 @@ def require_measurable(model: mujoco.MjModel) -> None:
     Raises:
         FieldError: naming the field, its value and what is accepted.
     """
-    step = float(model.opt.timestep)
-    if not SHORTEST_STEP <= step <= LONGEST_STEP:
-        raise FieldError("option timestep", step, STEP_ACCEPTED)
-    for name, values in _numbers(model.opt, "option "):
-        _require_finite(name, values)
-    for name, values in _numbers(model, ""):
-        if not name.endswith(UNBOUNDED):
-            _require_finite(_named(model, name, values), values)
+    step, (least, most, accepted) = float(model.opt.timestep), BOUNDS["timestep"]
+    require("option timestep", step, least <= step <= most, accepted)
+    for part, prefix in ((model.opt, "option "), (model, "")):
+        for name in (each for each in dir(part) if not each.startswith("_") and not each.endswith(UNBOUNDED)):
+            values = np.asarray(getattr(part, name))
+            wrong = np.argwhere(~np.isfinite(values)).tolist() if values.dtype.kind == "f" else []
+            for first in map(tuple, wrong):
+                raise FieldError(prefix + _named(model, name, first), float(values[first]), "finite numbers")
+
+
+def _named(model: mujoco.MjModel, name: str, place: tuple[int, ...]) -> str:
+    """Return a field's name, with that of the element where the field has one for each of its kind."""
+    kind, _, field = name.partition("_")
+    if not place or getattr(model, f"n{kind}", None) != len(getattr(model, name, ())):
+        return name
+    return f"{kind} {getattr(model, kind)(place[0]).name or place[0]} {field}"
 
 
 def geom_of(model: mujoco.MjModel, given: str | SupportsIndex) -> int:
@@ -73,32 +81,6 @@ def geom_of(model: mujoco.MjModel, given: str | SupportsIndex) -> int:
         names = ", ".join(known) or "it has none"
         raise FieldError("geom", given, f"a geom of the model, by name or number: {names}{more}")
     return found
-
-
-def _numbers(part: object, prefix: str) -> list[tuple[str, np.ndarray]]:
-    """Return the fields of floating point numbers of a model or of its options, by name."""
-    fields = [(name, getattr(part, name)) for name in dir(part) if not name.startswith("_")]
-    return [
-        (prefix + name, np.asarray(value))
-        for name, value in fields
-        if isinstance(value, float | np.ndarray) and np.asarray(value).dtype.kind == "f"
-    ]
-
-
-def _named(model: mujoco.MjModel, name: str, values: np.ndarray) -> str:
-    """Return a field's name with that of the first element whose numbers are not finite."""
-    kind, _, field = name.partition("_")
-    wrong = np.argwhere(~np.isfinite(values))
-    if not len(wrong) or len(values) != getattr(model, f"n{kind}", None):
-        return name
-    number = int(wrong[0][0])
-    return f"{kind} {getattr(model, kind)(number).name or number} {field}"
-
-
-def _require_finite(name: str, values: np.ndarray) -> None:
-    wrong = values[~np.isfinite(values)]
-    if len(wrong):
-        raise FieldError(name, float(wrong[0]), "finite numbers")
 
 
 def _require_small_fields(path: Path) -> None:

@@ -174,12 +174,11 @@ JOINTS = {
 
 
 @pytest.mark.parametrize("how", JOINTS)
-def test_a_block_that_can_fall_freely_is_thrown_straight_whatever_its_joints(how, monkeypatch):
+def test_a_block_that_can_fall_freely_is_thrown_straight_whatever_its_joints(how):
     """Plain steps from the same heights leave it the same speed."""
-    monkeypatch.setattr(pair, "SPEEDS", (2.0,))
     built = model(JOINTS[how], "Euler")
     kept = np.array([data.qvel[2] / 2.0 for data in thrown(built, 2.0, 0.05)])
-    found = bounce(built, "a", "b")
+    found = bounce(built, "a", "b", speeds=(2.0,))
     assert found.restitutions[0] == pytest.approx(kept, abs=1e-5)
     assert found.energy_kept[0] == pytest.approx(kept**2, abs=1e-5)
     assert np.mean(kept) == pytest.approx(0.1228, abs=1e-4)
@@ -227,23 +226,20 @@ GAINS = "+ gains energy: at one phase or more, the geoms part with more energy t
     ],
     ids=["deep after a step", "0.05 mm deep at an edge", "a leg folds", "thin", "gain", "coarse", "told"],
 )
-def test_what_is_no_clean_rebound_is_told(monkeypatch, speed, bodies, told):
-    monkeypatch.setattr(pair, "SPEEDS", (speed,))
-    assert told in bounce_table(bounce(model(bodies), "a", "b"))
+def test_what_is_no_clean_rebound_is_told(speed, bodies, told):
+    assert told in bounce_table(bounce(model(bodies), "a", "b", speeds=(speed,)))
 
 
-def test_a_clean_rebound_has_no_mark(monkeypatch):
-    monkeypatch.setattr(pair, "SPEEDS", (2.0,))
-    assert not set("*+~") & set(bounce_table(bounce(model(FLOOR + ball(SET)), "a", "b")))
+def test_a_clean_rebound_has_no_mark():
+    assert not set("*+~") & set(bounce_table(bounce(model(FLOOR + ball(SET)), "a", "b", speeds=(2.0,))))
 
 
 @pytest.mark.parametrize("own", [0.01, -0.02])
-def test_a_contact_pushes_from_the_margins_on_and_not_from_the_gaps(own, monkeypatch):
+def test_a_contact_pushes_from_the_margins_on_and_not_from_the_gaps(own):
     """As MuJoCo does since 3.9; below 0 a margin is a depth."""
-    monkeypatch.setattr(pair, "SPEEDS", (1.0,))
     thick = f' margin="{own}" gap="0.005"'
     built = model(FLOOR.replace("/>", ' margin="0.002" gap="0.001"/>') + ball(SET + thick))
-    found, data = bounce(built, "a", "b"), mujoco.MjData(built)
+    found, data = bounce(built, "a", "b", speeds=(1.0,)), mujoco.MjData(built)
     assert (found.margin, found.gap) == pytest.approx((own + 0.002, 0.006))
     assert found.restitutions == pytest.approx(0.8, abs=7e-4)
     for distance in (own + 0.0069, own + 0.0019):
@@ -270,14 +266,13 @@ def test_what_is_coupled_comes_along(how):
 
 
 @pytest.mark.parametrize(("e", "v"), [(0.5, 2.0), (0.8, 1.0)])
-def test_with_gravity_it_is_that_of_the_heights(e, v, monkeypatch):
+def test_with_gravity_it_is_that_of_the_heights(e, v):
     """A ball is dropped from rest, and √(h'/h) is what it keeps of its speed at the plane."""
-    monkeypatch.setattr(pair, "SPEEDS", (v,))
     contact = recipe_of(e, DT)
     text = FLOOR + ball(f'{contact.geom} condim="1" priority="1"', "0 0 1")
     built = model(text)
     kept = [rebound(built, 0.1, v**2 / 2 / 9.81 + phase * v * DT) for phase in np.arange(16) / 16]
-    found = bounce(built, "b", "a").with_gravity
+    found = bounce(built, "b", "a", speeds=(v,)).with_gravity
     assert [found.min(), found.max()] == pytest.approx([min(kept), max(kept)], abs=2e-3)
     assert min(kept) < e - 4e-3
 
@@ -289,14 +284,13 @@ FIELD = """<mujoco><option timestep="0.001"/>
 
 
 def test_a_ball_that_sticks_in_a_height_field_is_no_number(monkeypatch):
-    monkeypatch.setattr(pair, "SPEEDS", (0.5,))
     monkeypatch.setattr(pair, "PHASES", 2)
-    found = bounce(mujoco.MjModel.from_xml_string(FIELD.format(0.03)), "b", "a")
+    found = bounce(mujoco.MjModel.from_xml_string(FIELD.format(0.03)), "b", "a", speeds=(0.5,))
     assert set(found.outcomes_with_gravity[0]) == {PairOutcome.STAYS}
     assert "2 of 2 stay" in bounce_table(found)
     assert ((found.restitutions > 0.05) & (found.restitutions < 0.2)).all()
     with pytest.raises(ValueError, match="not above the height field"):
-        bounce(mujoco.MjModel.from_xml_string(FIELD.format(3)), "b", "a")
+        bounce(mujoco.MjModel.from_xml_string(FIELD.format(3)), "b", "a", speeds=(0.5,))
 
 
 @pytest.mark.slow
@@ -355,16 +349,15 @@ def test_geoms_that_do_not_exist_or_touch_are_refused(bodies, names, said):
 
 
 @pytest.mark.parametrize("v", [1.0, 5.0])
-def test_a_plate_beyond_the_middle_of_another_after_a_step_goes_through(v, monkeypatch):
+def test_a_plate_beyond_the_middle_of_another_after_a_step_goes_through(v):
     """Plain steps, with the touch anywhere within one, say for how many phases."""
-    monkeypatch.setattr(pair, "SPEEDS", (v,))
     plates = (
         '<geom name="a" type="box" size="1 1 0.0005"/><body pos="0 0 1"><freejoint/>'
         f'<geom name="b" type="cylinder" size="0.1 0.0005" {SET}/></body>'
     )
     built = model(plates)
     passed = sum(data.qpos[2] < 0 for data in thrown(built, v, 1e-3))
-    found = bounce(built, "b", "a")
+    found = bounce(built, "b", "a", speeds=(v,))
     assert found.outcomes[0].count(PairOutcome.PASSES) == passed
     assert set(found.outcomes[0]) == {PairOutcome.PASSES, PairOutcome.REBOUNDS}
 
@@ -383,9 +376,8 @@ def test_a_plate_beyond_the_middle_of_another_after_a_step_goes_through(v, monke
         ("", None),
     ],
 )
-def test_soft_constraints_that_act_on_after_the_contact_are_named(more, name, monkeypatch):
-    monkeypatch.setattr(pair, "SPEEDS", (1.0,))
-    found = bounce(model(SLIDES, more=more), "b", "a")
+def test_soft_constraints_that_act_on_after_the_contact_are_named(more, name):
+    found = bounce(model(SLIDES, more=more), "b", "a", speeds=(1.0,))
     said = () if name is None else (f"a soft constraint ({name}) goes on acting after the contact: ",)
     assert len(found.notes) == len(said)
     assert all(note.startswith(start) for note, start in zip(found.notes, said, strict=True))
@@ -403,11 +395,10 @@ def test_what_acts_on_the_way_is_reckoned_in(speed, integrator):
     assert np.sqrt(square) == pytest.approx(speed, rel=1e-6)
 
 
-def test_geoms_that_a_spring_keeps_apart_are_told(monkeypatch):
-    monkeypatch.setattr(pair, "SPEEDS", (0.1,))
+def test_geoms_that_a_spring_keeps_apart_are_told():
     spring = '<fixed name="t" stiffness="1e4" damping="10"><joint joint="j1" coef="1"/></fixed>'
     built = model(SLIDES, more=f"<tendon>{spring}</tendon>")
     built.opt.timestep = 2e-4
-    shown = bounce_table(bounce(built, "b", "a"))
+    shown = bounce_table(bounce(built, "b", "a", speeds=(0.1,)))
     assert "8 of 8 do not touch" in shown
     assert "do not touch: the approach starts against a force of the model, such as a spring" in shown

@@ -86,7 +86,7 @@ def plainly(given):
 
 
 def measured(given):
-    touches = pair._touches(given)[0]
+    touches = pair._touches(given, (1.0,))[0]
     return np.mean([(touch.restitution, touch.kept) for touch in touches], axis=0)
 
 
@@ -103,7 +103,6 @@ def weightless(built, dt):
 
 @pytest.fixture(autouse=True)
 def few(monkeypatch):
-    monkeypatch.setattr(pair, "SPEEDS", (1.0,))
     monkeypatch.setattr(pair, "PHASES", 2)
 
 

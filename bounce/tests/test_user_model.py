@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from cointoss_bounce import bounce, pair
+from cointoss_bounce import bounce
 from two_geoms import FLOOR, SET, ball, model
 
 
@@ -23,11 +23,16 @@ def test_numbers_that_are_not_finite_are_refused():
         text = f"<mujoco><option {option}/><worldbody>{FLOOR}{ball('')}</worldbody></mujoco>"
         with pytest.raises(ValueError, match=r"option .*: accepted: finite numbers"):
             bounce(mujoco.MjModel.from_xml_string(text), "a", "b")
+    given = model(FLOOR + ball(SET))
+    given.geom_friction[1, 0] = np.nan
+    with pytest.raises(ValueError, match="geom b friction = nan: accepted: finite numbers"):
+        bounce(given, "a", "b")
 
 
-def test_geoms_have_numbers(monkeypatch):
-    monkeypatch.setattr(pair, "SPEEDS", (1.0,))
-    assert bounce(model(FLOOR + ball(SET)), 1, np.int32(0)).geoms == ("1", "0")
+def test_geoms_have_numbers():
+    assert bounce(model(FLOOR + ball(SET)), 1, np.int32(0), speeds=(1.0,)).geoms == ("1", "0")
+    with pytest.raises(ValueError, match=r"speeds = .*: accepted: finite speeds above 0"):
+        bounce(model(FLOOR + ball(SET)), 1, 0, speeds=(1.0, 0.0))
     with pytest.raises(ValueError, match="by name or number: it has none"):
         bounce(mujoco.MjModel.from_xml_string("<mujoco/>"), "a", "b")
 
