@@ -181,11 +181,8 @@ class Pair:
     def _by_equalities(self, change: Array) -> Array:
         """Return the least generalised velocity that changes the equality constraints so, (nv,)."""
         rows = np.zeros((self.data.ne, self.model.nv))
-        one = np.zeros(self.data.nefc)
-        for number, row in enumerate(rows):
-            one[number] = 1.0
-            mujoco.mj_mulJacTVec(self.model, self.data, row, one)
-            one[number] = 0.0
+        for row, unit in zip(rows, np.eye(self.data.ne, self.data.nefc), strict=True):
+            mujoco.mj_mulJacTVec(self.model, self.data, row, unit)
         by_force = np.zeros_like(rows)
         mujoco.mj_solveM(self.model, self.data, by_force, rows)
         return by_force.T @ np.linalg.lstsq(rows @ by_force.T, change)[0]

@@ -79,15 +79,16 @@ def rest_between(pair: Pair) -> PairRest | str:
         return both if len(pair.free) > 1 else "nothing presses the geoms together where they touch"
     pair.set_apart(FALL * pressing * dt, 1.0)
     mujoco.mj_step(model, data, nstep=STEPS - LOOKED_AT)
-    poses = []
+    (moving, other), poses = _moving_first(pair), []
     for _ in range(LOOKED_AT // EVERY):
         mujoco.mj_step(model, data, nstep=EVERY)
-        poses.append(_pose(pair))
+        poses.append(_pose(pair, moving, other))
     if any(warning.number for warning in data.warning):
         return "the model becomes unstable"
     if not any(pose.depth for pose in poses):
         return f"the geoms do not touch any more after {STEPS} steps"
-    still, normal = STILL * pressing * dt**2, _normal(pair)
+    away = pair.normal if moving == pair.one else -pair.normal
+    still, normal = STILL * pressing * dt**2, data.geom_xmat[other].reshape(3, 3).T @ away
     places = np.array([pose.place for pose in poses])
     along, depths = places @ normal, np.array([pose.depth for pose in poses])
     # While they touch, the middle of a geom that turns rises and sinks, and its deepest contact changes.
@@ -121,22 +122,14 @@ def _moving_first(pair: Pair) -> tuple[int, int]:
     return (pair.one, pair.two) if one_moves else (pair.two, pair.one)
 
 
-def _pose(pair: Pair) -> _Pose:
+def _pose(pair: Pair, moving: int, other: int) -> _Pose:
     data = pair.data
-    moving, other = _moving_first(pair)
     frame = data.geom_xmat[other].reshape(3, 3)
     return _Pose(
         frame.T @ (data.geom_xpos[moving] - data.geom_xpos[other]),
         frame.T @ data.geom_xmat[moving].reshape(3, 3),
         max((-float(contact.dist) for contact in pair.touches().values()), default=0.0),
     )
-
-
-def _normal(pair: Pair) -> Array:
-    """Return the normal from the lower geom to the moving geom, in the frame of the lower, (3,)."""
-    moving, other = _moving_first(pair)
-    away = pair.normal if moving == pair.one else -pair.normal
-    return pair.data.geom_xmat[other].reshape(3, 3).T @ away
 
 
 def _rocking(attitudes: Array, normal: Array) -> float:
