@@ -14,39 +14,7 @@ from cointoss_bounce.contact import ContactSettings, one_step_solref
 from cointoss_bounce.drops import SPEED, drops_of
 from cointoss_bounce.errors import DeepContactWarning
 from cointoss_bounce.recipe import recipe_of
-from two_geoms import rebound
-
-
-def kept(model, lowest, *, weight=True, speed=0.0):
-    """Return the speed after the first contact over that before, both at the floor, of a model's lone body.
-
-    Args:
-        model: a body over a plane.
-        lowest: the height of its origin at which it touches.
-        weight: whether it has some.
-        speed: downward, of the release [m/s].
-    """
-    gravity = 9.81 if weight else 0.0
-    model.opt.gravity[2] = -gravity
-    data = mujoco.MjData(model)
-    data.qvel[2] = -speed
-
-    # Integrators but RK4 keep v² + 2 g z - g dt v: their v is that of half a step before.
-    late = 0.0 if model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4 else gravity * model.opt.timestep
-
-    def at_floor():
-        v = data.qvel[2]
-        return (v**2 - late * v + 2 * gravity * (data.qpos[2] - lowest)) ** 0.5
-
-    before = at_floor()
-    while data.ncon == 0:
-        before = at_floor()
-        mujoco.mj_step(model, data)
-    for _ in range(1000):
-        mujoco.mj_step(model, data)
-        if data.ncon == 0 and data.qvel[2] > 0:
-            return at_floor() / before
-    return 0.0
+from two_geoms import rebound, thrown
 
 
 @pytest.mark.slow_after_first
@@ -56,7 +24,7 @@ def test_the_model_bounces_as_it_says(restitution, spring):
     found = solref(restitution, 5e-4, spring=spring)
     model = mujoco.MjModel.from_xml_string(found.model)
     # It touches at 3 m/s, where weight takes less than at the 2 m/s of the measurement.
-    assert kept(model, 0.01) == pytest.approx(restitution, abs=found.error_with_weight + 1e-3)
+    assert rebound(model, 0.01, 0.5) == pytest.approx(restitution, abs=found.error_with_weight + 1e-3)
     assert found.error < (0.02 if spring else 5.1e-4)
 
 
@@ -67,8 +35,8 @@ def test_without_weight_a_contact_of_one_step_rebounds_by_the_closed_form(restit
     exact = ContactSettings(
         solref=one_step_solref(restitution, 5e-4), timestep=5e-4, integrator="implicitfast"
     )
-    model = BALL.compiled(exact, 0.51)
-    assert kept(model, 0.01, weight=False, speed=speed) == pytest.approx(restitution, abs=1e-11)
+    left = [data.qvel[2] / speed for data in thrown(BALL.compiled(exact, 0.51), speed, 0.01, 0.51)]
+    assert left == pytest.approx([restitution] * 8, abs=1e-11)
 
 
 @pytest.mark.parametrize("restitution", [0.0, 0.8, 0.9995])
@@ -134,10 +102,11 @@ def test_what_is_pasted_elsewhere_holds_for_another_body(body, mass):
         <body pos="0 0 0.4"><freejoint/><geom type="{body}" size="{size}" mass="{mass}" {found.geom}/></body>
         </worldbody></mujoco>"""
     model = mujoco.MjModel.from_xml_string(text)
-    assert kept(model, lowest) == pytest.approx(0.6, abs=found.error_with_weight)
+    assert rebound(model, lowest, 0.4 - lowest) == pytest.approx(0.6, abs=found.error_with_weight)
     # The stiffness takes up to 5e-4; contacts at four corners share a softness of 1 - 0.9999.
     exactly = {"sphere": 5.1e-4, "box": 6e-4}[body]
-    assert kept(model, lowest, weight=False, speed=2.0) == pytest.approx(0.6, abs=exactly)
+    left = [data.qvel[2] / 2.0 for data in thrown(model, 2.0, lowest, 0.4)]
+    assert left == pytest.approx([0.6] * 8, abs=exactly)
 
 
 def test_the_depth_is_that_of_a_spring_or_of_a_step():

@@ -38,18 +38,19 @@ def rebound(built, radius, height):
     return (highest / height) ** 0.5
 
 
-def thrown(built, v, middle):
-    """Yield what 60 plain steps without gravity make of a body that starts at a height of 1 m, by phase.
+def thrown(built, v, middle, start=1.0):
+    """Yield what 60 plain steps without gravity make of a body, by phase.
 
     Args:
         built: the model; its third coordinate is a height.
         v: the speed, downward [m/s].
         middle: the height at which the body touches [m].
+        start: its height in the model [m].
     """
     built.opt.gravity[:] = 0
     for phase in (np.arange(8) + 0.5) / 8:
         data = mujoco.MjData(built)
-        data.qpos[2] += middle + (2 + phase) * v * DT - 1
+        data.qpos[2] += middle + (2 + phase) * v * built.opt.timestep - start
         data.qvel[2] = -v
         mujoco.mj_step(built, data, nstep=60)
         yield data
