@@ -269,7 +269,7 @@ def _require_consistent(typed: dict[str, str]) -> None:
         others = BESIDE.get(option, ())
         if others and not there & {*others}:
             raise click.UsageError(f"{text}: accepted: only beside {' or '.join(others)}")
-        for other in there & {*WITHOUT.get(option, ())}:
+        for other in (each for each in WITHOUT.get(option, ()) if each in there):
             raise click.UsageError(f"{text}: accepted: only without {other}")
 
 

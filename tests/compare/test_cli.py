@@ -65,6 +65,14 @@ def test_without_a_command_it_prints_its_help():
     assert "Commands:" in bare.stdout
 
 
+def test_where_a_command_is_another_distribution_s_it_is_said_which(monkeypatch):
+    monkeypatch.setattr(main, "offered", {})
+    told = (
+        "bounce: a command of cointoss-bounce, which is not installed; accepted: pip install cointoss-bounce"
+    )
+    assert refused("bounce", "a.xml", 0, 1) == f"cointoss: {told} (see main --help)\n"
+
+
 def completed(line, number):
     """Return what bash is told where it completes a word of a line."""
     asking = {"_COINTOSS_COMPLETE": "bash_complete", "COMP_WORDS": line, "COMP_CWORD": str(number)}
