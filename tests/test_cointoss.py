@@ -107,7 +107,10 @@ SAID = {
         "import cointoss; cointoss.conform",
     ): "AttributeError: cointoss.conform is cointoss_yardstick.*",
     ("-c", "import cointoss.testing"): "^ImportError: cointoss.testing is cointoss_yardstick.testing now; .*",
-    ("-c", "import cointoss; cointoss.solref"): "cointoss.solref is cointoss_bounce.solref now; accepted: pip .*",
+    (
+        "-c",
+        "import cointoss; cointoss.solref",
+    ): "cointoss.solref is cointoss_bounce.solref now; .*",
     ("-c", "from cointoss import coin_mj; coin_mj.bounce"): "is cointoss_bounce.bounce now; accepted: pip .*",
     ("-c", "import cointoss; cointoss.qqq"): "cointoss has no qqq; accepted: Air, .* Coin, .*, toss_many",
 }
