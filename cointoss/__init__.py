@@ -21,10 +21,11 @@ if TYPE_CHECKING:
     from cointoss.compare.fitting.fit import Fit as Fit
     from cointoss.compare.fitting.fit import Fitted as Fitted
     from cointoss.compare.fitting.fit import fit as fit
-    from cointoss.compare.fitting.flips import Flips as Flips
-    from cointoss.compare.fitting.hand_fit import HandFit as HandFit
-    from cointoss.compare.fitting.hand_fit import PersonFit as PersonFit
     from cointoss.compare.fitting.observed import Observed as Observed
+    from cointoss.compare.flips.counts import Flips as Flips
+    from cointoss.compare.flips.hand_fit import HandFit as HandFit
+    from cointoss.compare.flips.hand_fit import PersonFit as PersonFit
+    from cointoss.compare.flips.hand_fit import flips as flips
     from cointoss.compare.report.comparison import Comparison as Comparison
     from cointoss.compare.report.comparison import compare as compare
     from cointoss.compare.shares.shares import shares as shares

@@ -44,15 +44,15 @@ if TYPE_CHECKING:
     from cointoss.compare.film.back_end import drawing_problem as drawing_problem
     from cointoss.compare.film.back_end import require_mujoco as require_mujoco
     from cointoss.compare.film.stills import stills as stills
-    from cointoss.compare.fitting.people import WOBBLING as WOBBLING
-    from cointoss.compare.fitting.people import People as People
-    from cointoss.compare.fitting.people import PeopleFit as PeopleFit
-    from cointoss.compare.fitting.people import chance_of_spread as chance_of_spread
-    from cointoss.compare.fitting.people import fit_people as fit_people
-    from cointoss.compare.fitting.people import log_likelihoods as log_likelihoods
-    from cointoss.compare.fitting.people import quantiles as quantiles
-    from cointoss.compare.fitting.people import spread_interval as spread_interval
-    from cointoss.compare.fitting.people import spread_of as spread_of
+    from cointoss.compare.flips.people import WOBBLING as WOBBLING
+    from cointoss.compare.flips.people import People as People
+    from cointoss.compare.flips.people import PeopleFit as PeopleFit
+    from cointoss.compare.flips.people import chance_of_spread as chance_of_spread
+    from cointoss.compare.flips.people import fit_people as fit_people
+    from cointoss.compare.flips.people import log_likelihoods as log_likelihoods
+    from cointoss.compare.flips.people import quantiles as quantiles
+    from cointoss.compare.flips.people import spread_interval as spread_interval
+    from cointoss.compare.flips.people import spread_of as spread_of
     from cointoss.compare.metrics.estimate import Estimate as Estimate
     from cointoss.compare.metrics.estimates import LEVEL as LEVEL
     from cointoss.compare.metrics.estimates import PARTS as PARTS

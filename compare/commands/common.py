@@ -29,7 +29,8 @@ ARGUMENTS = {
     "ENGINE": "an engine, such as analytic or package.module:name",
     "GEOM": "the name or the number of a geom, twice",
     "MAP.zarr": "a map that cointoss basin made",
-    "OBSERVED.csv": "a CSV file with the times of touches, with frames of a film, or with counts of flips",
+    "OBSERVED.csv": "a CSV file with the times of touches, or with frames of a film",
+    "COUNTS.csv": "a CSV file with counts of flips",
 }
 """What the arguments of commands take."""
 

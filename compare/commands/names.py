@@ -59,7 +59,7 @@ def fitted() -> list[str]:
 _named: dict[str, Any] = {"is_eager": True, **completing(_scenarios, files=True)}
 scenario_argument = click.argument("scenario", **_named)
 named_scenario_argument = click.argument("name", required=False, metavar="[NAME]", **completing(_scenarios))
-optional_scenario_argument = click.argument("scenario", required=False, **_named)
+optional_scenario_argument = click.argument("scenario", default=None, **_named)
 spared_scenario_argument = click.argument("scenario", default="fig24a", **_named)
 
 

@@ -2,11 +2,13 @@
 
 import csv
 import re
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 
 from cointoss.compare.fitting.errors import ObservationError
 from cointoss.models.bounded import TooLargeError, read_bounded
+from cointoss.models.unused import UnusedFieldWarning
 
 LARGEST = 10_000_000
 """The most bytes of a file."""
@@ -56,3 +58,10 @@ def require_whole_rows(rows: Sequence[Sequence[str]], least: int, columns: int) 
                 f"row {n} has {len(cells)} cells; accepted: {columns}, one for each column; "
                 "decimal commas need semicolons or tabs between the cells"
             )
+
+
+def warn_of_unused_columns(names: Sequence[str]) -> None:
+    """Warn of columns that are not used, those without a name aside."""
+    if unused := [name for name in names if name]:
+        what = "column" if len(unused) == 1 else "columns"
+        warnings.warn(f"{what} {', '.join(unused)}: not used", UnusedFieldWarning, stacklevel=2)

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from os import PathLike
-from typing import Any, overload
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,8 +13,6 @@ from scipy.stats import chi2
 from cointoss.analytic import toss
 from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.fitting.fields import spans_given
-from cointoss.compare.fitting.flips import Flips
-from cointoss.compare.fitting.hand_fit import TOSSES, HandFit, fit_flips
 from cointoss.compare.fitting.misfit import Misfit
 from cointoss.compare.fitting.observed import Observed
 from cointoss.compare.fitting.search import LEVEL, LeastSquaresSearch, Minimum
@@ -22,8 +20,7 @@ from cointoss.compare.fitting.table import read_seen
 from cointoss.compare.sweep.axes import Span
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
 from cointoss.models.devices import Device
-from cointoss.models.errors import ScenarioError, shown
-from cointoss.models.hand import Hand
+from cointoss.models.errors import ScenarioError
 from cointoss.models.processor import Processor
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Array, Toss
@@ -190,115 +187,58 @@ class Fit:
         return plot_fit(self, ax)  # pyright: ignore[reportArgumentType]
 
 
-@overload
 def fit(
     observed: Observed | str | PathLike[str],
-    scenario: ScenarioSource,
-    vary: Spans,
-    *,
-    sd: Mapping[str, float | str] | None = None,
-    starts: int = STARTS,
-    seed: int = 0,
-    device: Device | str = Device.CPU,
-) -> Fit: ...
-@overload
-def fit(
-    observed: Flips | str | PathLike[str],
-    scenario: ScenarioSource | None = None,
-    *,
-    hand: Hand | None = None,
-    tosses: int = TOSSES,
-    seed: int = 0,
-    device: Device | str = Device.CPU,
-) -> HandFit: ...
-def fit(
-    observed: Observed | Flips | str | PathLike[str],
     scenario: ScenarioSource | None = None,
     vary: Spans | None = None,
     *,
     sd: Mapping[str, float | str] | None = None,
     starts: int = STARTS,
-    hand: Hand | None = None,
-    tosses: int = TOSSES,
     seed: int = 0,
     device: Device | str = Device.CPU,
-) -> Fit | HandFit:
-    """Find the values of some fields of a scenario that explain what was seen of a coin, or a hand's wobble.
+) -> Fit:
+    """Find the values of some fields of a scenario that explain what was seen of a coin.
 
         cointoss.fit("heard.csv", "coin.toml", {"floor.restitution": (0.4, 0.9)}, sd={"time": "1 ms"})
-        cointoss.fit("counts.csv")
 
     The fit minimises the squared residuals of the analytic engine's toss, from many starts in the spans and
     first for the first touches. The standard deviations are those of linear propagation: of the errors
     of what was seen alone, if the model is right. Faces are compared with the toss; they determine no value.
 
-    Counts of how often the side that was up came up again determine each person's ψ, and its scatter over
-    people: by a closed form for coins that are caught, by tosses for a scenario's coin.
-
     Args:
         observed: what was seen, or the path of a CSV file that has it.
-        scenario: what is held fixed: a scenario, the path of its file, or a name such as "fig24a". For flips
-            its own release is not used; without a scenario the coins are caught.
+        scenario: what is held fixed: a scenario, the path of its file, or a name such as "fig24a".
         vary: for each field its first and last value, (START, STOP) or "START:STOP", in SI or with a unit. A
             name may be a part that no other field has, such as "restitution". The field "clock" is the time
             that the observer's clock shows at the release; where it does not vary, that is 0.
         sd: standard deviations of "time", "height" and "attitude" where the file has none, in SI or as texts
             with a unit.
         starts: the number of starting points, spread evenly.
-        hand: that tosses a scenario's coin where flips were counted, which determine its ψ; by default
-            `Hand()`.
-        tosses: where counts are explained by tosses, how many for each of some 30 ψ.
-        seed: for the starting points, or for the tosses.
+        seed: for the starting points.
         device: "cpu" or "auto": the CPU tosses, because a card finds how a toss ends, not what it shows
-            before; for flips as in `shares`.
+            before.
 
     Raises:
         ObservationError: for a file or numbers that can't be used.
         ValueError: for a standard deviation that nothing has.
         SweepError: for a field or a span that can't be used.
         ScenarioError: for a scenario that can't be used, or where no value of the spans makes one.
-        UnsupportedError: for the device "cuda", except for flips.
+        UnsupportedError: for the device "cuda".
     """
     require_whole("starts", starts, 1, MOST_STARTS)
     require_whole("seed", seed, 0, MOST_SEED)
-    if isinstance(observed, str | PathLike):
-        observed = read_seen(observed, sd)
-    if isinstance(observed, Flips) and starts != STARTS:
-        raise SweepError(f"starts: {starts}, accepted: only where one toss was seen")
-    if isinstance(observed, Flips):
-        if vary is not None:
-            raise SweepError(f"vary: {shown(vary)}, accepted: none for counts of flips")
-        for name, value, usual in (
-            ("hand", hand, None),
-            ("tosses", tosses, TOSSES),
-            ("device", device, Device.CPU),
-        ):
-            if scenario is None and value != usual:
-                raise SweepError(
-                    f"{name}: {shown(value)}, accepted: only with a scenario whose coin is tossed"
-                )
-        described = None if scenario is None else scenario_of(scenario)
-        return fit_flips(observed, described, hand=hand, tosses=tosses, seed=seed, device=device)
-    if not isinstance(observed, Observed):
-        accepted = "an Observed, Flips, or the path of a CSV file"
-        raise ObservationError(f"observed: {observed!r}, accepted: {accepted}")
+    seen = read_seen(observed, sd) if isinstance(observed, str | PathLike) else observed
+    if not isinstance(seen, Observed):
+        accepted = "an Observed, or the path of a CSV file; cointoss.flips takes counts"
+        raise ObservationError(f"observed: {seen!r}, accepted: {accepted}")
     if scenario is None:
         raise SweepError("scenario: None, accepted: one whose fields explain what was seen")
-    described, vary = scenario_of(scenario), {} if vary is None else vary
     Processor(device).require_cpu("by a fit")
-    spans = spans_given(vary, described)
-    if len(spans) > MOST_FIELDS:
-        raise SweepError(f"vary: {len(spans)} fields; accepted: from 1 to {MOST_FIELDS}")
-    for span in spans:
-        if span.field.startswith("release.angles.") and described.release.angles is None:
-            raise SweepError(
-                f"{span.field}: this scenario has a quaternion; accepted: release.angles in its place"
-            )
-    misfit = Misfit(scenario=described, spans=spans, observed=observed)
+    misfit = _misfit(seen, scenario_of(scenario), {} if vary is None else vary)
     with stage("fitting"):
         searched = LeastSquaresSearch(misfit, starts=starts, seed=seed).found()
     if searched is None:
-        misfit.scenario_of(np.array([(span.start + span.stop) / 2 for span in spans]))  # says why
+        misfit.scenario_of(np.array([(span.start + span.stop) / 2 for span in misfit.spans]))  # says why
         raise ScenarioError(
             "no start of the spans makes a scenario; accepted: spans in which the coin is free"
         )
@@ -308,6 +248,19 @@ def fit(
     if not best.is_possible:
         values = tuple(replace(each, interval=None) for each in values)
     return replace(best, values=values, others=tuple(other for other in others if other.is_possible))
+
+
+def _misfit(seen: Observed, scenario: Scenario, vary: Spans) -> Misfit:
+    """Return the misfit over the spans of the free fields; refuse what can't be free."""
+    spans = spans_given(vary, scenario)
+    if len(spans) > MOST_FIELDS:
+        raise SweepError(f"vary: {len(spans)} fields; accepted: from 1 to {MOST_FIELDS}")
+    for span in spans:
+        if span.field.startswith("release.angles.") and scenario.release.angles is None:
+            raise SweepError(
+                f"{span.field}: this scenario has a quaternion; accepted: release.angles in its place"
+            )
+    return Misfit(scenario=scenario, spans=spans, observed=seen)
 
 
 def _fit_of(misfit: Misfit, minimum: Minimum, ends: Array) -> Fit:

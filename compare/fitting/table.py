@@ -2,7 +2,6 @@
 
 import math
 import re
-import warnings
 from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
@@ -10,18 +9,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from cointoss.compare.fitting.cells import BEFORE_HEADER, read_cells, require_whole_rows
+from cointoss.compare.fitting.cells import (
+    BEFORE_HEADER,
+    read_cells,
+    require_whole_rows,
+    warn_of_unused_columns,
+)
 from cointoss.compare.fitting.errors import ObservationError, ValueRefusedError
-from cointoss.compare.fitting.flips import Flips
-from cointoss.compare.fitting.flips_table import ACCEPTED as COUNTS
-from cointoss.compare.fitting.flips_table import flips_of, is_of_flips
 from cointoss.compare.fitting.observed import LEAST_SD, Observed
 from cointoss.compare.sweep.axes import number
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.errors import FieldError, shown
 from cointoss.models.quantities import LARGEST as LARGEST_SD
 from cointoss.models.units import in_si
-from cointoss.models.unused import UnusedFieldWarning
 
 NAMES = {
     "time": (("t", "time"), "s"),
@@ -42,7 +42,6 @@ ACCEPTED = (
     "t or time; of touches: touch, face, sd_t; of frames of a film: z, height or y; tilt or theta; e0 to e3; "
     "sd_z, sd_tilt; each perhaps with a unit, as in t (ms)"
 )
-Seen = Observed | Flips
 _IN_ONE_ROW = re.compile(r"(start|stop|stop \d+|bounce \d+)", re.IGNORECASE)
 """Touches as phyphox's acoustic stopwatch and its (in)elastic collision export them: one row, 0 for none."""
 _NONE = re.compile(r"nan|\?|[0.,]*(e[-+]?\d+)?", re.IGNORECASE)
@@ -106,10 +105,8 @@ class Heading(NamedTuple):
         return found
 
 
-def read_seen(path: str | PathLike[str], sd: Mapping[str, float | str] | None = None) -> Seen:
+def read_seen(path: str | PathLike[str], sd: Mapping[str, float | str] | None = None) -> Observed:
     """Read what was seen from a CSV file; commas, semicolons or tabs between its cells, # before a comment.
-
-    Its columns say whether that is one toss, or counts of flips.
 
     A row is a touch where it has a number in the column `touch`, or where no column is of a film; another is
     a frame. phyphox's acoustic stopwatch and its (in)elastic collision export the touches in one row.
@@ -153,12 +150,8 @@ def _deviations(given: Mapping[str, float | str]) -> dict[str, float]:
     return found
 
 
-def _seen(rows: list[list[str]], sd: Mapping[str, float]) -> Seen:
+def _seen(rows: list[list[str]], sd: Mapping[str, float]) -> Observed:
     for at, row in enumerate(rows[:BEFORE_HEADER]):
-        if is_of_flips(row) and not _is_of_a_toss(row):
-            for name, value in sd.items():
-                raise FieldError(name.replace("_", ".", 1), value, "none for counts of flips")
-            return flips_of(row, rows[at + 1 :])
         headings, below = [Heading.of(cell) for cell in row], rows[at + 1 :]
         in_one_row = [i for i, heading in enumerate(headings) if _IN_ONE_ROW.fullmatch(heading.name)]
         if in_one_row:
@@ -174,37 +167,21 @@ def _seen(rows: list[list[str]], sd: Mapping[str, float]) -> Seen:
             columns = _columns(headings)
             require_whole_rows(below, 1 + max(i for i, _ in columns.values()), len(headings))
             return _of_columns(columns, below, sd)
-    raise ObservationError(f"no column of times; accepted: {ACCEPTED}; or of counts of flips: {COUNTS}")
-
-
-def _is_of_a_toss(names: Sequence[str]) -> bool:
-    """Return whether these are the columns of a film, or of numbered touches."""
-    headings = [Heading.of(name) for name in names]
-    keys = {"height" if heading.name.lower() == "y" else heading.key for heading in headings}
-    return "time" in keys and bool(keys & {"touch", "height", "tilt", *EULER})
+    raise ObservationError(f"no column of times; accepted: {ACCEPTED}; cointoss flips takes counts")
 
 
 def _columns(headings: Sequence[Heading]) -> dict[str, tuple[int, Heading]]:
     """Return which cell of a row each column is; y is the height where no other column is."""
+    keys = [heading.key for heading in headings]
+    if "height" not in keys:
+        keys = ["height" if one.name.lower() == "y" else one.key for one in headings]
     found: dict[str, tuple[int, Heading]] = {}
-    unused: list[str] = []
-    for i, heading in enumerate(headings):
-        key = heading.key
-        if key is None:
-            unused += [heading.name] if heading.name else []
-        elif key in found:
+    for i, (key, heading) in enumerate(zip(keys, headings, strict=True)):
+        if key in found:
             raise ObservationError(f"columns {found[key][1].name} and {heading.name}; accepted: one of them")
-        else:
+        if key is not None:
             found[key] = (i, heading)
-    y = [i for i, heading in enumerate(headings) if heading.name.lower() == "y"]
-    if y and "height" not in found:
-        if len(y) > 1:
-            raise ObservationError("column y twice; accepted: one track")
-        found["height"] = (y[0], headings[y[0]])
-        unused = [name for name in unused if name.lower() != "y"]
-    if unused:
-        columns = "column" if len(unused) == 1 else "columns"
-        warnings.warn(f"{columns} {', '.join(unused)}: not used", UnusedFieldWarning, stacklevel=2)
+    warn_of_unused_columns([one.name for key, one in zip(keys, headings, strict=True) if key is None])
     return found
 
 

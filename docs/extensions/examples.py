@@ -25,7 +25,7 @@ LONG = 20.0
 """Processor time [s] from which a page must say how long an example takes."""
 HANGS = "3600"
 """Time [s] after which a command is ended, and has failed."""
-ANSWERS = re.compile(r"cointoss (find|fit|conform|reproduce) ")
+ANSWERS = re.compile(r"cointoss (find|fit|flips|conform|reproduce) ")
 """Commands whose exit status 1 is an answer: none found, a case missed."""
 LASTING = re.compile(
     r"\b(takes?|took|in|for)\b[^.]{0,60}\b(\d\S*|an?|one|two|few|half a) (s|seconds?|min|minutes?|hours?)\b"

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from cointoss import Flips, fit
+from cointoss import Flips, flips
 from cointoss.study import (
     WOBBLING,
     PeopleFit,
@@ -31,25 +31,25 @@ from tests.helpers.command_line import cointoss
 TABLE = Path(getfile(read_flips)).with_name("same_side_flips.csv")
 
 
-def drawn(family, parameters, people=200, flips=7000, seed=3):
+def drawn(family, parameters, people=200, count=7000, seed=3):
     rng = np.random.default_rng(seed)
-    count = np.full(people, flips)
+    counts = np.full(people, count)
     p = quantiles(family, np.array(parameters), rng.random(people))
-    return Flips(same=rng.binomial(count, p), flips=count)
+    return Flips(same=rng.binomial(counts, p), flips=counts)
 
 
 def test_the_command_finds_the_scatter_of_the_page():
-    answered = cointoss("fit", TABLE)
+    answered = cointoss("flips", TABLE)
     assert answered.exit_code == 0, answered.stderr
     assert "90 with a scatter of 10.0 [7.6, 13.5] over 48 people" in answered.stdout
-    found, counts = fit(TABLE), read_flips()
+    found, counts = flips(TABLE), read_flips()
     assert found.flips.same.tolist() == counts.same.tolist()
     assert found.flips.flips.tolist() == counts.flips.tolist()
 
 
 def test_the_counts_are_those_published():
-    flips = read_flips()
-    assert (flips.same.sum(), flips.flips.sum(), len(flips.flips)) == (178_078, 350_757, 48)
+    counted = read_flips()
+    assert (counted.same.sum(), counted.flips.sum(), len(counted.flips)) == (178_078, 350_757, 48)
     assert sum(int(one.flips.sum()) for one in read_started()) == 350_757
 
 
@@ -89,11 +89,11 @@ def log_integral(family, parameters, same, count):
 )
 def test_the_likelihood_of_each_person_is_its_integral(family, parameters):
     """By an adaptive quadrature in p about where each lies; one person lies 5.8 standard deviations away."""
-    flips = read_flips()
-    found = log_likelihoods(flips, family, np.array(parameters))
+    counted = read_flips()
+    found = log_likelihoods(counted, family, np.array(parameters))
     # The last of them is the one who lies farthest out.
     for person in range(2, len(found), 3):
-        expected = log_integral(family, parameters, flips.same[person], flips.flips[person])
+        expected = log_integral(family, parameters, counted.same[person], counted.flips[person])
         assert found[person] == pytest.approx(expected, abs=1e-6)
 
 
@@ -107,27 +107,27 @@ def test_the_likelihood_of_each_person_is_its_integral(family, parameters):
     ],
 )
 def test_a_spread_over_people_is_found_again_within_its_interval(family, truth, others):
-    flips = drawn(family, truth)
-    found = fit_people(flips, family)
-    low, high = spread_interval(flips, found)
+    counted = drawn(family, truth)
+    found = fit_people(counted, family)
+    low, high = spread_interval(counted, found)
     assert low < truth[0] < high
     assert 0.1 < (high - low) / truth[0] < 0.6
     assert found.parameters[1:] == pytest.approx(truth[1:], abs=0.004)
     if family is not WOBBLING:
         assert spread_of(found) == pytest.approx(found.parameters[0], rel=1e-6)
-    assert all(found.log_likelihood > fit_people(flips, other).log_likelihood for other in others)
+    assert all(found.log_likelihood > fit_people(counted, other).log_likelihood for other in others)
 
 
 def test_one_person_left_out_leaves_the_others():
-    flips = read_flips()
-    left = without(flips, 46)
-    assert left.same.tolist() == np.delete(flips.same, 46).tolist()
-    assert (left.flips == np.delete(flips.flips, 46)).all()
+    counted = read_flips()
+    left = without(counted, 46)
+    assert left.same.tolist() == np.delete(counted.same, 46).tolist()
+    assert (left.flips == np.delete(counted.flips, 46)).all()
 
 
 def test_people_who_differ_too_much_have_no_chance():
-    flips, rng = drawn(WOBBLING, [0.2]), np.random.default_rng(4)
-    found = fit_people(flips, WOBBLING)
-    assert 0.05 < chance_of_spread(flips, found, rng) < 0.95
+    counted, rng = drawn(WOBBLING, [0.2]), np.random.default_rng(4)
+    found = fit_people(counted, WOBBLING)
+    assert 0.05 < chance_of_spread(counted, found, rng) < 0.95
     halved = PeopleFit(WOBBLING, found.parameters / 2, found.log_likelihoods)
-    assert chance_of_spread(flips, halved, rng) < 0.01
+    assert chance_of_spread(counted, halved, rng) < 0.01

@@ -80,7 +80,7 @@ def test_a_path_that_this_program_wrote(read):
         ("t,touch,z\n0,,1\n0.1,1.5,\n", "column touch: row 2 is 1.5, accepted: whole numbers up to"),
         ("t,touch,tilt (deg)\n0,1,\n0.1,,190\n", "column tilt: row 2 is 190 deg, accepted: angles from 0"),
         ("t,time\n0,0\n", "columns t and time; accepted: one of them"),
-        ("t,y,y\n0,0,0\n", "column y twice"),
+        ("t,y,y\n0,0,0\n", "columns y and y; accepted: one of them"),
         ("t,z\n0\n", "row 1 has 1 cells"),
         ("t,z\n,1\n", "column t: row 1 is empty, accepted: numbers within"),
         ("t,e0\n0,1\n", "accepted: all of e0, e1, e2 and e3"),

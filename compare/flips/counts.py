@@ -7,7 +7,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from cointoss.compare.fitting.errors import ObservationError, ValueRefusedError
 from cointoss.models.errors import shown
-from cointoss.models.records import Array
 
 MOST_PEOPLE = 1000
 MOST_FLIPS = 1_000_000
@@ -34,39 +33,34 @@ class Flips:
         Raises:
             ObservationError: naming the argument, its value and what is accepted.
         """
-        most = _numbers("flips", flips)
-        for name, values, bound in (("flips", most, MOST_FLIPS), ("same", _numbers("same", same), most)):
-            if values.ndim != 1 or values.shape != most.shape or len(values) > MOST_PEOPLE:
-                accepted = f"one of flips and of same for each of at most {MOST_PEOPLE} people"
-                raise ObservationError(f"Flips.{name}: shape {values.shape}, accepted: {accepted}")
-            bad = ~((values % 1 == 0) & (values >= 0) & (values <= bound))
-            if bad.any():
-                i = int(np.argmax(bad))
-                limit = int(np.broadcast_to(bound, values.shape)[i])
-                raise ValueRefusedError(
-                    name, i, f"{values[i]:g}", f"a whole number from 0 to {limit}", "Flips"
-                )
-            kept = values.astype(np.int64)
-            kept.setflags(write=False)
-            object.__setattr__(self, name, kept)
-        if not self.flips.sum():
+        most = _counts("flips", flips, MOST_FLIPS)
+        if not most.sum():
             raise ObservationError("no flips; accepted: at least one")
-        names = tuple(map(str, people)) or tuple(str(n + 1) for n in range(len(self.flips)))
-        if len(names) != len(self.flips):
-            raise ObservationError(
-                f"Flips.people: {len(names)} names, accepted: {len(self.flips)}, one a person"
-            )
-        object.__setattr__(self, "people", names)
+        names = tuple(map(str, people)) or tuple(str(n + 1) for n in range(len(most)))
+        if len(names) != len(most):
+            raise ObservationError(f"Flips.people: {len(names)} names, accepted: {len(most)}, one a person")
+        for name, value in (("same", _counts("same", same, most)), ("flips", most), ("people", names)):
+            object.__setattr__(self, name, value)
 
     def __repr__(self) -> str:
         """Return how many there are."""
         return f"<Flips: {self.same.sum()} of {self.flips.sum()} by {len(self.flips)} people>"
 
 
-def _numbers(name: str, given: ArrayLike) -> Array:
-    """Return an argument's numbers; refuse what has none."""
+def _counts(name: str, given: ArrayLike, most: int | NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return an argument's whole numbers, of each person at most so many; refuse what has none."""
     try:
-        return np.array(given, dtype=float)
+        values = np.array(given, dtype=float)
     except (TypeError, ValueError):
         accepted = "whole numbers from 0, one for each person"
         raise ObservationError(f"Flips.{name}: {shown(given)}, accepted: {accepted}") from None
+    if values.ndim != 1 or np.shape(most) not in ((), values.shape) or len(values) > MOST_PEOPLE:
+        accepted = f"one of flips and of same for each of at most {MOST_PEOPLE} people"
+        raise ObservationError(f"Flips.{name}: shape {values.shape}, accepted: {accepted}")
+    limits = np.broadcast_to(most, values.shape)
+    if (bad := ~((values % 1 == 0) & (values >= 0) & (values <= limits))).any():
+        i = int(np.argmax(bad))
+        raise ValueRefusedError(name, i, f"{values[i]:g}", f"a whole number from 0 to {limits[i]}", "Flips")
+    kept = values.astype(np.int64)
+    kept.setflags(write=False)
+    return kept

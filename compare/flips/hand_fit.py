@@ -2,13 +2,15 @@
 
 import math
 from dataclasses import asdict, dataclass, fields, replace
+from os import PathLike
 from typing import Any
 
 import numpy as np
 from scipy.stats import binom
 
-from cointoss.compare.fitting.flips import Flips
-from cointoss.compare.fitting.people import (
+from cointoss.compare.fitting.errors import ObservationError
+from cointoss.compare.flips.counts import Flips
+from cointoss.compare.flips.people import (
     CAUGHT,
     SameSide,
     chance_of_spread,
@@ -18,13 +20,14 @@ from cointoss.compare.fitting.people import (
     spread_interval,
     wobbling,
 )
-from cointoss.compare.fitting.search import LEVEL
+from cointoss.compare.flips.table import read_flips
 from cointoss.compare.metrics.estimate import Estimate
-from cointoss.compare.metrics.estimates import share_of
+from cointoss.compare.metrics.estimates import LEVEL, share_of
 from cointoss.compare.shares.shares import shares
-from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
 from cointoss.models.devices import Device
-from cointoss.models.hand import Hand
+from cointoss.models.hand import Hand, load_hand
+from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Array, Outcome
 from cointoss.models.scenario import Scenario
 from cointoss.models.writing import toml
@@ -101,7 +104,7 @@ class HandFit:
         return f"<HandFit: {self.hand.in_words}; {self.verdict}>"
 
     def as_dict(self) -> dict[str, Any]:
-        """Return it in the form of `cointoss fit --json`, angles in rad; null stands for what is NaN."""
+        """Return it in the form of `cointoss flips --json`, angles in rad; null stands for what is NaN."""
         counts = zip(self.people, self.flips.same.tolist(), self.flips.flips.tolist(), strict=True)
         return {
             "people": [
@@ -125,20 +128,54 @@ class HandFit:
         return toml(own)
 
 
-def fit_flips(
-    flips: Flips,
-    scenario: Scenario | None = None,
+def flips(
+    counts: Flips | str | PathLike[str],
+    scenario: ScenarioSource | None = None,
     *,
-    hand: Hand | None = None,
+    hand: Hand | str | PathLike[str] | None = None,
     tosses: int = TOSSES,
     seed: int = 0,
     device: Device | str = Device.CPU,
 ) -> HandFit:
-    """Return the wobble that explains counts of flips best: see `fit`."""
-    usual = Hand() if hand is None else hand
+    """Find the wobble of a hand from how often its coins show the side that was up at the release.
+
+        cointoss.flips("counts.csv")
+
+    The counts determine each person's ψ, and its scatter over people: by a closed form for coins that are
+    caught, by tosses for a scenario's coin.
+
+    Args:
+        counts: how often each person's coin showed that side, or the path of a CSV file that has it.
+        scenario: whose coin is tossed: a scenario, the path of its file, or a name such as "fig24a"; its own
+            release is not used. Without one the coins are caught.
+        hand: that tosses a scenario's coin, or the path of its file; its ψ is not used. By default `Hand()`.
+        tosses: of a scenario's coin, for each of some 30 ψ.
+        seed: for the tosses.
+        device: that tosses a scenario's coin, as in `shares`.
+
+    Raises:
+        ObservationError: for a file or counts that can't be used.
+        SweepError: for an option that can't be used.
+        ScenarioError: for a scenario or a hand that can't be used.
+    """
+    require_whole("seed", seed, 0, MOST_SEED)
+    seen = read_flips(counts) if isinstance(counts, str | PathLike) else counts
+    if not isinstance(seen, Flips):
+        raise ObservationError(f"counts: {seen!r}, accepted: Flips, or the path of a CSV file")
+    unused = {"hand": (hand, None), "tosses": (tosses, TOSSES), "device": (device, Device.CPU)}
+    for name, (value, usual) in unused.items():
+        if scenario is None and value != usual:
+            raise SweepError(f"`{name}` {value}: accepted: only with a scenario whose coin is tossed")
+    usual = Hand() if hand is None else hand if isinstance(hand, Hand) else load_hand(hand)
     if usual.spun:
         raise SweepError("hand.spun = True: accepted: false, for a hand that tosses")
-    side = CAUGHT if scenario is None else simulated(scenario, usual, tosses=tosses, seed=seed, device=device)
+    described = None if scenario is None else scenario_of(scenario)
+    side = CAUGHT if described is None else simulated(described, usual, tosses, seed, device)
+    return _hand_fit(seen, described, usual, side, seed)
+
+
+def _hand_fit(flips: Flips, scenario: Scenario | None, usual: Hand, side: SameSide, seed: int) -> HandFit:
+    """Return the hand that explains counts of a side as likely as `side` says."""
     each = tuple(
         PersonFit(person=name, share=share_of(same, count, "flips"), psi=_psi_of(same, count, side))
         for name, same, count in zip(flips.people, flips.same.tolist(), flips.flips.tolist(), strict=True)
@@ -158,7 +195,7 @@ def fit_flips(
     return found if found.is_possible else _without_intervals(found)
 
 
-def simulated(scenario: Scenario, hand: Hand, *, tosses: int, seed: int, device: Device | str) -> SameSide:
+def simulated(scenario: Scenario, hand: Hand, tosses: int, seed: int, device: Device | str) -> SameSide:
     """Return how likely the first side comes up for a hand's tosses of a scenario, by |90° - ψ|.
 
     Each toss begins with heads up.

@@ -1,14 +1,19 @@
 """Counts of flips, read from a table with a row for each person or series."""
 
 import re
-import warnings
 from collections.abc import Mapping, Sequence
+from os import PathLike
+from pathlib import Path
 
-from cointoss.compare.fitting.cells import require_whole_rows
+from cointoss.compare.fitting.cells import (
+    BEFORE_HEADER,
+    read_cells,
+    require_whole_rows,
+    warn_of_unused_columns,
+)
 from cointoss.compare.fitting.errors import ObservationError, ValueRefusedError
-from cointoss.compare.fitting.flips import Flips
+from cointoss.compare.flips.counts import Flips
 from cointoss.compare.output.language import listed
-from cointoss.models.unused import UnusedFieldWarning
 
 NAMES = {
     "person": ("person", "participant", "subject", "series", "name", "id", "flipper", "tosser"),
@@ -29,6 +34,8 @@ ACCEPTED = (
 )
 _PAIR = re.compile(r"(h|t)(?:eads?|ails?)? ?(?:to|>|→)? ?(h|t)(?:eads?|ails?)?")
 _AROUND = re.compile(r"^(?:n|number of|count of) (?=.)|(?<=.) (?:n|counts?)$")
+_COUNT = re.compile(r"\+?\d{1,15}(e\+?0?\d)?", re.IGNORECASE)
+"""A whole number; one with a point or a comma, which may stand between thousands, is none."""
 _SIDES = {"h": "heads", "t": "tails"}
 _COUNTED = {"same", "other", "flips", "heads", "tails", "edge", *PAIRS}
 
@@ -42,33 +49,37 @@ def key_of(name: str) -> str | None:
     return next((key for key, names in NAMES.items() if plain in names), None)
 
 
-def is_of_flips(head: Sequence[str]) -> bool:
-    """Return whether these are the names of the columns of counts of flips."""
-    return sum(key_of(name) in _COUNTED for name in head) > 1
-
-
-def flips_of(head: Sequence[str], rows: Sequence[Sequence[str]]) -> Flips:
-    """Return the counts of a table; rows with one person's name are added up.
+def read_flips(path: str | PathLike[str]) -> Flips:
+    """Return the counts of a CSV file; rows with one person's name are added up.
 
     Args:
-        head: names of the columns.
-        rows: cells below.
+        path: of the file, with commas, semicolons or tabs between its cells, and # before a comment.
 
     Raises:
-        ObservationError: naming column, value and what is accepted.
+        ObservationError: naming file, column, value and what is accepted.
 
     Warns:
         UnusedFieldWarning: for columns that are not used.
     """
+    rows = read_cells(Path(path))
+    try:
+        for at, row in enumerate(rows[:BEFORE_HEADER]):
+            if sum(key_of(name) in _COUNTED for name in row) > 1:
+                return _flips(row, rows[at + 1 :])
+        raise ObservationError(f"no columns of counts; accepted: {ACCEPTED}")
+    except ObservationError as error:
+        raise ObservationError(f"{path}: {error}") from None
+
+
+def _flips(head: Sequence[str], rows: Sequence[Sequence[str]]) -> Flips:
+    """Return the counts of a table's rows, below the names of its columns."""
     columns = _columns(head)
     way = _way_of_counting(columns, head)
-    used = {*way, *(columns.keys() & {"person"})}
-    if unused := [name for i, name in enumerate(head) if name and i not in {columns[key] for key in used}]:
-        what = "column" if len(unused) == 1 else "columns"
-        warnings.warn(f"{what} {', '.join(unused)}: not used", UnusedFieldWarning, stacklevel=2)
+    used = {key: columns[key] for key in (*way, "person") if key in columns}
+    warn_of_unused_columns([name for i, name in enumerate(head) if i not in used.values()])
     if not rows:
         raise ObservationError("no rows; accepted: one or more, each a person or a series")
-    require_whole_rows(rows, 1 + max(columns[key] for key in used), len(head))
+    require_whole_rows(rows, 1 + max(used.values()), len(head))
     sums: dict[str, tuple[int, int]] = {}
     for n, row in enumerate(rows, start=1):
         person = row[columns["person"]] if "person" in columns else str(n)
@@ -100,18 +111,18 @@ def _columns(head: Sequence[str]) -> dict[str, int]:
 
 def _way_of_counting(columns: Mapping[str, int], head: Sequence[str]) -> tuple[str, ...]:
     """Return the columns that say how often the same side came up."""
-    has = columns.keys()
-    sides = [key for key in ("same", "other", "flips") if key in has]
-    pairs = [key for key in PAIRS if key in has]
-    if pairs and {"same", "other"} & has:
+    sides = tuple(key for key in ("same", "other", "flips") if key in columns)
+    pairs = [key for key in PAIRS if key in columns]
+    if pairs and {"same", "other"} & set(sides):
         named = listed(head[columns[key]] for key in (sides[0], pairs[0]))
         raise ObservationError(f"columns {named}; accepted: one way to count: {ACCEPTED}")
-    if len(sides) > 1:
-        return tuple(sides)
-    if len(pairs) == len(PAIRS):
-        return PAIRS
-    if {"start", "heads", "tails"} <= has and not (pairs or sides):
-        return ("start", "heads", "tails")
+    for way, is_so in (
+        (sides, len(sides) > 1),
+        (PAIRS, len(pairs) == len(PAIRS)),
+        (("start", "heads", "tails"), not (sides or pairs)),
+    ):
+        if is_so and set(way) <= columns.keys():
+            return way
     raise ObservationError(f"columns {', '.join(name for name in head if name)}; accepted: {ACCEPTED}")
 
 
@@ -122,13 +133,13 @@ def _counts(cells: Mapping[str, tuple[str, str]], n: int) -> tuple[int, int]:
         cells: name of the column and cell, by key.
         n: number of the row.
     """
-    count = {key: _whole(*named, n) for key, named in cells.items() if key != "start"}
     if "start" in cells:
         name, cell = cells["start"]
         side = _SIDES.get(cell.lower(), cell.lower())
         if side not in _SIDES.values():
             raise ObservationError(f"column {name}: row {n} is {cell!r}, accepted: heads, tails, h or t")
-        return count[side], count["heads"] + count["tails"]
+        return _whole(*cells[side], n), _whole(*cells["heads"], n) + _whole(*cells["tails"], n)
+    count = {key: _whole(*named, n) for key, named in cells.items()}
     if PAIRS[0] in count:
         return count["heads to heads"] + count["tails to tails"], sum(count.values())
     flips = count.get("flips", count.get("same", 0) + count.get("other", 0))
@@ -141,18 +152,8 @@ def _counts(cells: Mapping[str, tuple[str, str]], n: int) -> tuple[int, int]:
 
 
 def _whole(name: str, cell: str, n: int) -> int:
-    """Return a count; refuse one with a point or a comma, which may stand between thousands.
-
-    Args:
-        name: of the column.
-        cell: that has it.
-        n: number of the row.
-    """
-    try:
-        number = -1.0 if "." in cell else float(cell)
-    except ValueError:
-        number = -1.0
-    if not (number >= 0 and number % 1 == 0):
+    """Return a count, from the name of its column, its cell, and the number of its row."""
+    if not _COUNT.fullmatch(cell):
         accepted = "a whole number from 0, without a point or a comma"
         raise ObservationError(f"column {name}: row {n} is {cell!r}, accepted: {accepted}")
-    return int(number)
+    return int(float(cell))

@@ -2,6 +2,7 @@
 
 import json
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -9,8 +10,8 @@ import pytest
 from scipy.optimize import brentq
 from scipy.stats import binom, chi2
 
-from cointoss import Flips, Hand, HandFit, fit, load_hand
-from cointoss.compare.fitting.hand_answer import as_lines
+from cointoss import Flips, Hand, ObservationError, fit, flips, load_hand
+from cointoss.compare.flips.answer import as_lines
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.hand import same_side_probability
 from tests.helpers.command_line import cointoss, printed
@@ -35,16 +36,16 @@ def degrees(estimate) -> list[float]:
     return [math.degrees(end) for end in estimate.ends]
 
 
-def drawn(people: int, flips: int, psi_scatter: float, seed: int) -> Flips:
+def drawn(people: int, count: int, psi_scatter: float, seed: int) -> Flips:
     """Return counts of people who wobble so."""
     rng = np.random.default_rng(seed)
     p = same_side_probability(rng.normal(np.pi / 2, psi_scatter, people))
-    return Flips(same=rng.binomial(flips, p), flips=np.full(people, flips))
+    return Flips(same=rng.binomial(count, p), flips=np.full(people, count))
 
 
 def test_a_persons_psi_is_the_inverse_of_the_probability():
     """p = 1/2 + asin(cot² ψ)/π at ψ, and at the ends of the interval twice the log-likelihood is χ² lower."""
-    found = fit(Flips(same=[5_600], flips=[10_000])).people[0].psi
+    found = flips(Flips(same=[5_600], flips=[10_000])).people[0].psi
     value, *ends = (float(same_side_probability(psi)) for psi in found.ends)
     assert value == pytest.approx(0.56, abs=1e-6)
     drop = chi2.ppf(0.99, 1) / 2
@@ -56,7 +57,7 @@ def test_a_persons_psi_is_the_inverse_of_the_probability():
 
 
 @pytest.mark.parametrize(
-    ("same", "flips", "expected"),
+    ("same", "count", "expected"),
     [
         (50, 100, [90, 60, 90]),
         (0, 0, [math.nan, 0, 90]),
@@ -64,16 +65,16 @@ def test_a_persons_psi_is_the_inverse_of_the_probability():
         (1000, 1000, [45, 0, 46]),
     ],
 )
-def test_the_ends_of_what_a_person_can_count(same, flips, expected):
+def test_the_ends_of_what_a_person_can_count(same, count, expected):
     """A fair share is that of 90°, no flips say nothing, and from 45° on all flips are the same."""
-    found = fit(Flips(same=[same, 50], flips=[flips, 100]))
+    found = flips(Flips(same=[same, 50], flips=[count, 100]))
     assert degrees(found.people[0].psi) == pytest.approx(expected, abs=6, nan_ok=True)
     assert ("not determined" in as_lines(found)) == math.isnan(expected[0])
     assert found.is_possible
 
 
 def test_one_person_has_a_psi_and_no_scatter_over_people():
-    found = fit(Flips(same=[560], flips=[1000], people=("Anna",)))
+    found = flips(Flips(same=[560], flips=[1000], people=("Anna",)))
     assert found.scatter is None
     assert found.hand == Hand(psi=found["Anna"].psi.value)
     assert "over" not in as_lines(found)
@@ -82,7 +83,7 @@ def test_one_person_has_a_psi_and_no_scatter_over_people():
 
 
 def test_people_without_wobble_have_none():
-    found = fit(drawn(20, 2000, 0.0, seed=1))
+    found = flips(drawn(20, 2000, 0.0, seed=1))
     assert found.scatter is not None
     assert found.scatter.low == 0
     assert degrees(found.scatter)[2] < 12
@@ -93,38 +94,38 @@ def test_intervals_hold_the_truth_as_often_as_they_say():
     """Of 30 such tables more than 2 miss with a chance of 3e-3, of 100 people more than 4 with 3e-3."""
     truth, missed = math.radians(12), 0
     for seed in range(30):
-        scatter = fit(drawn(10, 3000, truth, seed)).scatter
+        scatter = flips(drawn(10, 3000, truth, seed)).scatter
         assert scatter is not None
         missed += not scatter.low <= truth <= scatter.high
     assert missed <= 2
     psi = np.radians(np.linspace(60, 90, 100))
     rng = np.random.default_rng(7)
-    found = fit(Flips(same=rng.binomial(5000, same_side_probability(psi)), flips=np.full(100, 5000)))
+    found = flips(Flips(same=rng.binomial(5000, same_side_probability(psi)), flips=np.full(100, 5000)))
     missed = sum(not one.psi.low <= true <= one.psi.high for one, true in zip(found.people, psi, strict=True))
     assert missed <= 4
 
 
 def test_the_fitted_hand_tosses_as_the_people_who_were_counted():
-    found = fit(drawn(200, 5000, math.radians(15), seed=3))
+    found = flips(drawn(200, 5000, math.radians(15), seed=3))
     assert found.scatter is not None
     assert found.hand == Hand(psi_scatter=found.scatter.value)
     assert degrees(found.scatter)[0] == pytest.approx(15, abs=1.5)
 
 
-@pytest.mark.parametrize("flips", [2000, 5000, 25_000, 1_000_000])
+@pytest.mark.parametrize("count", [2000, 5000, 25_000, 1_000_000])
 @pytest.mark.parametrize(
     ("shares", "expected"), [((0.8, 0.88, 0.52, 0.96), (38.4, 19.1, 90)), ((0.8,) * 5, (42.0, 22.1, 90))]
 )
-def test_people_who_wobble_much_scatter_as_their_shares_do(shares, expected, flips):
+def test_people_who_wobble_much_scatter_as_their_shares_do(shares, expected, count):
     """However many flips: the angles of such shares are 42 to 45°, and 20°; their interval ends at 90°."""
-    found = fit(Flips(same=[round(share * flips) for share in shares], flips=[flips] * len(shares)))
+    found = flips(Flips(same=[round(share * count) for share in shares], flips=[count] * len(shares)))
     assert found.is_possible
     assert found.scatter is not None
     assert degrees(found.scatter) == pytest.approx(expected, abs=0.3)
 
 
 @pytest.mark.parametrize(
-    ("same", "flips", "why"),
+    ("same", "count", "why"),
     [
         ([300], [1000], "too seldom"),
         ([450, 440], [1000, 1000], "too seldom"),
@@ -132,8 +133,8 @@ def test_people_who_wobble_much_scatter_as_their_shares_do(shares, expected, fli
         ([5000] * 30 + [7000], [10_000] * 31, "differ too much"),
     ],
 )
-def test_shares_below_one_half_are_those_of_no_wobble(same, flips, why):
-    found = fit(Flips(same=same, flips=flips))
+def test_shares_below_one_half_are_those_of_no_wobble(same, count, why):
+    found = flips(Flips(same=same, flips=count))
     assert not found.is_possible
     assert why in found.verdict
     assert "[" not in as_lines(found).splitlines()[1].split("]")[1]
@@ -143,8 +144,8 @@ def test_shares_below_one_half_are_those_of_no_wobble(same, flips, why):
 def test_a_simulated_coin_that_is_caught_has_the_closed_form(tmp_path):
     """The simulation's error widens the intervals, and moves them by a part of their width."""
     (tmp_path / "caught.toml").write_text(CAUGHT, encoding="utf-8")
-    flips = Flips(same=[620, 540], flips=[1000, 1000])
-    closed, tossed = fit(flips), fit(flips, tmp_path / "caught.toml", tosses=250)
+    counts = Flips(same=[620, 540], flips=[1000, 1000])
+    closed, tossed = flips(counts), flips(counts, tmp_path / "caught.toml", tosses=250)
     for one, other in zip(closed.people, tossed.people, strict=True):
         assert degrees(other.psi)[0] == pytest.approx(degrees(one.psi)[0], abs=8)
         assert other.psi.low < one.psi.value < other.psi.high
@@ -158,8 +159,8 @@ def test_a_simulated_coin_that_is_caught_has_the_closed_form(tmp_path):
 def test_on_a_smooth_floor_all_same_is_more_likely_with_less_wobble(tmp_path):
     """Bounces complete the bias: 95 of 100 need a ψ far nearer to 90° than a catch does."""
     (tmp_path / "coin.toml").write_text(COIN, encoding="utf-8")
-    flips = Flips(same=[95], flips=[100])
-    caught, bounced = fit(flips), fit(flips, tmp_path / "coin.toml", tosses=30)
+    counts = Flips(same=[95], flips=[100])
+    caught, bounced = flips(counts), flips(counts, tmp_path / "coin.toml", tosses=30)
     assert math.degrees(bounced.people[0].psi.high - caught.people[0].psi.high) > 10
 
 
@@ -171,19 +172,20 @@ def counts(tmp_path, monkeypatch):
 
 
 def test_the_command_answers_as_python(counts):
-    found = fit(counts)
-    told = json.loads(printed("fit", counts, "--json", "--out", "found.toml"))
+    Path("found.toml").touch()
+    found = flips(counts)
+    told = json.loads(printed("flips", counts, "--json", "--out", "found.toml"))
     assert [one["person"] for one in told["people"]] == ["Anna", "Ben"]
     assert told["people"][0]["psi"]["value"] == found["Anna"].psi.value
     assert told["scatter"]["value"] == load_hand("found.toml").psi_scatter == found.hand.psi_scatter
-    assert as_lines(found) in cointoss("fit", counts).stdout
+    assert as_lines(found) in cointoss("flips", counts).stdout
 
 
 def test_the_command_ends_with_1_where_no_wobble_explains_it(counts, tmp_path):
     (tmp_path / counts).write_text("same,flips\n300,1000\n", encoding="utf-8")
-    told = cointoss("fit", counts, "--out", "found.toml")
+    told = cointoss("flips", counts, "--out", "found.toml")
     assert "found.toml is not written: no hand explains these counts" in told.stdout
-    answered = cointoss("fit", counts, "--json", "--out", "found.toml")
+    answered = cointoss("flips", counts, "--json", "--out", "found.toml")
     assert answered.exit_code == 1
     assert not (tmp_path / "found.toml").exists()
     assert json.loads(answered.stdout)["people"][0]["psi"] == {
@@ -194,21 +196,23 @@ def test_the_command_ends_with_1_where_no_wobble_explains_it(counts, tmp_path):
 
 
 def test_the_command_refuses_a_device_that_tosses_nothing(counts):
-    answered = cointoss("fit", counts, "--device", "auto")
+    answered = cointoss("flips", counts, "--device", "auto")
     assert answered.exit_code == 2
-    assert "--device auto: accepted: only with a SCENARIO" in answered.stderr
+    assert "--device auto: accepted: only with a scenario whose coin is tossed" in answered.stderr
 
 
-def test_python_refuses_what_counts_have_no_use_for():
-    flips = Flips(same=[1], flips=[2])
-    with pytest.raises(SweepError, match=r"vary: .*accepted: none for counts of flips"):
-        fit(flips, "fig24a", {"z": (0, 1)})  # pyright: ignore[reportCallIssue, reportArgumentType]
+def test_python_refuses_what_a_coin_that_is_caught_has_no_use_for():
     unused: dict[str, Any] = {"hand": Hand(), "tosses": 7, "device": "cuda"}
     for name, value in unused.items():
-        with pytest.raises(
-            SweepError, match=f"^{name}: .*accepted: only with a scenario whose coin is tossed"
-        ):
-            fit(flips, **{name: value})
-    with pytest.raises(SweepError, match=r"^starts: 7, accepted: only where one toss was seen"):
-        fit(flips, starts=7)  # pyright: ignore[reportCallIssue]
-    assert isinstance(fit(flips), HandFit)
+        with pytest.raises(SweepError, match=f"^`{name}` .*accepted: only with a scenario whose coin"):
+            flips(Flips(same=[1], flips=[2]), **{name: value})
+
+
+@pytest.mark.parametrize("scenario", [None, "fig24a"])
+def test_a_fit_says_where_counts_belong(counts, scenario):
+    given: Any
+    for given in (counts, flips(counts).flips):
+        with pytest.raises(ObservationError, match=r"cointoss.flips takes counts$"):
+            fit(given, scenario, {"z": (0.1, 0.2)})
+    words = [word for word in (counts, scenario) if word]
+    assert cointoss("fit", *words).stderr.endswith("; cointoss flips takes counts\n")

@@ -8,8 +8,8 @@ import pytest
 from scipy.special import betaln, comb, logsumexp
 from scipy.stats import betabinom, halfnorm, uniform
 
-from cointoss.compare.fitting.flips import Flips
-from cointoss.compare.fitting.people import (
+from cointoss.compare.flips.counts import Flips
+from cointoss.compare.flips.people import (
     WOBBLING,
     People,
     crossing,

@@ -2,7 +2,7 @@
 
 import math
 
-from cointoss.compare.fitting.hand_fit import HandFit
+from cointoss.compare.flips.hand_fit import HandFit
 from cointoss.compare.metrics.estimate import Estimate
 from cointoss.compare.metrics.estimates import in_words
 from cointoss.compare.output.answer import counted

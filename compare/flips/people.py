@@ -12,7 +12,7 @@ from scipy.optimize import brentq, minimize, minimize_scalar
 from scipy.special import betaln, logsumexp
 from scipy.stats import chi2, halfnorm
 
-from cointoss.compare.fitting.flips import Flips
+from cointoss.compare.flips.counts import Flips
 from cointoss.compare.metrics.estimates import LEVEL
 from cointoss.models.hand import same_side_probability
 from cointoss.models.records import Array
