@@ -9,14 +9,15 @@ if TYPE_CHECKING:
     from cointoss.analytic.contact.resistance import FloorFriction as FloorFriction
     from cointoss.analytic.entries import force_and_moment as force_and_moment
     from cointoss.analytic.entries import sample_piece as sample_piece
+    from cointoss.analytic.entries import strike_each as strike_each
     from cointoss.analytic.flight.equations_of_motion import derivative as derivative
     from cointoss.analytic.flight.flying import sample as sample
     from cointoss.analytic.flight.integrated_flight import sample_flight as sample_flight
     from cointoss.analytic.flight.state_vector import state_of as state_of
     from cointoss.analytic.horizon.flight_tangent import FINE as FINE
     from cointoss.analytic.horizon.flight_tangent import flight_tangent as flight_tangent
+    from cointoss.analytic.runs import event_tangent as event_tangent
     from cointoss.analytic.runs import run as run
-    from cointoss.analytic.single_impacts import strike as strike
     from cointoss.analytic.toss import Pieces as Pieces
     from cointoss.analytic.toss import state_at_release as state_at_release
     from cointoss.coin_mj.entries import forward as forward
@@ -31,7 +32,6 @@ if TYPE_CHECKING:
     from cointoss.compare.basins.maps import OutcomeCodes as OutcomeCodes
     from cointoss.compare.basins.picture import MapAxis as MapAxis
     from cointoss.compare.basins.picture import draw_panel as draw_panel
-    from cointoss.compare.basins.stripes import crossings as crossings
     from cointoss.compare.commands.common import ChoiceType as ChoiceType
     from cointoss.compare.commands.common import WrittenPlace as WrittenPlace
     from cointoss.compare.commands.common import device_option as device_option
@@ -43,16 +43,17 @@ if TYPE_CHECKING:
     from cointoss.compare.engines import fingerprints as fingerprints
     from cointoss.compare.film.back_end import drawing_problem as drawing_problem
     from cointoss.compare.film.back_end import require_mujoco as require_mujoco
-    from cointoss.compare.film.stills import stills as stills
-    from cointoss.compare.flips.people import WOBBLING as WOBBLING
+    from cointoss.compare.film.shadow import add_shadow as add_shadow
+    from cointoss.compare.film.visual_model import build_visual_model as build_visual_model
+    from cointoss.compare.flips.people import CAUGHT as CAUGHT
     from cointoss.compare.flips.people import People as People
     from cointoss.compare.flips.people import PeopleFit as PeopleFit
     from cointoss.compare.flips.people import chance_of_spread as chance_of_spread
     from cointoss.compare.flips.people import fit_people as fit_people
     from cointoss.compare.flips.people import log_likelihoods as log_likelihoods
-    from cointoss.compare.flips.people import quantiles as quantiles
+    from cointoss.compare.flips.people import quadrature as quadrature
     from cointoss.compare.flips.people import spread_interval as spread_interval
-    from cointoss.compare.flips.people import spread_of as spread_of
+    from cointoss.compare.flips.people import wobbling as wobbling
     from cointoss.compare.metrics.estimate import Estimate as Estimate
     from cointoss.compare.metrics.estimates import LEVEL as LEVEL
     from cointoss.compare.metrics.estimates import PARTS as PARTS
@@ -71,8 +72,6 @@ if TYPE_CHECKING:
     from cointoss.compare.metrics.estimates import share_of as share_of
     from cointoss.compare.metrics.first_side import TOUCHES as TOUCHES
     from cointoss.compare.metrics.first_side import first_side as first_side
-    from cointoss.compare.metrics.lyapunov import divergence as divergence
-    from cointoss.compare.metrics.lyapunov import growth_by_tangent as growth_by_tangent
     from cointoss.compare.metrics.margin import MANY as MANY
     from cointoss.compare.metrics.margin import QUANTITIES as QUANTITIES
     from cointoss.compare.metrics.margin import Codes as Codes
@@ -148,6 +147,7 @@ if TYPE_CHECKING:
     from cointoss.models.parts import RESISTANCES as RESISTANCES
     from cointoss.models.processor import Processor as Processor
     from cointoss.models.processor import usual as usual
+    from cointoss.models.records import IMPACT_ROW as IMPACT_ROW
     from cointoss.models.records import Array as Array
     from cointoss.models.records import raised_flags as raised_flags
     from cointoss.models.scenario import vector as vector

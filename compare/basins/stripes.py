@@ -1,31 +1,14 @@
-"""The stripes that a line through a map crosses.
+"""The widths of the stripes that a line through a map crosses.
 
 A line is the last axis of an array, so that a row `outcomes[i]`, a whole map (y, x), and a stack of lines or
 maps after n = 0, 1, 2, ... impacts are all accepted; a column is a row of the map's transpose.
 """
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cointoss.compare.basins.maps import measured, outcome_codes
 from cointoss.models.records import Array, Outcome
-
-
-def crossings(outcomes: ArrayLike) -> NDArray[np.int64]:
-    """Count the crossings N from one basin to another along each line (section 5.3), (...).
-
-    Undecided pixels are passed over: between two decided ones there is a crossing when these differ. A line
-    of points misses pairs of crossings that fall between two of them, so N is a lower bound; where every
-    second point, `crossings(outcomes[..., ::2])`, gives much less, the line is too coarse.
-
-    Args:
-        outcomes: along the lines, (..., points).
-    """
-    codes = measured(outcome_codes(outcomes))
-    points = np.arange(codes.shape[-1])
-    last_decided = np.maximum.accumulate(np.where(codes != Outcome.UNDECIDED, points, 0), axis=-1)
-    held = np.take_along_axis(codes, last_decided, axis=-1)
-    return np.sum((held[..., 1:] != held[..., :-1]) & (held[..., :-1] != Outcome.UNDECIDED), axis=-1)
 
 
 def stripe_widths(outcomes: ArrayLike, *, spacing: float) -> Array:

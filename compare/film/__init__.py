@@ -1,1 +1,1 @@
-"""The film of a toss, by either engine or both, and stills; imports output."""
+"""The film of a toss, by either engine or both; imports output."""

@@ -87,10 +87,6 @@ def wobbling(side: SameSide) -> People:
     return People(halfnorm(), (0.0, 11.0), probability, start=(0.2,), largest=np.pi / 2, tosses=side.tosses)
 
 
-WOBBLING = wobbling(CAUGHT)
-"""People who wobble, and catch the coin."""
-
-
 def log_binomial(same: ArrayLike, flips: ArrayLike, p: ArrayLike, tosses: float = math.inf) -> Array:
     """Return the logarithm of the likelihood of counts, but for what depends on these; arrays broadcast.
 
@@ -119,14 +115,14 @@ def log_likelihoods(flips: Flips, people: People, parameters: Array) -> Array:
         people: whose integral over the latent number it is.
         parameters: of the family.
     """
-    latent, weights = _nodes(people, parameters, int(flips.flips.max()))
+    latent, weights = quadrature(people, parameters, int(flips.flips.max()))
     p = people.probability(parameters, latent)
     of_latent = people.latent.logpdf(latent) + np.log(weights)
     of_counts = log_binomial(flips.same[:, None], flips.flips[:, None], p, people.tosses)
     return np.asarray(logsumexp(of_counts + of_latent, axis=1))
 
 
-def _nodes(people: People, parameters: Array, flips: int) -> tuple[Array, Array]:
+def quadrature(people: People, parameters: Array, flips: int) -> tuple[Array, Array]:
     """Return the nodes of the quadrature over the latent number, and their weights, (m,) each.
 
     Panels are halved until none is wider than two standard deviations of any likelihood of a person. These
@@ -184,19 +180,6 @@ def _most_likely(
         options={"xatol": _TOLERANCE, "fatol": _TOLERANCE},
     )
     return best.x
-
-
-def quantiles(people: People, parameters: Array, parts: Array) -> Array:
-    """Return the p below which parts of the people are, (n,) to (n,); p must grow with the latent number."""
-    return people.probability(parameters, people.latent.ppf(parts))
-
-
-def spread_of(found: PeopleFit) -> float:
-    """Return the standard deviation of p over people."""
-    latent, weights = _nodes(found.people, found.parameters, 1)
-    of_latent = weights * found.people.latent.pdf(latent)
-    p = found.people.probability(found.parameters, latent)
-    return float(np.sqrt(of_latent @ (p - of_latent @ p) ** 2))
 
 
 def spread_interval(flips: Flips, found: PeopleFit) -> Array:

@@ -1,1 +1,1 @@
-"""How two tosses differ: impulses, sequences, paths, Lyapunov exponents; imports engines and output."""
+"""How two tosses differ: impulses, sequences, paths; imports engines and output."""

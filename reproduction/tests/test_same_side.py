@@ -9,21 +9,15 @@ import pytest
 from scipy.integrate import quad
 
 from cointoss import Flips, flips
-from cointoss.study import (
-    WOBBLING,
-    PeopleFit,
-    chance_of_spread,
-    fit_people,
-    log_likelihoods,
-    quantiles,
-    spread_interval,
-    spread_of,
-)
+from cointoss.study import PeopleFit, chance_of_spread, fit_people, log_likelihoods, spread_interval
 from cointoss_reproduction.studies.same_side.people import (
     EXPONENTIAL,
     NORMAL,
+    WOBBLING,
+    quantiles,
     read_flips,
     read_started,
+    spread_of,
     without,
 )
 from tests.helpers.command_line import cointoss
@@ -51,6 +45,13 @@ def test_the_counts_are_those_published():
     counted = read_flips()
     assert (counted.same.sum(), counted.flips.sum(), len(counted.flips)) == (178_078, 350_757, 48)
     assert sum(int(one.flips.sum()) for one in read_started()) == 350_757
+
+
+def test_the_spread_of_psi_is_the_root_of_its_mean_square():
+    """p = 1/2 + asin(tan² φ)/π, solved for φ = 90° - ψ."""
+    p = quantiles(WOBBLING, np.array([0.1]), (np.arange(4000) + 0.5) / 4000)
+    off = np.arctan(np.sqrt(np.sin(np.pi * (p - 0.5))))
+    assert np.sqrt(np.mean(off**2)) == pytest.approx(0.1, rel=1e-3)
 
 
 def log_integral(family, parameters, same, count):

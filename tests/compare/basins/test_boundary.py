@@ -1,12 +1,14 @@
 """The pixels at a boundary, and the distance to it."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
 from cointoss.compare.basins.agreement import agreement
 from cointoss.compare.basins.boundary import boundary_pixels, distance_to_doubt
 from cointoss.compare.basins.entropy import basin_entropy
-from cointoss.compare.basins.stripes import crossings
+from cointoss.compare.basins.stripes import stripe_widths
 from cointoss.models.records import Outcome
 from tests.helpers.made_maps import HEADS, TAILS, halves, line
 
@@ -31,7 +33,7 @@ def test_a_transient_is_left_out_as_the_undecided_are():
     transient = halves(8, 8)
     transient[3, 3:6] = Outcome.TRANSIENT
     undecided = np.where(transient == Outcome.TRANSIENT, Outcome.UNDECIDED, transient)
-    for measure in (boundary_pixels, distance_to_doubt, crossings):
+    for measure in (boundary_pixels, distance_to_doubt, partial(stripe_widths, spacing=1.0)):
         assert np.array_equal(measure(transient), measure(undecided))
     assert basin_entropy(transient, box=2) == basin_entropy(undecided, box=2)
     assert agreement(halves(8, 8), transient, distance=1) == agreement(halves(8, 8), undecided, distance=1)

@@ -9,21 +9,7 @@ from scipy.special import betaln, comb, logsumexp
 from scipy.stats import betabinom, halfnorm, uniform
 
 from cointoss.compare.flips.counts import Flips
-from cointoss.compare.flips.people import (
-    WOBBLING,
-    People,
-    crossing,
-    log_binomial,
-    log_likelihoods,
-    quantiles,
-)
-
-
-def test_the_spread_of_psi_is_the_root_of_its_mean_square():
-    """p = 1/2 + asin(tan² φ)/π, solved for φ = 90° - ψ."""
-    p = quantiles(WOBBLING, np.array([0.1]), (np.arange(4000) + 0.5) / 4000)
-    off = np.arctan(np.sqrt(np.sin(np.pi * (p - 0.5))))
-    assert np.sqrt(np.mean(off**2)) == pytest.approx(0.1, rel=1e-3)
+from cointoss.compare.flips.people import CAUGHT, People, crossing, log_binomial, log_likelihoods, wobbling
 
 
 @pytest.mark.parametrize(("same", "flips"), [(55, 100), (520_000, 1_000_000)])
@@ -64,14 +50,14 @@ def log_integral_over_the_angle(scatter, same, flips):
 )
 def test_the_likelihood_of_people_who_wobble_much_is_its_integral(same, flips, scatter):
     """However wide the scatter, and next to 45°, where p comes to 1 with an infinite slope."""
-    found = log_likelihoods(Flips(same=[same], flips=[flips]), WOBBLING, np.array([scatter]))
+    found = log_likelihoods(Flips(same=[same], flips=[flips]), wobbling(CAUGHT), np.array([scatter]))
     assert found[0] == pytest.approx(log_integral_over_the_angle(scatter, same, flips), abs=1e-4)
 
 
 def test_the_likelihood_of_people_who_wobble_much_has_one_peak():
     flips = Flips(same=[20_000, 22_000, 13_000, 24_000], flips=[25_000] * 4)
     scatters = np.radians(np.arange(15, 90))
-    found = [log_likelihoods(flips, WOBBLING, np.array([scatter])).sum() for scatter in scatters]
+    found = [log_likelihoods(flips, wobbling(CAUGHT), np.array([scatter])).sum() for scatter in scatters]
     assert np.count_nonzero(np.diff(np.sign(np.diff(found)))) == 1
     assert np.degrees(scatters[np.argmax(found)]) == pytest.approx(38.4, abs=1)
 

@@ -12,11 +12,11 @@ from cointoss.study import (
     Array,
     MapAxis,
     Progress,
-    crossings,
     rows_from_states,
     share,
 )
 from cointoss_reproduction.frame.declared import Data, Findings, declared
+from cointoss_reproduction.setups.crossings import crossings
 from cointoss_reproduction.setups.kellers_map import FASTEST, HIGHEST, middles, thrown
 from cointoss_reproduction.setups.planar_maps import case, draw_titled, toss_rows_by_mujoco
 

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from cointoss.study import Array, Body, Rules, strike
+from cointoss.study import Array, Body, Rules
+from cointoss_reproduction.studies.contact_laws.single_impacts import strike
 
 SPEED = 1.0
 """The largest velocity of C along each axis [m/s]."""

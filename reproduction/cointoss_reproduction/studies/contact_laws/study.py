@@ -10,10 +10,11 @@ import numpy as np
 import pandas as pd
 
 from cointoss import ContactLaw, Flag, Impacts, RestitutionKind, load
-from cointoss.study import Array, Body, Rules, raised_flags, strike
+from cointoss.study import Array, Body, Rules, raised_flags
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.studies.contact_laws.random_impacts import draw_states
+from cointoss_reproduction.studies.contact_laws.single_impacts import strike
 from cointoss_reproduction.studies.contact_laws.thresholds import onset_of_gain, onset_without_solution
 
 SEED = 2008

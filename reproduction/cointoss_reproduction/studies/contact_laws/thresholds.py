@@ -6,8 +6,9 @@ from collections.abc import Callable
 import numpy as np
 from scipy.optimize import brentq, minimize
 
-from cointoss.study import Array, Body, Rules, quaternion_from_angles, strike
+from cointoss.study import Array, Body, Rules, quaternion_from_angles
 from cointoss_reproduction.setups.halving import halved
+from cointoss_reproduction.studies.contact_laws.single_impacts import strike
 
 MOST_FRICTION = 100.0
 _TRIED_PER_UNKNOWN, _REFINED = 40, 5

@@ -9,10 +9,11 @@ from matplotlib.figure import Figure
 
 from cointoss import Air, Scenario, load
 from cointoss.coin_mj import impacts_of
-from cointoss.study import Array, divergence, growth_by_tangent, mean, run, share, state_at_release
+from cointoss.study import Array, mean, run, share, state_at_release
 from cointoss_reproduction.frame.cells import Cells, column
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.planar_maps import MEDIA
+from cointoss_reproduction.studies.fig27.lyapunov import divergence, growth_by_tangent
 
 PRINTED = {"air": 0.024, "vacuum": 0.08}
 """The paper's exponents."""

@@ -5,8 +5,9 @@ from matplotlib.figure import Figure
 
 from cointoss import Face, Outcome, Scenario
 from cointoss.coin_mj import impacts_of
-from cointoss.study import OutcomeCodes, Progress, crossings, distance_to_doubt, fractions, share
+from cointoss.study import OutcomeCodes, Progress, distance_to_doubt, fractions, share
 from cointoss_reproduction.frame.declared import Data, Findings, declared
+from cointoss_reproduction.setups.crossings import crossings
 from cointoss_reproduction.setups.planar_maps import (
     HEIGHTS,
     MEDIA,

@@ -15,10 +15,10 @@ from cointoss.study import (
     common_prefix,
     rows_of,
     share,
-    stills,
 )
 from cointoss_reproduction.frame.declared import Data, Findings, declared
 from cointoss_reproduction.setups.planar_maps import faces_after
+from cointoss_reproduction.studies.fig5.stills import stills
 
 ROWS, COLUMNS = 3, 5
 BEFORE = 0.02

@@ -1,4 +1,4 @@
-"""350,757 flips by 48 people, and distributions of p, the probability of the same side, without wobble."""
+"""350,757 flips by 48 people, and distributions over people of p, the probability of the same side."""
 
 from importlib import resources
 
@@ -7,8 +7,10 @@ import pandas as pd
 from scipy.stats import expon, norm
 
 from cointoss import Flips
-from cointoss.study import People
+from cointoss.study import CAUGHT, Array, People, PeopleFit, quadrature, wobbling
 
+WOBBLING = wobbling(CAUGHT)
+"""People who wobble, and catch the coin."""
 NORMAL = People(norm(), (-11.0, 11.0), lambda x, latent: x[1] + x[0] * latent, start=(0.01, 0.5))
 """p is normal, whatever made it; its parameters are its standard deviation and its mean."""
 EXPONENTIAL = People(expon(), (0.0, 60.0), lambda x, latent: 0.5 + x[0] * latent, start=(0.01,))
@@ -35,3 +37,16 @@ def read_flips() -> Flips:
 def without(flips: Flips, person: int) -> Flips:
     """Return the counts of all but one person."""
     return Flips(same=np.delete(flips.same, person), flips=np.delete(flips.flips, person))
+
+
+def quantiles(people: People, parameters: Array, parts: Array) -> Array:
+    """Return the p below which parts of the people are, (n,) to (n,); p must grow with the latent number."""
+    return people.probability(parameters, people.latent.ppf(parts))
+
+
+def spread_of(found: PeopleFit) -> float:
+    """Return the standard deviation of p over people."""
+    latent, weights = quadrature(found.people, found.parameters, 1)
+    of_latent = weights * found.people.latent.pdf(latent)
+    p = found.people.probability(found.parameters, latent)
+    return float(np.sqrt(of_latent @ (p - of_latent @ p) ** 2))

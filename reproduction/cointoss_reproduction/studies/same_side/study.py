@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from cointoss import Engine, Hand
 from cointoss.study import (
     TOUCHES,
-    WOBBLING,
     Array,
     Estimate,
     PeopleFit,
@@ -20,12 +19,10 @@ from cointoss.study import (
     fit_people,
     jackknife,
     log_likelihoods,
-    quantiles,
     rows_from_states,
     share,
     share_of,
     spread_interval,
-    spread_of,
 )
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
@@ -33,8 +30,11 @@ from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.studies.same_side.people import (
     EXPONENTIAL,
     NORMAL,
+    WOBBLING,
+    quantiles,
     read_flips,
     read_started,
+    spread_of,
     without,
 )
 

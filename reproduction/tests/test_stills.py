@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from cointoss.compare.film.back_end import ADVICE
-from cointoss.compare.film.stills import stills
 from cointoss.models.records import States
+from cointoss_reproduction.studies.fig5.stills import stills
 from tests.helpers.draws import scenario
 
 

@@ -8,21 +8,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.compare.film.back_end import drawing_problem
-from cointoss.models.records import States
-from cointoss.models.scenario import Scenario
+from cointoss import Scenario, States
+from cointoss.study import drawing_problem
 
-Stills = NDArray[Any]
-"""Red, green and blue, (n, height, width, 3) of uint8."""
 HEIGHT, WIDTH = 150, 200
 
 
-def stills(scenario: Scenario, states: States) -> Stills | str:
+def stills(scenario: Scenario, states: States) -> NDArray[Any] | str:
     """Return pictures of a coin in several states, seen by one camera at rest, or why there are none.
 
     Args:
         scenario: what is tossed.
         states: of the coin, (n,).
+
+    Returns:
+        Red, green and blue, (n, height, width, 3) of uint8.
     """
     problem = drawing_problem()
     if problem is not None:
@@ -30,8 +30,7 @@ def stills(scenario: Scenario, states: States) -> Stills | str:
 
     import mujoco
 
-    from cointoss.compare.film.shadow import add_shadow
-    from cointoss.compare.film.visual_model import build_visual_model
+    from cointoss.study import add_shadow, build_visual_model
 
     r, low, high = scenario.coin.radius, states.position.min(axis=0), states.position.max(axis=0)
     span = float(np.linalg.norm(high - low)) + 4 * r

@@ -5,7 +5,7 @@ import pytest
 
 from cointoss.analytic.runs import run
 from cointoss.analytic.toss import state_at_release
-from cointoss.compare.metrics.lyapunov import divergence, growth_by_tangent
+from cointoss_reproduction.studies.fig27.lyapunov import divergence, growth_by_tangent
 from tests.helpers.draws import scenario
 
 

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from cointoss.analytic import single_impacts
 from cointoss.analytic.contact.resets import hit
-from cointoss.analytic.single_impacts import strike
 from cointoss.analytic.striking import strike_each
 from cointoss.models.laws import ContactLaw
 from cointoss.models.records import IMPACT_ROW
+from cointoss_reproduction.studies.contact_laws import single_impacts
+from cointoss_reproduction.studies.contact_laws.single_impacts import strike
 from tests.helpers.draws import scenario
 from tests.helpers.impacts import draw_impact
 

@@ -4,10 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
-from cointoss.analytic.runs import event_tangent, run
-from cointoss.analytic.toss import state_at_release
-from cointoss.models.records import Array
-from cointoss.models.scenario import Scenario
+from cointoss import Scenario
+from cointoss.study import Array, event_tangent, run, state_at_release
 
 
 def growth_by_tangent(scenario: Scenario) -> Array:

@@ -3,9 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cointoss.analytic.entries import strike_each
-from cointoss.models.body import Body, Rules
-from cointoss.models.records import IMPACT_ROW, Array, Impacts
+from cointoss import Impacts
+from cointoss.study import IMPACT_ROW, Array, Body, Rules, strike_each
 
 
 def strike(
