@@ -103,7 +103,7 @@ def fit(observed: Path, source: Source | None, asked: SoughtValues) -> None:
     if asked.out is not None:
         write_text(asked.out, found.scenario.to_toml())
     if asked.png is not None:
-        from cointoss.compare.fitting.picture import draw_fit
+        from cointoss.compare.fitting.figure import draw_fit
         from cointoss.compare.output.plots import picture_bytes
 
         write_bytes(asked.png, picture_bytes(draw_fit(found)))

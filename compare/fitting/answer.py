@@ -8,28 +8,27 @@ from cointoss.models.records import Face
 
 MOST_OTHERS = 5
 """The most other values that are printed."""
+_MEANING = "            (p: how likely errors of what was seen alone make a chi-square this large)"
+_BEYOND = "beyond the horizon of trust, so they test nothing"
 
 
 def as_lines(fit: Fit) -> str:
     """Return a fit as text."""
-    lines = [_value(each) for each in fit.values]
-    lines += ["", f"verdict     {fit.verdict}"]
-    if fit.degrees > 0:
-        lines.append("            (p: how likely errors of what was seen alone make a chi-square this large)")
-    lines.append(f"seen        {_seen(fit)}")
-    if fit.untested_touches:
-        numbers = ", ".join(map(str, fit.untested_touches))
-        lines.append(f"untested    touches {numbers}: beyond the horizon of trust, so they test nothing")
-    for pair in _correlated(fit) if fit.is_possible else []:
-        lines.append(f"correlated  {pair}")
-    for other in fit.others[:MOST_OTHERS]:
-        told = ", ".join(f"{each.span.field} = {each.value:.6g}" for each in other.values)
-        lines.append(f"or          {told}: chi-square {other.chi_square:.4g}")
-    if len(fit.others) > MOST_OTHERS:
-        lines.append(f"or          {len(fit.others) - MOST_OTHERS} more that explain it")
-    if len(fit.observed.touch_times):
-        lines += ["", "touch  up  seen [s]   fitted [s]  residual [sd]", *_touches(fit)]
-    return "\n".join(lines)
+    untested, others = ", ".join(map(str, fit.untested_touches)), len(fit.others)
+    return "\n".join(
+        [
+            *map(_value, fit.values),
+            "",
+            f"verdict     {fit.verdict}",
+            *([_MEANING] if fit.degrees > 0 else []),
+            f"seen        {_seen(fit)}",
+            *([f"untested    touches {untested}: {_BEYOND}"] if untested else []),
+            *(f"correlated  {pair}" for pair in (_correlated(fit) if fit.is_possible else [])),
+            *(f"or          {_other(other)}" for other in fit.others[:MOST_OTHERS]),
+            *([f"or          {others - MOST_OTHERS} more that explain it"] if others > MOST_OTHERS else []),
+            *(_touches(fit) if len(fit.observed.touch_times) else []),
+        ]
+    )
 
 
 def _value(each: Fitted) -> str:
@@ -52,15 +51,16 @@ def _end_of(each: Fitted) -> str:
 
 
 def _seen(fit: Fit) -> str:
-    seen = fit.observed
-    parts = (
-        [counted(len(seen.touch_times), "touch").replace("touchs", "touches")]
-        if len(seen.touch_times)
-        else []
-    )
-    frames = {"heights": seen.heights, "tilts": seen.tilts, "attitudes": seen.quaternions[:, 0]}
-    parts += [f"{n} {name}" for name, values in frames.items() if (n := int(np.isfinite(values).sum()))]
+    touches = len(fit.observed.touch_times)
+    numbers = {name: int(of.sum()) for name, of in fit.observed.measured.items()}
+    parts = [counted(touches, "touch").replace("touchs", "touches")] if touches else []
+    parts += [f"{n} {name}" for name, n in numbers.items() if n]
     return f"{', '.join(parts)}; {counted(len(fit.values), 'value')} fitted"
+
+
+def _other(other: Fit) -> str:
+    values = ", ".join(f"{each.span.field} = {each.value:.6g}" for each in other.values)
+    return f"{values}: chi-square {other.chi_square:.4g}"
 
 
 def _correlated(fit: Fit) -> list[str]:
@@ -74,7 +74,7 @@ def _correlated(fit: Fit) -> list[str]:
 
 
 def _touches(fit: Fit) -> list[str]:
-    seen, lines = fit.observed, []
+    seen, lines = fit.observed, ["", "touch  up  seen [s]   fitted [s]  residual [sd]"]
     for number, time, face, fitted, missed, tested in zip(
         seen.touch_numbers,
         seen.touch_times,

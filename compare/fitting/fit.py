@@ -182,9 +182,10 @@ class Fit:
         Returns:
             The axes.
         """
-        from cointoss.compare.fitting.picture import plot_fit  # Matplotlib takes long to import
+        from cointoss.compare.fitting.picture import plot_seen  # Matplotlib takes long to import
 
-        return plot_fit(self, ax)  # pyright: ignore[reportArgumentType]
+        tested = self.tested[: len(self.observed.touch_times)]
+        return plot_seen(self.observed, self.toss, self.clock, tested, ax)
 
 
 def fit(

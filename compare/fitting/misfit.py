@@ -77,9 +77,7 @@ class Misfit:
     @cached_property
     def _frames(self) -> list[NDArray[np.intp]]:
         """Rows of the frames with a height, with a tilt, and three times those with an attitude."""
-        seen = self.observed
-        columns = (seen.heights, seen.tilts, seen.quaternions[:, 0])
-        heights, tilts, attitudes = (np.flatnonzero(np.isfinite(values)) for values in columns)
+        heights, tilts, attitudes = map(np.flatnonzero, self.observed.measured.values())
         return [heights, tilts, np.repeat(attitudes, 3)]
 
     @cached_property

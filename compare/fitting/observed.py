@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cointoss.compare.fitting.errors import ObservationError, ValueRefusedError
-from cointoss.models.attitude import norm_of
 from cointoss.models.quantities import LARGEST
 from cointoss.models.records import Array, Face
 
@@ -17,6 +16,7 @@ LEAST_SD = 1e-12
 """The least standard deviation, in SI units; nothing is measured better."""
 NORM_ERROR = 0.05
 """The largest error of the norm of measured Euler parameters; they are brought to norm 1."""
+_KINDS: dict[str, Any] = {"touch_numbers": np.int64, "faces": np.int8}
 
 
 @dataclass(frozen=True, init=False, eq=False)
@@ -80,64 +80,72 @@ class Observed:
         given["faces"] = _faces(faces, n)
         if np.size(touch_numbers) == 0:
             given["touch_numbers"] = np.arange(1, n + 1)
-        shapes = {item.name: (n if item.name.startswith(("touch", "face")) else m,) for item in fields(self)}
-        for name, shape in shapes.items():
-            values = np.array(given[name], dtype=float)
-            whole = (*shape, 4) if name == "quaternions" else shape
-            if values.size == 0:
-                values = np.full(whole, np.nan)
-            elif name.endswith("_sd") and values.ndim == 0:
-                values = np.full(whole, values)
-            if values.shape != whole:
-                raise ObservationError(f"Observed.{name}: shape {values.shape}, accepted: {whole}")
-            self._keep(name, values)
+        for item in fields(self):
+            count = n if item.name.startswith(("touch", "face")) else m
+            shape = (count, 4) if item.name == "quaternions" else (count,)
+            kept = _array(item.name, given[item.name], shape).astype(_KINDS.get(item.name, np.float64))
+            kept.setflags(write=False)
+            object.__setattr__(self, item.name, kept)
         self._check()
-
-    def _keep(self, name: str, values: Array) -> None:
-        kinds: dict[str, Any] = {"touch_numbers": np.int64, "faces": np.int8}
-        if name in kinds:
-            bad = ~((values % 1 == 0) & (np.abs(values) <= MOST))
-            _refuse(name, values, bad, f"whole numbers up to {MOST}")
-        kept = values.astype(kinds.get(name, np.float64))
-        kept.setflags(write=False)
-        object.__setattr__(self, name, kept)
-
-    def _check(self) -> None:
-        finite = np.isfinite
-        for name in ("touch_times", "times"):
-            times = getattr(self, name)
-            _refuse(name, times, ~(np.abs(times) <= LARGEST), f"numbers within {LARGEST:g} [s]")
-        _refuse("heights", self.heights, np.abs(self.heights) > LARGEST, f"numbers within {LARGEST:g} [m]")
-        earlier = np.diff(self.touch_numbers, prepend=0) <= 0
-        _refuse("touch_numbers", self.touch_numbers, earlier, "rising whole numbers from 1")
-        back = np.diff(self.touch_times, prepend=-np.inf) < 0
-        _refuse("touch_times", self.touch_times, back, "times in their order")
-        norms = np.array([norm_of((a, b, c, d)) for a, b, c, d in self.quaternions.tolist()])
-        wrong = np.abs(norms - 1) > NORM_ERROR if len(norms) else np.zeros(0, dtype=bool)
-        _refuse("quaternions", self.quaternions, wrong, f"four numbers of norm 1 within {NORM_ERROR:g}")
-        outside = (self.tilts < 0) | (self.tilts > np.pi)
-        _refuse("tilts", self.tilts, outside, "angles from 0 to pi [rad]")
-        for name, values in (
-            ("touch_sd", self.touch_times),
-            ("height_sd", self.heights),
-            ("tilt_sd", self.tilts),
-            ("quaternion_sd", self.quaternions[:, 0]),
-        ):
-            sd = getattr(self, name)
-            bounds = f"a standard deviation from {LEAST_SD:g} to {LARGEST:g}"
-            _refuse(name, sd, finite(values) & ~((sd >= LEAST_SD) & (sd <= LARGEST)), bounds)
         if self.count == 0:
             raise ObservationError("Observed: nothing was seen; accepted: touches, heights or attitudes")
+
+    def _check(self) -> None:
+        """Refuse numbers that no observation has."""
+        norms = np.hypot.reduce(self.quaternions, axis=1)
+        near, bounds = f"numbers within {LARGEST:g}", f"a standard deviation from {LEAST_SD:g} to {LARGEST:g}"
+        measured = {
+            "touch_sd": self.touch_times,
+            "height_sd": self.heights,
+            "tilt_sd": self.tilts,
+            "quaternion_sd": self.quaternions[:, 0],
+        }
+        for name, refused, accepted in (
+            ("touch_times", ~(np.abs(self.touch_times) <= LARGEST), f"{near} [s]"),
+            ("times", ~(np.abs(self.times) <= LARGEST), f"{near} [s]"),
+            ("heights", np.abs(self.heights) > LARGEST, f"{near} [m]"),
+            ("touch_numbers", np.diff(self.touch_numbers, prepend=0) <= 0, "rising whole numbers from 1"),
+            ("touch_times", np.diff(self.touch_times, prepend=-np.inf) < 0, "times in their order"),
+            ("quaternions", np.abs(norms - 1) > NORM_ERROR, f"four numbers of norm 1 within {NORM_ERROR:g}"),
+            ("tilts", (self.tilts < 0) | (self.tilts > np.pi), "angles from 0 to pi [rad]"),
+            *(
+                (name, np.isfinite(of) & ~_is_sd(getattr(self, name)), bounds)
+                for name, of in measured.items()
+            ),
+        ):
+            _refuse(name, getattr(self, name), refused, accepted)
 
     @property
     def count(self) -> int:
         """How many numbers were seen; a face is none, and an attitude three."""
-        frames = sum(int(np.isfinite(values).sum()) for values in (self.heights, self.tilts))
-        return len(self.touch_times) + frames + 3 * int(np.isfinite(self.quaternions[:, 0]).sum())
+        heights, tilts, attitudes = (int(of.sum()) for of in self.measured.values())
+        return len(self.touch_times) + heights + tilts + 3 * attitudes
+
+    @property
+    def measured(self) -> dict[str, NDArray[np.bool_]]:
+        """The frames in which heights, tilts and attitudes were measured, by these names, (m,) each."""
+        columns = {"heights": self.heights, "tilts": self.tilts, "attitudes": self.quaternions[:, 0]}
+        return {name: np.isfinite(values) for name, values in columns.items()}
 
     def __repr__(self) -> str:
         """Return how much was seen."""
         return f"<Observed: {len(self.touch_times)} touches, {len(self.times)} frames>"
+
+
+def _array(name: str, given: ArrayLike, shape: tuple[int, ...]) -> Array:
+    """Return an argument's numbers: NaN where nothing is given; one standard deviation is that of all."""
+    values = np.array(given, dtype=float)
+    if values.size == 0 or (name.endswith("_sd") and values.ndim == 0):
+        values = np.full(shape, values if values.size else np.nan)
+    if values.shape != shape:
+        raise ObservationError(f"Observed.{name}: shape {values.shape}, accepted: {shape}")
+    if name in _KINDS:
+        _refuse(name, values, ~((values % 1 == 0) & (np.abs(values) <= MOST)), f"whole numbers up to {MOST}")
+    return values
+
+
+def _is_sd(values: Array) -> NDArray[np.bool_]:
+    return (values >= LEAST_SD) & (values <= LARGEST)
 
 
 def _faces(given: Any, n: int) -> ArrayLike:
