@@ -15,8 +15,9 @@ from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.fitting.fields import spans_given
 from cointoss.compare.fitting.misfit import Misfit
 from cointoss.compare.fitting.observed import Observed
-from cointoss.compare.fitting.search import LEVEL, LeastSquaresSearch, Minimum
+from cointoss.compare.fitting.search import LeastSquaresSearch, Minimum
 from cointoss.compare.fitting.table import read_seen
+from cointoss.compare.metrics.estimates import LEVEL
 from cointoss.compare.sweep.axes import Span
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
 from cointoss.models.devices import Device
@@ -107,9 +108,8 @@ class Fit:
             f"{'degree' if self.degrees == 1 else 'degrees'} of freedom, "
             f"{'p < 1e-300' if self.p_value < 1e-300 else f'p = {self.p_value:.2g}'}"
         )
-        can = "can" if self.is_possible else "cannot"
         so = "" if self.is_possible else " with any values of its free fields that were found"
-        return f"this model {can} do what was seen{so}: {found}"
+        return f"this model {'cannot' if so else 'can'} do what was seen{so}: {found}"
 
     @property
     def untested_touches(self) -> tuple[int, ...]:

@@ -178,7 +178,7 @@ def drawn_near(
     information: Array,
     held: NDArray[np.bool_],
     rng: np.random.Generator,
-    spread: Array | float,
+    spread: Array | float = 1.0,
 ) -> Array:
     """Return a point drawn within the errors of each of some, (n, k).
 

@@ -16,6 +16,7 @@ from scipy.stats import chi2, qmc
 from cointoss.compare.fitting.descent import Descent, squares
 from cointoss.compare.fitting.intervals import Known, drawn_near, halved, region_of
 from cointoss.compare.fitting.misfit import Misfit, Predicted
+from cointoss.compare.metrics.estimates import LEVEL
 from cointoss.models.errors import ScenarioError
 from cointoss.models.records import Array
 from cointoss.models.stages import stage
@@ -33,8 +34,6 @@ APART = 1.0
 NEAR, FEW = 50.0, 512
 """The next observations are fitted while, at `FEW` points or more, their χ² exceeds the least by at most
 `NEAR`."""
-SPREAD = 1.0
-"""The spread of neighbours, in standard deviations."""
 GROWTH, SLOWEST = 1.6, 64
 """How the count of fitted numbers grows from stage to stage: at most by the factor `GROWTH`, at least by the
 part 1/`SLOWEST`."""
@@ -48,8 +47,6 @@ EARLIER = 4
 SURELY, REACH = 5.0, 5.0
 """An observation this many standard deviations before the first touch is surely before it; and no end of an
 interval is sought beyond this many deviations of a value that such observations alone determine."""
-LEVEL = 0.99
-"""Level of the intervals."""
 ABOVE = float(chi2.ppf(LEVEL, 1))
 """How far χ² may exceed its least for a value in the interval."""
 AGAIN, GAIN = 3, 1e-3
@@ -253,7 +250,7 @@ class LeastSquaresSearch:
         """Return points drawn within the errors of each of some, (n, k), alike many of each."""
         chosen = np.resize(np.arange(len(points)), max(halved(DRAWN, self._descent.size), len(points)))
         held = np.zeros((len(chosen), self._descent.size), dtype=bool)
-        return drawn_near(points[chosen], information[chosen], held, self._rng, SPREAD)
+        return drawn_near(points[chosen], information[chosen], held, self._rng)
 
     def _refined(self, point: Array) -> Minimum | None:
         """Return the minimum near a point of what is within its own horizon; None where it is no scenario."""

@@ -5,6 +5,9 @@ from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 from cointoss.compare.fitting.cells import (
     BEFORE_HEADER,
     read_cells,
@@ -80,13 +83,12 @@ def _flips(head: Sequence[str], rows: Sequence[Sequence[str]]) -> Flips:
     if not rows:
         raise ObservationError("no rows; accepted: one or more, each a person or a series")
     require_whole_rows(rows, 1 + max(used.values()), len(head))
-    sums: dict[str, tuple[int, int]] = {}
+    sums: dict[str, NDArray[np.int64]] = {}
     for n, row in enumerate(rows, start=1):
         person = row[columns["person"]] if "person" in columns else str(n)
-        same, flips = _counts({key: (head[columns[key]], row[columns[key]]) for key in way}, n)
-        before = sums.get(person, (0, 0))
-        sums[person] = before[0] + same, before[1] + flips
-    same, flips = zip(*sums.values(), strict=True)
+        counts = _counts({key: (head[columns[key]], row[columns[key]]) for key in way}, n)
+        sums[person] = sums.get(person, 0) + np.array(counts)
+    same, flips = np.transpose(list(sums.values()))
     try:
         return Flips(same=same, flips=flips, people=tuple(sums))
     except ValueRefusedError as error:
