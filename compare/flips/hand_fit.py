@@ -174,23 +174,23 @@ def flips(
     return _hand_fit(seen, described, usual, side, seed)
 
 
-def _hand_fit(flips: Flips, scenario: Scenario | None, usual: Hand, side: SameSide, seed: int) -> HandFit:
+def _hand_fit(counts: Flips, scenario: Scenario | None, usual: Hand, side: SameSide, seed: int) -> HandFit:
     """Return the hand that explains counts of a side as likely as `side` says."""
     each = tuple(
         PersonFit(person=name, share=share_of(same, count, "flips"), psi=_psi_of(same, count, side))
-        for name, same, count in zip(flips.people, flips.same.tolist(), flips.flips.tolist(), strict=True)
+        for name, same, count in zip(counts.people, counts.same.tolist(), counts.flips.tolist(), strict=True)
     )
-    chances, scatter = _chances_of_shares(flips, side), None
+    chances, scatter = _chances_of_shares(counts, side), None
     psi = each[0].psi.value
     fitted = replace(usual, psi=usual.psi if math.isnan(psi) else psi, psi_scatter=0.0)
     if len(each) > 1:
-        people = fit_people(flips, wobbling(side))
-        low, high = spread_interval(flips, people)
+        people = fit_people(counts, wobbling(side))
+        low, high = spread_interval(counts, people)
         scatter = Estimate(float(people.parameters[0]), float(low), float(high), len(each), "people")
         fitted = replace(usual, psi=math.pi / 2, psi_scatter=scatter.value)
-        chances["people differ too much"] = chance_of_spread(flips, people, np.random.default_rng(seed))
+        chances["people differ too much"] = chance_of_spread(counts, people, np.random.default_rng(seed))
     found = HandFit(
-        flips=flips, people=each, scatter=scatter, hand=fitted, chances=chances, scenario=scenario
+        flips=counts, people=each, scatter=scatter, hand=fitted, chances=chances, scenario=scenario
     )
     return found if found.is_possible else _without_intervals(found)
 

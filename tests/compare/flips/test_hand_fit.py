@@ -214,5 +214,6 @@ def test_a_fit_says_where_counts_belong(counts, scenario):
     for given in (counts, flips(counts).flips):
         with pytest.raises(ObservationError, match=r"cointoss.flips takes counts$"):
             fit(given, scenario, {"z": (0.1, 0.2)})
-    words = [word for word in (counts, scenario) if word]
-    assert cointoss("fit", *words).stderr.endswith("; cointoss flips takes counts\n")
+    assert cointoss("fit", *filter(None, (counts, scenario))).stderr.endswith(
+        "; cointoss flips takes counts\n"
+    )

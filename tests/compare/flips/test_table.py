@@ -13,8 +13,7 @@ def read(tmp_path):
     """Read the counts of a table's text."""
 
     def read_text(text: str) -> Flips:
-        path = tmp_path / "seen.csv"
-        path.write_text(text, encoding="utf-8")
+        (path := tmp_path / "seen.csv").write_text(text, encoding="utf-8")
         return read_flips(path)
 
     return read_text
@@ -114,6 +113,7 @@ def test_what_no_counts_are_is_refused(read, text, message):
             r"^Flips.same: \['a'\], accepted: whole numbers from 0, one for each",
         ),
         ({"same": [1], "flips": [[1], 2]}, r"^Flips.flips: \[\[1\], 2\], accepted: whole numbers from 0"),
+        ({"same": [0] * 1001, "flips": [1] * 1001}, r"Flips.flips: shape \(1001,\), accepted: one of"),
         ({"same": [float("nan")], "flips": [2]}, r"Flips.same: \[0\] is nan"),
     ],
 )
