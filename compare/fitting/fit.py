@@ -245,9 +245,7 @@ def fit(
         )
     minima, ends = searched
     best, *others = (_fit_of(misfit, minimum, ends) for minimum in minima)
-    values = best.values
-    if not best.is_possible:
-        values = tuple(replace(each, interval=None) for each in values)
+    values = tuple(each if best.is_possible else replace(each, interval=None) for each in best.values)
     return replace(best, values=values, others=tuple(other for other in others if other.is_possible))
 
 

@@ -158,8 +158,7 @@ def _drawn_at(known: Known, field: int, value: float, count: int, rng: np.random
     away = (value - known.points[:, field]) ** 2 / variance
     nearest = np.argsort(away, kind="stable")[: max(count // 4, 1)]
     chosen = np.resize(nearest, count)
-    held = np.zeros((count, k), dtype=bool)
-    held[:, field] = True
+    held = np.tile(np.arange(k) == field, (count, 1))
     moved = np.where(held, value - known.points[chosen], 0.0)
     mean = known.points[chosen] + _along(known.information[chosen], moved, held)
     spread = (np.arange(count) >= len(nearest)).astype(float)

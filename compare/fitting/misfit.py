@@ -65,10 +65,8 @@ class Misfit:
     @cached_property
     def is_measured(self) -> NDArray[np.bool_]:
         """Which residuals are of a number, not of a face, (n,)."""
-        measured = np.ones(len(self.times), dtype=bool)
-        first = len(self.observed.touch_times)
-        measured[first : first + len(self._faces)] = False
-        return measured
+        place = np.arange(len(self.times)) - len(self.observed.touch_times)
+        return (place < 0) | (place >= len(self._faces))
 
     @cached_property
     def _faces(self) -> NDArray[np.intp]:
