@@ -86,7 +86,6 @@ if TYPE_CHECKING:
     from cointoss.compare.output.accepted import Form as Form
     from cointoss.compare.output.accepted import Within as Within
     from cointoss.compare.output.accepted import Written as Written
-    from cointoss.compare.output.files import remove as remove
     from cointoss.compare.output.files import require_folder as require_folder
     from cointoss.compare.output.files import write_text as write_text
     from cointoss.compare.output.files import written_together as written_together

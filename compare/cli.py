@@ -12,7 +12,7 @@ from typing import Any, NoReturn
 import click
 
 from cointoss.compare.commands.common import ARGUMENTS, refuse
-from cointoss.compare.output.interruption import arisen_from, run_to_exit
+from cointoss.compare.output.interruption import run_to_exit
 from cointoss.models.distribution import DISTRIBUTION
 from cointoss.models.errors import meant
 
@@ -180,12 +180,10 @@ def _options(command: click.Command) -> list[str]:
     return [text for option in command.params for text in option.opts if text.startswith("-")]
 
 
-def _lacks_memory(error: BaseException) -> bool:
+def _lacks_memory(error: BaseException | None) -> bool:
     """Return whether an error, or one that it arose from, is that the system refused memory or a thread."""
-    return any(
-        isinstance(each, MemoryError) or any(words in str(each) for words in _LACKING)
-        for each in arisen_from(error)
-    )
+    is_such = isinstance(error, MemoryError) or any(words in str(error) for words in _LACKING)
+    return is_such or (error is not None and _lacks_memory(error.__context__))
 
 
 if __name__ == "__main__":

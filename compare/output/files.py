@@ -5,12 +5,9 @@ import shutil
 import stat
 import sys
 import tempfile
-import uuid
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
-
-from cointoss.compare.output.interruption import undoing
 
 PREFIX, LOCK = ".cointoss-", ".lock"
 """What the name of a folder aside begins with, and the file in it that is locked while its process lives."""
@@ -171,7 +168,8 @@ def written_together(folder: Path, names: tuple[str, ...]) -> Iterator[Path]:
     """
     require_folder(folder, names)
     made = [part for part in folder.parents if not os.path.lexists(part)]
-    with naming(folder), undoing(lambda: _remove_empty(made)):
+    with naming(folder), ExitStack() as undone:
+        undone.callback(_remove_empty, made)
         folder.parent.mkdir(parents=True, exist_ok=True)
         with aside_in(folder if folder.exists() else folder.parent) as aside:
             written = aside / "made"
@@ -205,21 +203,12 @@ def aside_in(folder: Path) -> Iterator[Path]:
     for left in folder.glob(f"{PREFIX}*/{LOCK}"):
         with suppress(OSError, NotImplementedError), FileLock(left).acquire(blocking=False):
             shutil.rmtree(left.parent)
-    aside = folder / f"{PREFIX}{uuid.uuid4().hex}"
-    with undoing(lambda: remove(aside)), ExitStack() as held:
-        aside.mkdir(mode=0o700)
+    aside = tempfile.TemporaryDirectory(prefix=PREFIX, dir=folder, ignore_cleanup_errors=True)
+    with aside as name, ExitStack() as held:
         with suppress(NotImplementedError):  # a disk without locks, where nobody else gets one either
             # Another process that finds the folder before it is locked has the lock for a moment.
-            held.enter_context(FileLock(aside / LOCK).acquire(timeout=1))
-        yield aside
-
-
-def remove(path: Path) -> None:
-    """Remove a file or a folder, if it is there."""
-    if path.is_dir():
-        shutil.rmtree(path, ignore_errors=True)
-    else:
-        path.unlink(missing_ok=True)
+            held.enter_context(FileLock(Path(name) / LOCK).acquire(timeout=1))
+        yield Path(name)
 
 
 def _remove_empty(folders: list[Path]) -> None:

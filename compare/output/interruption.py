@@ -3,7 +3,6 @@
 import os
 import signal
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import NoReturn
@@ -14,8 +13,6 @@ from cointoss.models.stages import at_work, clear_line
 _NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
 SIGNALS: tuple[signal.Signals, ...] = tuple(getattr(signal, name) for name in _NAMES if hasattr(signal, name))
 """The signals that this system has; Ctrl-Break is Windows' own."""
-SOON = 0.1
-"""How long after a child process stopped the signal that stopped it may be heeded here [s]."""
 
 
 class Interruption(SystemExit):
@@ -30,15 +27,6 @@ class Interruption(SystemExit):
 
 
 @contextmanager
-def undoing(undo: Callable[[], None]) -> Iterator[None]:
-    """Call `undo` when the `with` statement ends, however it ends."""
-    try:
-        yield
-    finally:
-        undo()
-
-
-@contextmanager
 def saying(say: Callable[[str], str]) -> Iterator[None]:
     """Let an interruption within the `with` statement say what `say` returns of its name."""
     try:
@@ -46,28 +34,6 @@ def saying(say: Callable[[str], str]) -> Iterator[None]:
     except Interruption as interruption:
         interruption.message = say(interruption.name)
         raise
-
-
-def arisen_from(error: BaseException) -> Iterator[BaseException]:
-    """Yield an error, and those from which it arose."""
-    behind: BaseException | None = error
-    while behind is not None:
-        yield behind
-        behind = behind.__context__
-
-
-def raise_interruption_behind(error: BaseException) -> None:
-    """Raise the interruption that an error arose from; return where there is none.
-
-    Ctrl-C ends a child process too, and its complaint may come before the signal is heeded here.
-    """
-    for behind in arisen_from(error):
-        if isinstance(behind, KeyboardInterrupt | SystemExit):
-            raise behind from None
-    try:
-        time.sleep(SOON)
-    except (KeyboardInterrupt, SystemExit) as interruption:
-        raise interruption from None
 
 
 def run_to_exit(command: Callable[[], object]) -> NoReturn:

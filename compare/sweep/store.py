@@ -19,7 +19,6 @@ from zarr.codecs import ZstdCodec
 from zarr.errors import ZarrUserWarning
 
 from cointoss.compare.output.files import UnwritableError, aside_in, naming, written_whole
-from cointoss.compare.output.interruption import undoing
 from cointoss.compare.sweep.axes import NUMBERS
 from cointoss.compare.sweep.chunks import (
     DESCRIPTION,
@@ -380,7 +379,7 @@ def _locked(path: Path, target: Path) -> Iterator[None]:
             raise UnwritableError(
                 f"{path}: another process is at this map; accepted: wait for its end"
             ) from None
-        held.enter_context(undoing(lambda: _unlink(lock)))
+        held.callback(_unlink, lock)
         yield
 
 

@@ -2,6 +2,7 @@
 
 import importlib
 import pkgutil
+import shutil
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
@@ -73,7 +74,7 @@ def reproduce(
     Raises:
         UnwritableError: naming the folder and why.
     """
-    from cointoss.study import remove, written_together
+    from cointoss.study import written_together
     from cointoss_reproduction.frame import pages, provenance, saving
 
     found = find(name)
@@ -89,7 +90,7 @@ def reproduce(
         saving.save(aside, result, found.draw)
         pages.write(aside, name, found, result, quick=quick)
         provenance.keep(aside, quick=quick, sizes=sizes)
-    remove(folder / PARTS)
+    shutil.rmtree(folder / PARTS, ignore_errors=True)
     return result
 
 
