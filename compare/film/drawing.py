@@ -35,8 +35,8 @@ HAND_COMES = 0.3, 0.1
 """How long before the catch a hand begins to appear, and how long it takes to appear in full [s]."""
 IN_FRONT = 0.6
 """An arrow is drawn in this part of its distance from the camera, before the coin."""
-TRAIL_CORNERS, TRAIL_WIDTH, TRAIL_COLOR = 200, 2.0, (0.3, 0.35, 0.4)
-"""The path in the pictures of a camera at rest: its corners, its width in pixels and its colour."""
+TRAIL_WIDTH, TRAIL_COLOR = 2.0, (0.3, 0.35, 0.4)
+"""The path in the pictures of a camera at rest: its width in pixels and its colour."""
 MARGIN = 1.1
 """How many times larger the view of a camera at rest is than what it must show."""
 FIELD_OF_VIEW = 40.0
@@ -116,8 +116,6 @@ class Drawer(ExitStack):
             self._model.vis.global_.fovy = view
         self._model.vis.global_.offwidth, self._model.vis.global_.offheight = width, height
         self._data = mujoco.MjData(self._model)
-        self._trail_times = np.linspace(0, play.toss.end_time, TRAIL_CORNERS)
-        self._trail = play.toss.sample(self._trail_times).position
         super().__init__()
         self._renderer = self.enter_context(mujoco.Renderer(self._model, height, width))
 
@@ -142,8 +140,7 @@ class Drawer(ExitStack):
 
     def _add_trail(self, i: int) -> None:
         """Add the path up to one of the times."""
-        count = np.searchsorted(self._trail_times, self._play.times[i])
-        for start, end in itertools.pairwise([*self._trail[:count], self._play.states.position[i]]):
+        for start, end in itertools.pairwise(self._play.states.position[: i + 1]):
             self._add(mujoco.mjtGeom.mjGEOM_LINE, TRAIL_WIDTH, start, end, TRAIL_COLOR, 0.6)
 
     def _add_hand(self, i: int) -> None:
@@ -196,8 +193,7 @@ class Drawer(ExitStack):
         self, kind: mujoco.mjtGeom, thickness: float, start: Array, end: Array, color: Color, alpha: float
     ) -> None:
         geom = add_geom(self._renderer.scene, kind, (*color, alpha))
-        if geom is not None:
-            mujoco.mjv_connector(geom, kind, thickness, start, end)
+        mujoco.mjv_connector(geom, kind, thickness, start, end)
 
 
 def _aimed(camera: Camera, box: Box, r: float, aspect: float) -> tuple[mujoco.MjvCamera, float]:

@@ -30,8 +30,7 @@ def add_shadow(scene: mujoco.MjvScene, data: mujoco.MjData, coin: Coin) -> None:
     c, s = (n_x / level, n_y / level) if level > 0 else (1.0, 0.0)
     axes = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
     geom = add_geom(scene, mujoco.mjtGeom.mjGEOM_CYLINDER, (0, 0, 0, DARKNESS), at=(x, y, 0), axes=axes)
-    if geom is not None:
-        geom.size[:] = along, coin.radius, THICKNESS * coin.radius
+    geom.size[:] = along, coin.radius, THICKNESS * coin.radius
 
 
 def add_geom(
@@ -42,8 +41,8 @@ def add_geom(
     size: ArrayLike = (0, 0, 0),
     at: ArrayLike = (0, 0, 0),
     axes: ArrayLike = ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
-) -> mujoco.MjvGeom | None:
-    """Add a geom to a scene, and return it; None where there is no room.
+) -> mujoco.MjvGeom:
+    """Add a geom to a scene, and return it.
 
     Args:
         scene: what is drawn.
@@ -53,8 +52,6 @@ def add_geom(
         at: its place, (3,) [m].
         axes: its axes as columns, (3, 3).
     """
-    if scene.ngeom >= scene.maxgeom:
-        return None
     geom = scene.geoms[scene.ngeom]
     scene.ngeom += 1
     numbers = (np.array(one, float).ravel() for one in (size, at, axes))
