@@ -1,5 +1,6 @@
 """The report as one self-contained HTML page."""
 
+import math
 import platform
 import re
 from base64 import b64encode
@@ -13,12 +14,12 @@ from markupsafe import Markup, escape
 from pydantic import BaseModel
 
 from cointoss.compare.engines import is_own, label_of
+from cointoss.compare.film.filmed import FOLLOWED_FOR, goes_on
 from cointoss.compare.metrics.sequences import SAFETY
 from cointoss.compare.output.answer import CERTAIN, TRUSTED, contact_line, counted
 from cointoss.compare.output.style import looks_of
 from cointoss.compare.report.compared_tosses import Against, ComparedTosses
 from cointoss.compare.report.counts import counts_sentence
-from cointoss.compare.report.film_caption import film_caption
 from cointoss.compare.report.map_section import MapSection
 from cointoss.compare.report.motion import motion_of
 from cointoss.compare.report.verdict import horizon_sentence, verdicts_of
@@ -96,8 +97,10 @@ def render(
         printed_unit=printed_unit,
         raised=_raised,
         safety=SAFETY,
-        film_caption=film_caption(comparison.tosses, comparison.absent),
+        goes_on=any(map(goes_on, comparison.tosses)),
+        followed_for=FOLLOWED_FOR,
         slope=comparison.scenario.floor.slope,
+        degrees=math.degrees,
         versions=versions(),
     )
 

@@ -1,21 +1,39 @@
 """What stands below a report's film: one sentence for each thing that the film does, of real tosses."""
 
+import re
 from dataclasses import replace
+from unittest.mock import patch
 
+import numpy as np
 import pytest
 
 from cointoss.compare.engines import Engine
-from cointoss.compare.report.film_caption import ARROWS, COLORS, film_caption
+from cointoss.compare.report.comparison import Comparison
+from cointoss.compare.report.page import render
 from cointoss.models.records import Ending
 from tests.helpers.draws import scenario
 from tests.helpers.engines import toss
 
+COLORS = "Gold with an H is heads, blue with a T is tails."
+ARROWS = "a force’s up to twice the weight."
 STRONG, HAND = "around each strong impact", "where the coin is caught"
 SETTLED = {"release": {"position": [0, 0, 0.02]}}
 FLOWN = {"release": {"position": [0, 0, 1.0], "velocity": [0, 0, 3.0]}, "ending": {"caught": 1.2}}
 BOUNCED = {"release": {"position": [0, 0, 1.0], "velocity": [0, 0, -5.0]}, "ending": {"caught": 1.2}}
 CUT = {"release": {"position": [0, 0, 0.1]}, "ending": {"max_impacts": 1}}
 SHORT = {"ending": {"max_time": 0.1}}
+
+
+def film_caption(tosses):
+    """Return what stands below the film of a report."""
+    shown = Comparison(name="made", text="", tosses=tuple(tosses))
+    for pair in shown.against:
+        vars(pair).update(common_prefix=0, common_horizon=0, errors=np.zeros(0))
+    with patch("cointoss.compare.report.page.motion_of", return_value={}):
+        page = render(shown, film=(b"", b""))
+    found = re.search(r"id=\"film\".*?<figcaption>(.*?)<br>", page, re.DOTALL)
+    assert found
+    return " ".join(found[1].split())
 
 
 @pytest.mark.parametrize(
