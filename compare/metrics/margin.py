@@ -258,35 +258,30 @@ def changes_both_ways(n: int, differ: Differ, search: SearchResolution, *, neare
         search: how closely.
         nearest: whether the smaller of both is enough; the other may then be infinite.
     """
-    signs, ladder = np.array([1.0, -1.0]), search.ladder
-    low, high, is_open = np.zeros((2, n)), np.full((2, n), np.inf), np.ones((2, n), dtype=bool)
-    done = 0
+    rows, signs = np.tile(np.arange(n), 2), np.repeat([[1.0], [-1.0]], n, axis=0)
+    low, high, is_open = np.zeros(2 * n), np.full(2 * n, np.inf), np.ones(2 * n, dtype=bool)
+    ladder, done = search.ladder, 0
     while done < len(ladder):
-        unknown = np.isinf(high) & is_open
-        left = np.flatnonzero(np.isinf(high).all(axis=0) if nearest else unknown.any(axis=0))
+        known = np.isfinite(high)
+        left = np.flatnonzero(is_open & ~(known | np.roll(known, n) if nearest else known))
         if not len(left):
             break
-        rungs = ladder[done : done + max(1, TOGETHER // (2 * len(left)))]
-        for side, sign in enumerate(signs):
-            rows = left[unknown[side, left]]
-            differs, kept = differ(rows, np.tile(sign * rungs, (len(rows), 1)))
-            kept = np.logical_and.accumulate(kept, axis=1)  # all that a scenario would accept
-            differs &= kept
-            is_open[side, rows] = kept[:, -1]
-            first = np.argmax(differs, axis=1)
-            found = differs.any(axis=1)
-            before = np.concatenate([[ladder[done - 1] if done else 0.0], rungs])
-            high[side, rows[found]], low[side, rows[found]] = rungs[first[found]], before[first[found]]
+        rungs = ladder[done : done + max(1, TOGETHER // len(left))]
+        differs, kept = differ(rows[left], signs[left] * rungs)
+        kept = np.logical_and.accumulate(kept, axis=1)  # all that a scenario would accept
+        differs &= kept
+        is_open[left] = kept[:, -1]
+        first, found = np.argmax(differs, axis=1), differs.any(axis=1)
+        before = np.concatenate([[ladder[done - 1] if done else 0.0], rungs])
+        high[left[found]], low[left[found]] = rungs[first[found]], before[first[found]]
         done += len(rungs)
-    for side, sign in enumerate(signs):
-        rows = np.flatnonzero(np.isfinite(high[side]))
-        ends = low[side, rows], high[side, rows]
-        for _ in range(search.bisections):
-            cuts = np.linspace(*ends, CUTS + 1, axis=1)
-            differs, _ = differ(rows, sign * cuts[:, 1:-1])
-            # The last is known to differ.
-            first = np.argmax(np.column_stack([differs, np.ones(len(rows), dtype=bool)]), axis=1)
-            each = np.arange(len(rows))
-            ends = cuts[each, first], cuts[each, first + 1]
-        high[side, rows] = ends[1]
-    return high
+    met = np.flatnonzero(np.isfinite(high))
+    ends, each = (low[met], high[met]), np.arange(len(met))
+    for _ in range(search.bisections):
+        cuts = np.linspace(*ends, CUTS + 1, axis=1)
+        differs, _ = differ(rows[met], signs[met] * cuts[:, 1:-1])
+        # The last is known to differ.
+        first = np.argmax(np.column_stack([differs, np.ones(len(met), dtype=bool)]), axis=1)
+        ends = cuts[each, first], cuts[each, first + 1]
+    high[met] = ends[1]
+    return high.reshape(2, n)
