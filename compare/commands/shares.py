@@ -2,9 +2,8 @@
 
 import shutil
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from functools import partial
-from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,14 +31,10 @@ from cointoss.models.devices import Device
 if TYPE_CHECKING:
     import xarray as xr
 
-    from cointoss.compare.engines import Engine
-    from cointoss.compare.shares.counting import Block, Counts, Part, Tosser
+    from cointoss.compare.shares.counting import Counts
     from cointoss.compare.shares.plan import Plan
-    from cointoss.compare.sweep.cluster import Workers
 
 PICTURES = (".png", ".svg", ".pdf")
-IN_A_PART = 8
-"""Blocks of tosses that a worker of a cluster makes at a time."""
 WHOLE = 1000
 """Columns in which every table has room."""
 
@@ -158,7 +153,8 @@ def _count(plan: "Plan", scenario: str, scheduler: str | None, out: Sequence[Pat
             saying(lambda said: f"{said}: {int(counts.sum()):,d} tosses are counted"),
             cluster(scheduler, say, "what was counted is printed") as workers,
         ):
-            for so_far in counting.counting(plan, _tosser(workers)):
+            tosser = partial(counting.toss_there, workers) if workers else counting.toss_here
+            for so_far in counting.counting(plan, tosser):
                 counts = so_far
         is_complete = True
     finally:
@@ -175,22 +171,6 @@ def _count(plan: "Plan", scenario: str, scheduler: str | None, out: Sequence[Pat
             from cointoss.compare.shares.picture import picture_of
 
             write_bytes(path, picture_of(dataset_of(plan, counts, is_complete=True), suffix))
-
-
-def _tosser(workers: "Workers | None") -> "Tosser":
-    """Return what tosses blocks: this machine, or the workers of a cluster."""
-    from cointoss.compare.shares.counting import toss_blocks, toss_here
-
-    if workers is None:
-        return toss_here
-
-    def toss_there(
-        plan: "Plan", engine: "Engine", blocks: "Iterator[Block]"
-    ) -> "Iterator[tuple[Part, Counts]]":
-        parts = iter(lambda: tuple(islice(blocks, IN_A_PART)), ())
-        return workers(partial(toss_blocks, plan, engine), parts, engine)
-
-    return toss_there
 
 
 def _print(found: "xr.Dataset", plan: "Plan", scenario: str, as_json: bool) -> None:

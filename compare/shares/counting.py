@@ -3,6 +3,7 @@
 import math
 import time
 from collections.abc import Callable, Iterator
+from functools import partial
 from heapq import heapify, heappop, heappush
 from itertools import chain, islice, zip_longest
 from typing import NamedTuple
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from cointoss.compare.engines import Engine
 from cointoss.compare.metrics.estimates import wilson
 from cointoss.compare.shares.plan import Plan, rows_of_releases
+from cointoss.compare.sweep.cluster import Workers
 from cointoss.models.answers import tally
 from cointoss.models.records import Outcome
 from cointoss.models.stages import stage
@@ -22,6 +24,8 @@ BLOCK = {Engine.ANALYTIC: 250, Engine.MUJOCO: 25}
 GROWTH, SECOND, MOST = 8, 1.0, 512
 """Blocks that are tossed together: the factor by which their number may grow, the time that they should take
 [s], and their largest number."""
+IN_A_PART = 8
+"""Blocks that a worker of a cluster tosses at a time."""
 Counts = NDArray[np.int64]
 """Numbers of tosses by code of `Outcome`."""
 
@@ -71,6 +75,14 @@ def toss_here(plan: Plan, engine: Engine, blocks: Iterator[Block]) -> Iterator[t
         seconds = max(time.perf_counter() - start, 1e-9)
         size = min(max(1, int(len(part) * min(GROWTH, SECOND / seconds))), MOST)
         yield part, counts
+
+
+def toss_there(
+    workers: Workers, plan: Plan, engine: Engine, blocks: Iterator[Block]
+) -> Iterator[tuple[Part, Counts]]:
+    """Toss blocks on the workers of a cluster."""
+    parts = iter(lambda: tuple(islice(blocks, IN_A_PART)), ())
+    return workers(partial(toss_blocks, plan, engine), parts, engine)
 
 
 class Count:

@@ -1,9 +1,8 @@
 """What is counted: a scenario tossed by a hand, along some fields, by one engine or both."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -44,8 +43,6 @@ _GIVES = {"position": "height", "velocity": "speed", "angular_velocity": "spin"}
 class GridPoint(NamedTuple):
     """A point of the grid."""
 
-    values: tuple[float, ...]
-    """The values of the fields that vary, in SI."""
     scenario: Scenario
     hand: Hand
     place: str
@@ -121,37 +118,29 @@ class Plan:
         has_none = self.catches & (np.arange(len(Outcome)) == Outcome.UNDECIDED)
         return np.where(has_none, 0, counts)
 
-    def settings(self) -> Iterator[GridPoint]:
-        """Yield the points of the grid, the last field varying fastest.
+    def setting(self, number: int) -> GridPoint:
+        """Return a point of the grid by its number; the last field varies fastest.
 
         Raises:
             SweepError: for values that make no valid scenario or hand.
         """
-        for values in product(*(axis.values.tolist() for axis in self.vary)):
-            yield self._setting(values)
-
-    def setting(self, number: int) -> GridPoint:
-        """Return a point of the grid by its number."""
         at = np.unravel_index(number, self.shape) if self.vary else ()
-        return self._setting(tuple(float(axis.values[i]) for axis, i in zip(self.vary, at, strict=True)))
-
-    def _setting(self, values: tuple[float, ...]) -> GridPoint:
-        at = ", ".join(f"{axis.field} = {one:g}" for axis, one in zip(self.vary, values, strict=True))
-        place = f" (at {at})" if at else ""
-        pairs = dict(zip((axis.field for axis in self.vary), values, strict=True))
-        of_hand = {name.removeprefix("hand."): pairs.pop(name) for name in list(pairs) if name in HAND}
-        numbers = {name: int(one) if name == "ending.max_impacts" else one for name, one in pairs.items()}
+        values = {axis.field: float(axis.values[i]) for axis, i in zip(self.vary, at, strict=True)}
+        words = ", ".join(f"{name} = {value:g}" for name, value in values.items())
+        place = f" (at {words})" if words else ""
         try:
+            of_hand = {name.removeprefix("hand."): values[name] for name in values if name in HAND}
             hand = replace(self.hand, **of_hand)
             # The scenario's own release is not used, and is out of the way of any coin.
             scenario = hand.scenario(self.scenario).replace("release", _HIGH)
-            for name, number in numbers.items():
-                scenario = scenario.replace(name, number)
+            for name in (name for name in values if name not in HAND):
+                whole = name == "ending.max_impacts"
+                scenario = scenario.replace(name, int(values[name]) if whole else values[name])
         except FieldError as error:
             raise SweepError(f"hand.{error}") from None
         except ScenarioError as error:
             raise SweepError(f"{error}{place}") from None
-        return GridPoint(values, scenario, hand, place)
+        return GridPoint(scenario, hand, place)
 
 
 def plan_of(
@@ -212,7 +201,8 @@ def check(plan: Plan) -> None:
         UnusedFieldWarning: for a field that nothing uses.
     """
     setting = plan.setting(0)
-    for setting in counted("checking the grid", "settings", list(plan.settings())):
+    for number in counted("checking the grid", "settings", range(math.prod(plan.shape))):
+        setting = plan.setting(number)
         for engine in plan.engines:
             engine.package.require_supported(setting.scenario, settings=engine.package.MANY)
             rows = rows_of_releases(setting, setting.states(np.random.default_rng(plan.seed), 1))
