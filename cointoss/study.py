@@ -93,7 +93,6 @@ if TYPE_CHECKING:
     from cointoss.compare.output.style import BLUE as BLUE
     from cointoss.compare.output.style import GREEN as GREEN
     from cointoss.compare.output.style import GREY as GREY
-    from cointoss.compare.output.style import HEADS as HEADS
     from cointoss.compare.output.style import INK as INK
     from cointoss.compare.output.style import MUJOCO as MUJOCO
     from cointoss.compare.output.style import ORANGE as ORANGE
@@ -102,7 +101,6 @@ if TYPE_CHECKING:
     from cointoss.compare.output.style import PURPLE as PURPLE
     from cointoss.compare.output.style import SKY as SKY
     from cointoss.compare.output.style import STYLE as STYLE
-    from cointoss.compare.output.style import TAILS as TAILS
     from cointoss.compare.output.style import VERMILION as VERMILION
     from cointoss.compare.output.tables import folded as folded
     from cointoss.compare.output.tables import paragraphs as paragraphs
@@ -143,6 +141,8 @@ if TYPE_CHECKING:
     from cointoss.models.kernel.compiled import by_numba as by_numba
     from cointoss.models.kernel.digests import code_digest as code_digest
     from cointoss.models.making import AT_REST as AT_REST
+    from cointoss.models.palette import HEADS as HEADS
+    from cointoss.models.palette import TAILS as TAILS
     from cointoss.models.parts import RESISTANCES as RESISTANCES
     from cointoss.models.processor import Processor as Processor
     from cointoss.models.processor import usual as usual

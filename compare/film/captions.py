@@ -5,33 +5,22 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.colors import to_rgb
+from matplotlib.colors import to_hex
 from PIL import Image, ImageDraw, ImageFont
 
 from cointoss.compare.engines import label_of
 from cointoss.compare.film.drawing import FORCE_COLOR, IMPULSE_COLOR
 from cointoss.compare.film.play import Play
-from cointoss.compare.output.style import HEADS, TAILS
+from cointoss.compare.output.style import GREY, INK
 from cointoss.models.ending import face_up
+from cointoss.models.palette import HEADS, TAILS
 from cointoss.models.records import Ending, Outcome
-
-Color = tuple[int, int, int]
 
 Font = ImageFont.FreeTypeFont | ImageFont.ImageFont
 
-
-def _color(color: str | tuple[float, float, float]) -> Color:
-    r, g, b = (round(255 * part) for part in to_rgb(color))
-    return r, g, b
-
-
-INK, WHITE, GREY = (27, 36, 48), (255, 255, 255), (91, 102, 117)
-TITLES: dict[str, Color] = {"analytic": (0, 90, 142), "mujoco": (170, 68, 0)}
+TITLES = {"analytic": "#005A8E", "mujoco": "#AA4400"}
 """The colour of each engine's name; another's is written in ink."""
-LABELS: dict[Outcome, tuple[Color, Color]] = {
-    Outcome.HEADS: (_color(HEADS), INK),
-    Outcome.TAILS: (_color(TAILS), WHITE),
-}
+LABELS = {Outcome.HEADS: (HEADS, INK), Outcome.TAILS: (TAILS, "white")}
 """Ground and ink of a face's label; an outcome that is none is grey."""
 
 WIDEST_NAME = 0.4
@@ -42,7 +31,7 @@ class Line(NamedTuple):
     """A line of a caption."""
 
     text: str
-    color: Color = INK
+    color: str = INK
 
 
 class Caption(NamedTuple):
@@ -52,9 +41,9 @@ class Caption(NamedTuple):
     """The engine."""
     label: str
     """The face that is up, or the outcome of a toss that has ended."""
-    ground: Color
+    ground: str
     """The colour of the label's ground."""
-    ink: Color
+    ink: str
     """The colour of the label's letters."""
     lines: Sequence[Line]
 
@@ -90,13 +79,13 @@ def caption_of(play: Play, i: int) -> Caption:
     shown = play.impulses(i)
     if shown:
         size = np.linalg.norm(shown[-1].impulse)
-        lines.append(Line(f"impulse {1000 * size:#.3g} mN s", _color(IMPULSE_COLOR)))
+        lines.append(Line(f"impulse {1000 * size:#.3g} mN s", to_hex(IMPULSE_COLOR)))
     if play.forces[i].any():
         weight = toss.scenario.coin.mass * toss.scenario.gravity
         weights = np.linalg.norm(play.forces[i]) / weight
-        lines.append(Line(f"floor's force {weights:.2f} m g", _color(FORCE_COLOR)))
+        lines.append(Line(f"floor's force {weights:.2f} m g", to_hex(FORCE_COLOR)))
     title = Line(label_of(toss.engine), TITLES.get(toss.engine, INK))
-    return Caption(title, label.upper(), *LABELS.get(outcome, (GREY, WHITE)), lines)
+    return Caption(title, label.upper(), *LABELS.get(outcome, (GREY, "white")), lines)
 
 
 def written(frame: np.ndarray, captions: Sequence[Caption], below: str) -> np.ndarray:
@@ -127,12 +116,12 @@ def written(frame: np.ndarray, captions: Sequence[Caption], below: str) -> np.nd
             draw.text((left, (3.5 + 1.3 * i) * size), line.text, line.color, font, "lm")
         if number > 0:
             x = number * image.width // len(captions)
-            draw.line((x, 0, x, image.height), fill=WHITE, width=max(2, image.width // 400))
+            draw.line((x, 0, x, image.height), fill="white", width=max(2, image.width // 400))
     if below:
         # On a ground of its own, over what divides the panels and over shadows.
         x, half = image.width / 2, draw.textlength(below, font=_font(size)) / 2 + size / 2
         ground = (x - half, image.height - 1.8 * size, x + half, image.height - 0.2 * size)
-        draw.rounded_rectangle(ground, size / 3, fill=WHITE)
+        draw.rounded_rectangle(ground, size / 3, fill="white")
         draw.text((x, image.height - size), below, INK, _font(size), "mm")
     return np.asarray(image)
 

@@ -4,9 +4,7 @@ from collections.abc import Iterable
 from itertools import cycle
 from typing import Any, NamedTuple
 
-from matplotlib.colors import LinearSegmentedColormap
-
-from cointoss.models.palette import COLORS, EDGE, HEADS, PERPETUAL, TAILS, TRANSIENT
+from cointoss.models.palette import COLORS, EDGE, PERPETUAL, TRANSIENT
 from cointoss.models.records import Outcome
 
 # Okabe and Ito's colours, which the colour-blind can distinguish.
@@ -38,9 +36,6 @@ def looks_of(engines: Iterable[str]) -> list[Look]:
     others = (Look(f"other-{number}", *drawn) for number, drawn in enumerate(cycle(_OTHERS), start=1))
     return [_OWN.get(engine) or next(others) for engine in engines]
 
-
-SHARE_OF_HEADS = LinearSegmentedColormap.from_list("share of heads", [TAILS, "#FFFFFF", HEADS])
-"""The colours of a share of heads from 0 to 1."""
 
 STYLE: Any = {
     "font.size": 9.5,

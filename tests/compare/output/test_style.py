@@ -9,7 +9,8 @@ import pytest
 from matplotlib.colors import to_rgb
 
 from cointoss.compare.film.captions import LABELS
-from cointoss.compare.output.style import HEADS, OUTCOMES, TAILS
+from cointoss.compare.output.style import OUTCOMES
+from cointoss.models.palette import HEADS, TAILS
 from cointoss.models.records import Outcome
 
 # Linear RGB as seen by a protanope and a deuteranope; Viénot, Brettel and Mollon, Color Res. Appl. 24 (1999).
@@ -40,4 +41,4 @@ def test_the_coin_of_the_film_has_the_colours_of_the_maps(face, color):
     assert material is not None
     assert [float(part) for part in material[1].split()] == pytest.approx(to_rgb(color), abs=0.005)
     ground, _ = LABELS[Outcome.HEADS if face == "heads" else Outcome.TAILS]
-    assert ground == tuple(round(255 * part) for part in to_rgb(color))
+    assert ground == color
