@@ -151,26 +151,22 @@ def as_lines(toss: Toss, *, whole: bool = False, checked: bool = False) -> str:
         lines += [f"contact   from {start:.6f} s to {end:.6f} s" for start, end in toss.contacts.tolist()]
     if len(impacts):
         lines += ["", "  n      t [s]  up  S_x [mN s]  S_y [mN s]  S_z [mN s]    E [mJ]  rim [deg]"]
-    left_out = range(0)
-    if not whole and len(impacts) > MOST_LINES:
-        left_out = range(FIRST_LINES, len(impacts) - LAST_LINES)
+    is_long = not whole and len(impacts) > MOST_LINES
+    left_out = range(FIRST_LINES, len(impacts) - LAST_LINES) if is_long else range(0)
     angles = np.degrees(np.arctan2(impacts.point[:, 1], impacts.point[:, 0]))
     # What rounds to zero has no sign.
     impulses = np.round(1e3 * impacts.impulse, 5) + 0.0
-    for i, flags in enumerate(toss.flags):
-        if i in left_out:
-            if i == FIRST_LINES:
-                lines.append(
-                    f"... {len(left_out)} impacts between: --all prints them, --json all their numbers"
-                )
-            continue
-        S = impulses[i]
-        lines.append(
-            f"{i + 1:3d} {impacts.time[i]:10.6f}   {Face(impacts.face[i]).symbol} "
-            f"{S[0]:11.5f} {S[1]:11.5f} {S[2]:11.5f} {1e3 * impacts.energy[i]:9.4f} {angles[i]:10.2f}"
-            + "".join(f"  {flag.replace('_', ' ')}" for flag in sorted(flags))
-        )
-    return "\n".join(lines)
+    rows = [
+        f"{i + 1:3d} {impacts.time[i]:10.6f}   {Face(impacts.face[i]).symbol} "
+        f"{S[0]:11.5f} {S[1]:11.5f} {S[2]:11.5f} {1e3 * impacts.energy[i]:9.4f} {angles[i]:10.2f}"
+        + "".join(f"  {flag.replace('_', ' ')}" for flag in sorted(flags))
+        for i, (S, flags) in enumerate(zip(impulses, toss.flags, strict=True))
+        if i not in left_out
+    ]
+    if left_out:
+        told = f"... {len(left_out)} impacts between: --all prints them, --json all their numbers"
+        rows.insert(FIRST_LINES, told)
+    return "\n".join([*lines, *rows])
 
 
 def _meaning_of_trust(toss: Toss) -> str:

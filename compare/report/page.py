@@ -118,24 +118,21 @@ def versions() -> dict[str, str]:
 
 def _parameters(scenario: Scenario) -> list[tuple[str, str, str]]:
     """Return every field of the scenario: its dotted path, its value, its meaning with the unit."""
-    rows: list[tuple[str, str, str]] = []
-
-    def walk(part: BaseModel, path: str) -> None:
-        for name in type(part).model_fields:
-            value = getattr(part, name)
-            if isinstance(value, BaseModel):
-                walk(value, f"{path}{name}.")
-            elif value is not None:
-                degrees = f" = {_shown(tuple(np.degrees(value).tolist()))}°" if name == "angles" else ""
-                rows.append((f"{path}{name}", _shown(value) + degrees, meanings(type(part))[name]))
-
-    walk(scenario, "")
-    return rows
+    parts = {"": scenario} | {f"{name}.": getattr(scenario, name) for name in Scenario.model_fields}
+    return [
+        (f"{path}{name}", _shown(name, value), meanings(type(part))[name])
+        for path, part in parts.items()
+        if isinstance(part, BaseModel)
+        for name in type(part).model_fields
+        if not ((value := getattr(part, name)) is None or isinstance(value, BaseModel))
+    ]
 
 
-def _shown(value: Any) -> str:
+def _shown(name: str, value: Any) -> str:
+    """Return the value of a field; angles in degrees, too."""
     if isinstance(value, tuple):
-        return "(" + ", ".join(_shown(item) for item in value) + ")"
+        degrees = f" = {_shown('', tuple(np.degrees(value).tolist()))}°" if name == "angles" else ""
+        return f"({', '.join(_shown('', item) for item in value)}){degrees}"
     return f"{value:.10g}" if isinstance(value, float) else str(value)
 
 
