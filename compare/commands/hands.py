@@ -131,7 +131,9 @@ def _answer(counted: int, counts: Counts, told: dict[str, Any], lines: "HandLine
     for name, one in shares.items():
         click.echo(f"{name:9} {one.value:7.2%} [{one.low:.2%}, {one.high:.2%}] of {one.count:,d} tosses")
     if not_caught:
-        click.echo(f"left out  {not_caught:,d} coins that never came down to the hand")
+        click.echo(
+            f"left out  {not_caught:,d} coin{'s' * (not_caught != 1)} that never came down to the hand"
+        )
     if not_flat:
         click.echo(f"left out  at rest: {not_flat:,d} coin{'s' * (not_flat != 1)} that ended on no face")
     click.echo("\n".join(["", *lines.below]))

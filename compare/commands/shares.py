@@ -194,7 +194,7 @@ def _print(found: "xr.Dataset", plan: "Plan", scenario: str, as_json: bool) -> N
         click.echo(f"unvaried   {plan.unvaried}")
     click.echo(f"engine     {' and '.join(plan.engines)}, seed {plan.seed}")
     if missed := int(found.not_caught.sum()):
-        click.echo(f"left out   {missed:,d} coins that never came down to the hand")
+        click.echo(f"left out   {missed:,d} coin{'s' * (missed != 1)} that never came down to the hand")
     if len(alike := show.alike(found)):
         click.echo(
             f"alike      p = {np.nanmin(alike):.2g}: engines that agree differ as much with this probability"

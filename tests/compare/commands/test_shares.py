@@ -32,37 +32,6 @@ def test_by_default_a_coin_is_tossed_as_people_do_unless_the_hand_is_described(c
             assert Hand(**told["hand"]) == hand, words
 
 
-def test_hands_and_shares_toss_a_spun_coin_to_the_same_shares(coin):
-    words = (coin, "--spun", "--psi-scatter", "10 deg", "--tosses", 300, "--json")
-    one = json.loads(cointoss("hands", *words).stdout)["ended"]
-    other = json.loads(cointoss("shares", *words).stdout)["settings"][0]["shares"]
-    for outcome, part in one.items():
-        assert {end: part[end] for end in ("value", "low", "high")} == other[outcome]
-    assert 0 < one["heads"]["value"] < 1
-    assert sum(part["value"] for part in one.values()) == pytest.approx(1)
-
-
-def test_the_line_of_the_hand_names_what_of_it_varies(coin):
-    told = cointoss("shares", coin, "--vary", "hand.tilt=0:0.2:2", "--tosses", 2).stdout
-    assert ", ψ = 90° ± 10°; but hand.tilt as above\n" in told
-
-
-def test_coins_that_are_not_caught_are_left_out_and_counted_apart(coin):
-    words = (coin, "--height", "30 cm", "--caught", "50 cm", "--tosses", 300)
-    hands, shares = (json.loads(cointoss(one, *words, "--json").stdout) for one in ("hands", "shares"))
-    (setting,) = shares["settings"]
-    assert hands["same_side"]["caught"]["count"] + hands["not_caught"] == 300
-    assert setting["tosses"] + setting["not_caught"] == 300
-    assert setting["shares"]["undecided"]["value"] == 0
-    assert sum(one["value"] for one in setting["shares"].values()) == pytest.approx(1)
-    # Heights z + v²/2g of the peaks have mean 0.506 m and deviation 0.051 m: 45 % are below the hand.
-    for left_out in (hands["not_caught"], setting["not_caught"]):
-        assert abs(left_out - 300 * 0.45) < 3.3 * (300 * 0.25) ** 0.5
-    narrow = json.loads(cointoss("shares", *words[:-2], "--to", "12 %", "--json").stdout)["settings"][0]
-    ends = narrow["shares"]["heads"]
-    assert (ends["high"] - ends["low"]) / 2 <= 0.12
-
-
 def test_the_side_that_was_up_is_counted_whichever_it_was(coin):
     words = ("hands", coin, "--psi", "50 deg", "--caught", "1 m", "--tosses", 4000, "--json")
     heads, either = (
