@@ -1,6 +1,5 @@
 """The public names of this project, each brought from its home when it is first used; nothing lives here."""
 
-from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -82,15 +81,21 @@ if not (Path(__file__).parent / "models").is_dir():
         )
 
 
-def _brought(home: str, name: str) -> Callable[..., Any]:
-    """Return what calls a function of a module, which is imported at the first call."""
-    return lambda *given, **named: getattr(import_module(home), name)(*given, **named)
+def _plot_toss(*given: Any, **named: Any) -> Any:
+    from cointoss.compare.output.plots import plot_toss
+
+    return plot_toss(*given, **named)
+
+
+def _play_toss(*given: Any, **named: Any) -> Any:
+    from cointoss.compare.web.play.frame import play
+
+    return play(*given, **named)
 
 
 # Here and not in `__getattr__`, so that a toss has its views whichever module of the package made it.
 _views = import_module("cointoss.models.views").views
-_views.plot_toss = _brought("cointoss.compare.output.plots", "plot_toss")
-_views.play_toss = _brought("cointoss.compare.web.play.frame", "play")
+_views.plot_toss, _views.play_toss = _plot_toss, _play_toss
 
 
 def __getattr__(name: str) -> Any:

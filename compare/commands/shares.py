@@ -147,7 +147,6 @@ def _count(plan: "Plan", scenario: str, scheduler: str | None, out: Sequence[Pat
     from cointoss.compare.sweep.cluster import cluster
 
     counts: Counts = no_counts(plan)
-    is_complete = False
     try:
         with (
             saying(lambda said: f"{said}: {int(counts.sum()):,d} tosses are counted"),
@@ -156,10 +155,9 @@ def _count(plan: "Plan", scenario: str, scheduler: str | None, out: Sequence[Pat
             tosser = partial(counting.toss_there, workers) if workers else counting.toss_here
             for so_far in counting.counting(plan, tosser):
                 counts = so_far
-        is_complete = True
     finally:
         if counts.any():
-            found = dataset_of(plan, counts, is_complete=is_complete)
+            found = dataset_of(plan, counts)
             _print(found, plan, scenario, as_json)
             for path in out:
                 if path.suffix.lower() == ".csv":
@@ -170,7 +168,7 @@ def _count(plan: "Plan", scenario: str, scheduler: str | None, out: Sequence[Pat
         if (suffix := path.suffix.lower()) in PICTURES:
             from cointoss.compare.shares.picture import picture_of
 
-            write_bytes(path, picture_of(dataset_of(plan, counts, is_complete=True), suffix))
+            write_bytes(path, picture_of(dataset_of(plan, counts), suffix))
 
 
 def _print(found: "xr.Dataset", plan: "Plan", scenario: str, as_json: bool) -> None:

@@ -9,11 +9,13 @@ from typing import Any
 import numpy as np
 
 from cointoss import analytic
+from cointoss.compare.find.fields import spans
 from cointoss.compare.find.search import Hit, Searched, search
-from cointoss.compare.find.window import Target, Window, window_of
+from cointoss.compare.find.window import Target
 from cointoss.compare.metrics.estimates import share_of
 from cointoss.compare.sweep.axes import Span
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
+from cointoss.compare.sweep.window import Window
 from cointoss.models.devices import Device
 from cointoss.models.errors import ScenarioError
 from cointoss.models.processor import Processor
@@ -196,7 +198,7 @@ def find_telling(
     target = Target(sequence=sequence, outcome=ending, processor=Processor(device))
     if len(sequence) > (most := min(LONGEST, described.rules.max_impacts)):
         raise SweepError(f"sequence: {len(sequence)} faces, accepted: at most {most}, as ending.max_impacts")
-    window = window_of(vary, described)
+    window = Window(scenario=described, spans=spans(vary, described))
     with stage(f"finding {target.in_words}"):
         return _found(window, target, search(window, target, tosses, seed, tell))
 

@@ -1,21 +1,17 @@
 """What a search looks for, and where: the window of fields that vary, and what the tosses in it show."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cointoss import analytic
 from cointoss.compare.find.faces import faces_shown
-from cointoss.compare.find.fields import spans
 from cointoss.compare.find.sequence import sequence_of
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.window import Window
 from cointoss.models.processor import Processor
 from cointoss.models.records import Array, Face, Outcome
-from cointoss.models.scenario import Scenario
 
 AT_FIRST = 4
 """Touches that are computed for every toss; then twice as many for the tosses that agree so far, and so
@@ -85,12 +81,3 @@ class Target:
     def _faces(self) -> NDArray[np.int8]:
         """The faces of the sequence, (n,)."""
         return np.array([Face.HEADS if one == "H" else Face.TAILS for one in self.sequence], dtype=np.int8)
-
-
-def window_of(vary: Mapping[str, Any], scenario: Scenario) -> Window:
-    """Return the window of fields that vary, each between two values.
-
-    Raises:
-        SweepError: naming what is wrong and what is accepted.
-    """
-    return Window(scenario=scenario, spans=spans(vary, scenario))

@@ -102,7 +102,7 @@ def no_counts(plan: Plan) -> Counts:
     return np.zeros((len(plan.engines), *plan.shape, len(Outcome)), dtype=np.int64)
 
 
-def dataset_of(plan: Plan, counts: Counts, *, is_complete: bool) -> "xr.Dataset":
+def dataset_of(plan: Plan, counts: Counts, *, is_complete: bool = True) -> "xr.Dataset":
     """Return the dataset of `shares`.
 
     Args:

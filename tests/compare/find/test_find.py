@@ -9,12 +9,13 @@ import pytest
 from cointoss import analytic
 from cointoss.compare.find import search
 from cointoss.compare.find.faces import faces_shown
-from cointoss.compare.find.find import find, find_telling
-from cointoss.compare.find.window import Target, window_of
+from cointoss.compare.find.fields import spans
+from cointoss.compare.find.find import find
+from cointoss.compare.find.window import Target
 from cointoss.compare.metrics.estimates import share_of
 from cointoss.compare.sweep.toss_many import toss_many
+from cointoss.compare.sweep.window import Window
 from cointoss.models.batch import PLACE, rows_of
-from cointoss.models.errors import ScenarioError
 from cointoss.models.laws import ContactLaw
 from cointoss.models.quantities import LARGEST
 from cointoss.models.reading import load, parse
@@ -84,17 +85,6 @@ def test_its_margin_is_larger_than_that_of_others_that_show_it():
     assert own > np.quantile(margins, 0.9)
 
 
-def test_what_is_found_is_a_scenario_file():
-    found = find("fig24a", WINDOW, sequence="T", tosses=1024)
-    if not found:
-        found = find("fig24a", WINDOW, sequence="H", tosses=1024)
-    again = parse(found.to_toml(), "found")
-    assert again == found.scenario
-    assert found.to_toml().startswith(f"# {found.target.in_words}: found in ")
-    field = load("fig24a").release.position[2]
-    assert again.release.position[2] != field
-
-
 @pytest.mark.parametrize("outcome", ["edge", Outcome.EDGE])
 def test_an_outcome_is_found_and_all_fields_may_vary(outcome):
     """A thick coin dropped near its edge: on it, and beside it."""
@@ -125,7 +115,7 @@ def test_a_sequence_too_rare_for_the_window_is_found_in_ever_smaller_boxes():
     assert found.toss is not None
     assert found.toss.sequence.startswith(word)
     points = np.random.default_rng(5).random((1 << 6, 2))
-    assert Target(sequence=word).shown(window_of(window, ELASTIC), points).max() < 10
+    assert Target(sequence=word).shown(found.window, points).max() < 10
     assert 4 <= found.trusted <= 10
 
 
@@ -133,14 +123,6 @@ def test_the_same_seed_finds_the_same_toss():
     first, second, other = (find(COIN, WINDOW, sequence="HT", tosses=512, seed=seed) for seed in (1, 1, 2))
     assert first.scenario == second.scenario
     assert first.scenario != other.scenario
-
-
-def test_points_that_no_scenario_accepts_are_passed_over():
-    window = window_of({"release.position.z": "-1:1"}, COIN)
-    shown = Target(sequence="H").shown(window, np.array([[0.1], [0.9]]))
-    assert (shown[0], shown[1] >= 0) == (-1, True)
-    with pytest.raises(ScenarioError):
-        window.scenario_of(window.values(np.array([0.1])))
 
 
 def test_points_that_make_no_scenario_are_no_tosses():
@@ -188,23 +170,11 @@ def test_a_spin_may_vary_about_the_axis_that_the_coin_has():
 
 @pytest.mark.filterwarnings(f"ignore::{UnitWarning.__module__}.UnitWarning")
 def test_margins_are_looked_for_in_numbers_that_a_release_can_have():
-    window = window_of({"release.position.z": (-1e9, 1e9)}, load("fig24a"))
+    case = load("fig24a")
+    window = Window(scenario=case, spans=spans({"release.position.z": (-1e9, 1e9)}, case))
     # A margin may be as wide as the window, to either side.
     assert window.values(np.array([[-1.0], [0.75], [2.0]])).ravel().tolist() == [-LARGEST, 5e8, LARGEST]
     assert window.rows(np.array([[-1.0], [2.0]]))[1].tolist() == [False, True]
-
-
-def test_what_was_found_is_told_before_its_margins_are_measured(monkeypatch):
-    told, own = [], search._margins
-
-    def measured(*given):
-        assert len(told) == 1
-        return own(*given)
-
-    monkeypatch.setattr(search, "_margins", measured)
-    asked = {"sequence": "H", "outcome": None, "tosses": 256, "seed": 0, "device": "cpu"}
-    assert find_telling(told.append, COIN, WINDOW, **asked)
-    assert told == ["64 tosses show H; now measuring how far each field may change"]
 
 
 def test_a_search_is_one_stage_from_its_beginning_to_its_end(monkeypatch):

@@ -83,16 +83,6 @@ def test_the_page_stands_before_the_film_is_drawn_and_after_it_was_interrupted(t
     assert {path.name for path in tmp_path.iterdir()} == set(FILES) - {"toss.mp4", *missing}
 
 
-def test_without_opengl_the_report_says_what_to_install(tmp_path):
-    text = SHORT.replace("max_impacts = 2", "max_impacts = 1")
-    page = write_report(compared(parse(text, "short"), text, "short"), tmp_path, ADVICE)
-    html = page.read_text(encoding="utf-8")
-    assert "No video." in html
-    assert "libegl1" in html
-    assert "<video" not in html
-    assert not (tmp_path / "toss.mp4").exists()
-
-
 def test_what_mujoco_cannot_realise_is_a_report_of_one_engine(tmp_path, monkeypatch):
     stamp = SMALL._replace(width=96, height=54, frames_per_second=4)
     monkeypatch.setattr(encodings, "SMALL", stamp)
