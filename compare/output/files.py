@@ -167,18 +167,15 @@ def written_together(folder: Path, names: tuple[str, ...]) -> Iterator[Path]:
         UnwritableError: naming the folder or the file in the way, and why, for every error of the system.
     """
     require_folder(folder, names)
-    made = [part for part in folder.parents if not os.path.lexists(part)]
-    with naming(folder), ExitStack() as undone:
-        undone.callback(_remove_empty, made)
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        with aside_in(folder if folder.exists() else folder.parent) as aside:
-            written = aside / "made"
-            written.mkdir()
-            yield written
-            if folder.exists():
-                _move_files(written, folder, names)
-            else:
-                _move(written, folder)
+    with naming(folder), aside_in(next(part for part in (folder, *folder.parents) if part.exists())) as aside:
+        written = aside / "made"
+        written.mkdir()
+        yield written
+        if folder.exists():
+            _move_files(written, folder, names)
+        else:
+            folder.parent.mkdir(parents=True, exist_ok=True)
+            _move(written, folder)
 
 
 def _move_files(written: Path, folder: Path, names: tuple[str, ...]) -> None:
@@ -209,13 +206,6 @@ def aside_in(folder: Path) -> Iterator[Path]:
             # Another process that finds the folder before it is locked has the lock for a moment.
             held.enter_context(FileLock(Path(name) / LOCK).acquire(timeout=1))
         yield Path(name)
-
-
-def _remove_empty(folders: list[Path]) -> None:
-    """Remove folders, the inner ones first, up to the first that holds something."""
-    with suppress(OSError):
-        for folder in folders:
-            folder.rmdir()
 
 
 @contextmanager

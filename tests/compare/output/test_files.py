@@ -64,7 +64,7 @@ def test_files_of_a_folder_are_replaced_and_what_else_is_there_stays(earlier):
 def test_a_new_folder_appears_when_all_its_files_are_written(tmp_path, makes):
     """Unless another program makes it meanwhile."""
     new, was_there = tmp_path / "deep" / "new", []
-    write_anew(new, meanwhile=lambda: new.mkdir() if makes else was_there.append(new.exists()))
+    write_anew(new, meanwhile=lambda: new.mkdir(parents=True) if makes else was_there.append(new.exists()))
     assert held(new) == dict.fromkeys(NAMES[:3], "new")
     assert held(tmp_path / "deep") == {"new": False}
     assert new.stat().st_mode == new.parent.stat().st_mode
