@@ -20,8 +20,6 @@ class Format(NamedTuple):
 
 FULL, SMALL = Format(1280, 720, 30), Format(960, 540, 24, longest=12.5)
 """The formats of a film that stands alone, and of one in a page, whose reader waits for it."""
-GIF = Format(640, 360, 20, longest=15.0)
-"""The format of a film without compression in time."""
 
 
 class Encoding(NamedTuple):
@@ -39,6 +37,6 @@ class Encoding(NamedTuple):
 ENCODINGS = {
     ".mp4": Encoding("h264", FULL, 21, "-preset veryfast -movflags +faststart"),
     ".webm": Encoding("libvpx-vp9", FULL, 31, "-deadline good -cpu-used 5 -row-mt 1"),
-    ".gif": Encoding("gif", GIF, None),
+    ".gif": Encoding("gif", Format(640, 360, 20, longest=15.0), None),  # without compression in time
 }
 """The encodings by the suffix of the file."""

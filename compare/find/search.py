@@ -110,15 +110,11 @@ def search(
         return Searched((), made, refused, longest)
     showing = "1 toss shows" if len(points) == 1 else f"{len(points)} tosses show"
     tell(f"{showing} {target.in_words}; now measuring how far each field may change")
-    with stage("measuring margins", "steps", total=1 + BEST) as progress:
+    with stage("measuring margins"):
         wide = [Hit(*one) for one in zip(points, _margins(window, target, points, target.steps), strict=True)]
-        progress(1, 1 + BEST)
-        chosen = sorted(wide, key=lambda hit: -hit.margin)[:BEST]
-        chosen = chosen[: BEST if chosen[0].margin > LEAST else 1]
-        centred: list[Hit] = []
-        for hit in chosen:
-            centred.append(_centred(window, target, hit))
-            progress(1 + len(centred), 1 + len(chosen))
+        best, *others = sorted(wide, key=lambda hit: -hit.margin)[:BEST]
+        chosen = [best, *others] if best.margin > LEAST else [best]
+        centred = [_centred(window, target, hit) for hit in chosen]
     return Searched(tuple(sorted(centred, key=lambda hit: -hit.margin)), made, refused, longest)
 
 

@@ -66,18 +66,14 @@ class Target:
         rows, is_tossed = window.rows(window.values(points))
         shown, left = np.where(is_tossed, 0, -1), np.flatnonzero(is_tossed)
         touches, most = 0, min(steps, len(self.sequence))
+        faces = np.array([Face.HEADS if one == "H" else Face.TAILS for one in self.sequence])
         while touches < most and len(left):
             # Of a long sequence few show the beginning: the others need not go on.
             touches = min(max(AT_FIRST, 2 * touches), most)
-            agree = faces_shown(rows[left], touches) == self._faces[:touches]
+            agree = faces_shown(rows[left], touches) == faces[:touches]
             shown[left] = np.logical_and.accumulate(agree, axis=1).sum(axis=1)
             left = left[shown[left] == touches]
         if steps > len(self.sequence) and len(left):
             tossed = analytic.toss_rows(rows[left], device=self.processor)
             shown[left] += tossed.outcome == self.outcome
         return shown
-
-    @property
-    def _faces(self) -> NDArray[np.int8]:
-        """The faces of the sequence, (n,)."""
-        return np.array([Face.HEADS if one == "H" else Face.TAILS for one in self.sequence], dtype=np.int8)
