@@ -56,18 +56,9 @@ if TYPE_CHECKING:
     from cointoss.compare.flips.people import wobbling as wobbling
     from cointoss.compare.metrics.estimate import Estimate as Estimate
     from cointoss.compare.metrics.estimates import LEVEL as LEVEL
-    from cointoss.compare.metrics.estimates import PARTS as PARTS
     from cointoss.compare.metrics.estimates import chance_alike as chance_alike
-    from cointoss.compare.metrics.estimates import difference as difference
     from cointoss.compare.metrics.estimates import in_words as in_words
-    from cointoss.compare.metrics.estimates import jackknife as jackknife
-    from cointoss.compare.metrics.estimates import mean as mean
-    from cointoss.compare.metrics.estimates import mean_share as mean_share
     from cointoss.compare.metrics.estimates import percent as percent
-    from cointoss.compare.metrics.estimates import quantile as quantile
-    from cointoss.compare.metrics.estimates import quotient as quotient
-    from cointoss.compare.metrics.estimates import ratio_of_medians as ratio_of_medians
-    from cointoss.compare.metrics.estimates import scatter_of_shares as scatter_of_shares
     from cointoss.compare.metrics.estimates import share as share
     from cointoss.compare.metrics.estimates import share_of as share_of
     from cointoss.compare.metrics.first_side import TOUCHES as TOUCHES

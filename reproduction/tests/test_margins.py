@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from cointoss.compare.metrics.estimates import quantile
 from cointoss_reproduction.frame.cells import Cells, column, read_table, table_of
 from cointoss_reproduction.frame.files import TABLE
+from cointoss_reproduction.setups.estimates import quantile
 from cointoss_reproduction.studies.margins.study import (
     ACCURACIES,
     HAND,

@@ -12,9 +12,9 @@ from cointoss.models.batch import PLACE, states_of
 from cointoss.models.laws import EndingTest
 from cointoss.models.parts import Release
 from cointoss.models.records import Ending, Outcome
-from cointoss.study import quotient
 from cointoss_reproduction.frame.cells import Cells, table_of
 from cointoss_reproduction.setups import fig24_readings
+from cointoss_reproduction.setups.estimates import quotient
 from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.setups.hands import HEIGHTS, SPINS, states_of_hands
 from cointoss_reproduction.setups.planar_maps import case, faces_after, planar_rows, touched_faces

@@ -3,7 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.study import PARTS, Estimate, jackknife
+from cointoss.study import Estimate
+from cointoss_reproduction.setups.estimates import PARTS, jackknife
 
 
 def changes(faces: NDArray[np.int8]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

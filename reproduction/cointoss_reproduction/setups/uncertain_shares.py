@@ -11,9 +11,10 @@ from multiprocessing import get_context
 import numpy as np
 
 from cointoss import Scenario
-from cointoss.study import Array, Estimate, jackknife, share_of
+from cointoss.study import Array, Estimate, share_of
 from cointoss_reproduction.precision.branching import EARLY, Branches, branch
 from cointoss_reproduction.precision.planar_coin import PlanarRelease, planar_coin, units
+from cointoss_reproduction.setups.estimates import jackknife
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case
 
 ACCURACIES = tuple(float(f"1e-{n}") for n in range(3, 25))

@@ -7,9 +7,10 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from cointoss.study import Array, mean_share, ratio_of_medians
+from cointoss.study import Array
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.setups.estimates import mean_share, ratio_of_medians
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, LANDINGS, SPINS, case, planar_rows
 
 SEED = 53

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from cointoss import Ending, Engine
-from cointoss.study import Estimate, chance_alike, difference, percent, share, share_of
+from cointoss.study import Estimate, chance_alike, percent, share, share_of
 from cointoss_reproduction.frame.cells import Cells, Row
 from cointoss_reproduction.frame.selection import measured
 from cointoss_reproduction.frame.study import study
@@ -29,6 +29,7 @@ from cointoss_reproduction.setups.edge_classes import (
     nickel,
 )
 from cointoss_reproduction.setups.ends import OUTCOMES, tally
+from cointoss_reproduction.setups.estimates import difference
 from cointoss_reproduction.studies.edge.laws import (
     ANGLE,
     DIE,

@@ -7,9 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss import ContactLaw, Face, Floor, Scenario, analytic, load
-from cointoss.study import Array, jackknife, mean, rows_from_states, scatter_of_shares
+from cointoss.study import Array, rows_from_states
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.setups.estimates import jackknife, mean, scatter_of_shares
 from cointoss_reproduction.setups.hands import states_of_hands
 from cointoss_reproduction.setups.kellers_map import caught
 from cointoss_reproduction.setups.planar_maps import faces_after, toss_rows_by_mujoco

@@ -10,11 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from cointoss import Toss, analytic, load
-from cointoss.study import HEADS, INK, PALE, SKY, TAILS, VERMILION, Array, common_prefix, mean, share
+from cointoss.study import HEADS, INK, PALE, SKY, TAILS, VERMILION, Array, common_prefix, share
 from cointoss_reproduction.frame.cells import Cells, column
 from cointoss_reproduction.frame.selection import COLORS
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.both_engines import by_both
+from cointoss_reproduction.setups.estimates import mean
 from cointoss_reproduction.setups.fig24_readings import (
     APART,
     CLUSTER,

@@ -9,9 +9,10 @@ from matplotlib.figure import Figure
 
 from cointoss import Air, Scenario, load
 from cointoss.coin_mj import impacts_of
-from cointoss.study import Array, mean, run, share, state_at_release
+from cointoss.study import Array, run, share, state_at_release
 from cointoss_reproduction.frame.cells import Cells, column
 from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.setups.estimates import mean
 from cointoss_reproduction.setups.planar_maps import MEDIA
 from cointoss_reproduction.studies.fig27.lyapunov import divergence, growth_by_tangent
 

@@ -10,9 +10,10 @@ from matplotlib.figure import Figure
 
 from cointoss import ContactLaw, Scenario, analytic
 from cointoss.coin_mj import impacts_of
-from cointoss.study import HEADS, INK, TAILS, Array, ratio_of_medians, run, state_at_release
+from cointoss.study import HEADS, INK, TAILS, Array, run, state_at_release
 from cointoss_reproduction.frame.cells import Cells, column
 from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.setups.estimates import ratio_of_medians
 from cointoss_reproduction.setups.face_changes import changes, share_after_row
 from cointoss_reproduction.setups.fig24_readings import READINGS, Reading, clustering
 

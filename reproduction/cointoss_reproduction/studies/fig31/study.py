@@ -10,9 +10,10 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from cointoss import EndingCriteria, Outcome, Scenario, analytic
-from cointoss.study import Array, Estimate, quotient, share, share_of
+from cointoss.study import Array, Estimate, share, share_of
 from cointoss_reproduction.frame.cells import Cells, column, estimate
 from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.setups.estimates import quotient
 from cointoss_reproduction.setups.planar_maps import (
     HEIGHTS,
     MEDIA,

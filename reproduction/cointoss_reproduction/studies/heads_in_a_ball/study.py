@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from cointoss import Outcome, Scenario, analytic
-from cointoss.study import Answers, Array, Estimate, jackknife, mean_share, rows_from_states, share
+from cointoss.study import Answers, Array, Estimate, rows_from_states, share
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.setups.estimates import jackknife, mean_share
 from cointoss_reproduction.setups.halving import halved
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case, planar_rows, toss_rows_by_mujoco
 

@@ -23,7 +23,6 @@ from cointoss.study import (
     ReleaseQuantity,
     in_words,
     paragraphs,
-    quantile,
     rows_from_states,
     scenario_of_row,
     share,
@@ -33,6 +32,7 @@ from cointoss.study import (
 from cointoss_reproduction.frame.cells import Cells, column
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.precision.proved_change import proved_change
+from cointoss_reproduction.setups.estimates import quantile
 from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case, planar_rows
 

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from cointoss import Outcome, Scenario, toss_many
-from cointoss.study import Array, Estimate, chance_alike, quotient, share_of
+from cointoss.study import Array, Estimate, chance_alike, share_of
 from cointoss_reproduction.frame.cells import Cells, estimate, kept_rows
 from cointoss_reproduction.frame.selection import measured
 from cointoss_reproduction.frame.study import study
@@ -21,6 +21,7 @@ from cointoss_reproduction.setups.edge_classes import (
     hand_of,
     nickel,
 )
+from cointoss_reproduction.setups.estimates import quotient
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case
 from cointoss_reproduction.setups.uncertain_shares import ACCURACIES, AIR, SMOOTH, case_of
 

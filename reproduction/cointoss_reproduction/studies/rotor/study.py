@@ -9,9 +9,10 @@ import numpy as np
 import pandas as pd
 
 from cointoss import Scenario, analytic
-from cointoss.study import Array, Estimate, quotient, rows_from_states, share
+from cointoss.study import Array, Estimate, rows_from_states, share
 from cointoss_reproduction.frame.cells import Cells, estimate, kept_rows
 from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.setups.estimates import quotient
 from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case, planar_rows
 from cointoss_reproduction.setups.uncertain_shares import (

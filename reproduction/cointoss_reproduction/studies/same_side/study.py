@@ -17,7 +17,6 @@ from cointoss.study import (
     chance_of_spread,
     first_side,
     fit_people,
-    jackknife,
     log_likelihoods,
     rows_from_states,
     share,
@@ -26,6 +25,7 @@ from cointoss.study import (
 )
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.setups.estimates import jackknife
 from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.studies.same_side.people import (
     EXPONENTIAL,

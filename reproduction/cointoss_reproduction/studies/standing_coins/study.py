@@ -12,12 +12,13 @@ from scipy.stats import rankdata
 
 from cointoss import Outcome, Scenario
 from cointoss.analytic import AnalyticSettings
-from cointoss.study import Array, FloorFriction, Pieces, mean, run, share
+from cointoss.study import Array, FloorFriction, Pieces, run, share
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.frame.threads import all_cores
 from cointoss_reproduction.precision.planar_coin import PlanarRelease, planar_coin, units
 from cointoss_reproduction.precision.planar_numbers import spread, toss_many
+from cointoss_reproduction.setups.estimates import mean
 from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.setups.halving import halved
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case

@@ -7,9 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss import Coin, ContactLaw, Floor, Outcome, Scenario, analytic, load
-from cointoss.study import Answers, Array, Estimate, difference, jackknife, rows_from_states, run, share
+from cointoss.study import Answers, Array, Estimate, rows_from_states, run, share
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.setups.estimates import difference, jackknife
 from cointoss_reproduction.setups.face_changes import changes, share_after_row
 from cointoss_reproduction.setups.hands import states_of_hands
 from cointoss_reproduction.setups.planar_maps import faces_after, toss_rows_by_mujoco

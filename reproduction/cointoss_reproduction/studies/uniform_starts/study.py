@@ -7,9 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss import Face
-from cointoss.study import Array, jackknife, scatter_of_shares
+from cointoss.study import Array
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.setups.estimates import jackknife, scatter_of_shares
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, LANDINGS, SPINS, case, planar_rows
 
 SEED = 37
