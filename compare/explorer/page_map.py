@@ -2,40 +2,42 @@
 
 from base64 import b64encode
 from dataclasses import asdict
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cointoss.compare.sweep.layers import NOT_TOSSED
-from cointoss.compare.sweep.tossed_map import TossedMap
+from cointoss.compare.sweep.maps import asked_of, axes_of, layers_in, title_of, untrusted_in
 from cointoss.compare.web.playable import shown_outcomes
+from cointoss.models.answers import NOT_TOSSED
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 MOST_SHOWN = 4_000_000
 """Pixels on the page: of a larger map every second, third, ..."""
 _KINDS = {"outcome": "<i1", "impacts": "<i4", "margin": "<f4", "trusted_impacts": "<i4", "untrusted": "<i1"}
 
 
-def page_map(found: TossedMap) -> dict[str, Any]:
-    """Return a map as JSON; arrays row by row in base64, little-endian."""
-    sweep = found.sweep
-    margin = sweep.quantity if sweep.margin else None
-    untrusted = {} if found.untrusted is None else {"untrusted": found.untrusted}
+def page_map(found: "xr.Dataset", name: str) -> dict[str, Any]:
+    """Return a map of this name as JSON; arrays row by row in base64, little-endian."""
+    (_, how), layers, (y, x) = asked_of(found), layers_in(found), axes_of(found)
+    untrusted = untrusted_in(found)
     return {
-        "name": found.name,
-        "title": sweep.title,
-        "engine": sweep.engine.value,
-        "after": sweep.after,
-        "stride": found.stride,
-        "tossed": float(np.mean(found.outcome != NOT_TOSSED)),
+        "name": name,
+        "title": title_of(found),
+        "engine": how.engine.value,
+        "after": how.after,
+        "stride": int(found.attrs.get("stride", 1)),
+        "tossed": float(np.mean(layers["outcome"] != NOT_TOSSED)),
         "axes": {
-            name: asdict(axis) | {"word": axis.word, "unit": axis.printed_unit}
-            for name, axis in (("x", sweep.x), ("y", sweep.y))
+            side: asdict(axis) | {"word": axis.word, "unit": axis.printed_unit}
+            for side, axis in (("x", x), ("y", y))
         },
         "outcomes": shown_outcomes(),
-        "margin": margin and {"along": margin.name, "unit": margin.unit},
+        "margin": how.margin and {"along": how.margin, "unit": how.quantity.unit},
         "arrays": {
-            name: b64encode(array.astype(_KINDS[name]).tobytes()).decode("ascii")
-            for name, array in (found.layers | untrusted).items()
-            if name in _KINDS
+            layer: b64encode(array.astype(_KINDS[layer]).tobytes()).decode("ascii")
+            for layer, array in (layers | ({} if untrusted is None else {"untrusted": untrusted})).items()
+            if layer in _KINDS
         },
     }

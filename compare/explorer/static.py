@@ -1,6 +1,7 @@
 """The explorer as one file: the page, its map, and the tosses of some pixels; it needs no server."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -9,14 +10,16 @@ from cointoss.compare.explorer.page_files import page_files
 from cointoss.compare.explorer.page_map import page_map
 from cointoss.compare.explorer.tosses import MOST_IMPACTS, toss_pixel
 from cointoss.compare.output.files import write_text
-from cointoss.compare.sweep.grid import Sweep
-from cointoss.compare.sweep.reading import tossed_map_at
-from cointoss.compare.sweep.tossed_map import TossedMap
+from cointoss.compare.sweep.maps import asked_of, name_of, thinned, title_of
+from cointoss.compare.sweep.reading import map_at
 from cointoss.compare.web.scripts import ENGINE_POLICY, POLICY, one_file
 from cointoss.compare.web.wasm.carried import engine_data
 from cointoss.models.fields import FIELDS
 from cointoss.models.notebook import Frame
 from cointoss.models.stages import counted
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 MOST_BYTES = 10_000_000
 """The largest size of the file."""
@@ -43,40 +46,39 @@ def write_static(map_path: Path, out: Path) -> None:
         MapError, ScenarioError: for what is no map.
         UnwritableError: naming the file and why.
     """
-    write_text(out, _page(tossed_map_at(map_path, most=MOST_PIXELS), TOSSED))
+    write_text(out, _page(map_at(map_path, most=MOST_PIXELS), map_path.name, TOSSED))
 
 
-def explore(shown: TossedMap) -> Frame:
+def explore(found: "xr.Dataset") -> Frame:
     """Return a frame with that page of a map, for a notebook."""
-    return Frame(f"map of {shown.sweep.title}", _page(shown.thinned(MOST_PIXELS), TOSSED_IN_FRAME), HEIGHT)
+    page = _page(thinned(found, MOST_PIXELS), name_of(found), TOSSED_IN_FRAME)
+    return Frame(f"map of {title_of(found)}", page, HEIGHT)
 
 
-def _page(shown: TossedMap, tossed: tuple[int, int]) -> str:
+def _page(shown: "xr.Dataset", name: str, tossed: tuple[int, int]) -> str:
     """Return the page of a map, with at most `most` columns and rows of its pixels tossed."""
-    sweep = shown.sweep
-    columns, rows = (_spread(axis.count, most) for axis, most in zip((sweep.x, sweep.y), tossed, strict=True))
-    pixels = [(column, row) for row in rows for column in columns]
-    x, y, tosses = sweep.x.values, sweep.y.values, {}
+    batch, _ = asked_of(shown)
+    y, x = (one.values for one in batch.varied)
+    columns, rows = (_spread(len(one), most) for one, most in zip((x, y), tossed, strict=True))
+    pixels, tosses = [(column, row) for row in rows for column in columns], {}
     for column, row in counted("tossing by both engines", "pixels", pixels):
         at = float(x[column]), float(y[row])
         tosses[f"{column},{row}"] = [
-            toss_pixel(sweep, *at, engine, samples=SAMPLES, most_symbols=SAMPLES // 4) for engine in Engine
+            toss_pixel(shown, *at, engine, samples=SAMPLES, most_symbols=SAMPLES // 4) for engine in Engine
         ]
-    held = {"columns": columns, "rows": rows, "tosses": tosses, "engine": _engine(sweep)}
+    held = {"columns": columns, "rows": rows, "tosses": tosses, "engine": _engine(shown)}
     policy = ENGINE_POLICY if held["engine"] else POLICY
-    return one_file(page_files(), {"map": page_map(shown), **held}, policy)
+    return one_file(page_files(), {"map": page_map(shown, name), **held}, policy)
 
 
-def _engine(sweep: Sweep) -> dict[str, object] | None:
+def _engine(found: "xr.Dataset") -> dict[str, object] | None:
     """Return what the page needs to toss any pixel itself, or None where it cannot."""
-    if not {sweep.x.field, sweep.y.field} <= set(FIELDS):  # such as a spin, which the page does not know
+    batch, _ = asked_of(found)
+    if not {one.field for one in batch.varied} <= set(FIELDS):  # such as a spin, which the page does not know
         return None
-    most = MOST_IMPACTS[Engine.ANALYTIC]
-    found = engine_data(
-        sweep.scenario.replace("ending.max_impacts", min(most, sweep.scenario.rules.max_impacts))
-    )
-    cut = most if most < sweep.scenario.rules.max_impacts else None
-    return found and {**found, "samples": SAMPLES, "most": cut}
+    most, last = MOST_IMPACTS[Engine.ANALYTIC], batch.scenario.rules.max_impacts
+    engine = engine_data(batch.scenario.replace("ending.max_impacts", min(most, last)))
+    return engine and {**engine, "samples": SAMPLES, "most": most if most < last else None}
 
 
 def _spread(count: int, most: int) -> list[int]:

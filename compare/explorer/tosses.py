@@ -2,23 +2,26 @@
 
 import warnings
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.film.back_end import BackEndError, require_mujoco
 from cointoss.compare.film.filmed import followed
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.grid import Sweep
-from cointoss.compare.sweep.pixels import pixel_scenario
+from cointoss.compare.sweep.maps import asked_of, axes_of
 from cointoss.compare.web.playable import MOST_SYMBOLS, SAMPLES, path_of, playable, rounded
 from cointoss.models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
+from cointoss.models.scenario import Scenario
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 MOST_IMPACTS = {Engine.ANALYTIC: 20_000, Engine.MUJOCO: 500}
 """A toss is followed up to this number of impacts: some seconds of work."""
 
 
 def toss_pixel(
-    sweep: Sweep,
+    found: "xr.Dataset",
     x: float,
     y: float,
     engine: Engine,
@@ -29,7 +32,7 @@ def toss_pixel(
     """Return the toss at a point of a map, to its end also where the map shows an earlier touch.
 
     Args:
-        sweep: of the map.
+        found: the map.
         x: value of the field of the columns.
         y: value of the field of the rows.
         engine: that tosses, with its settings of one toss.
@@ -39,14 +42,14 @@ def toss_pixel(
     Raises:
         SweepError: for values that make no valid scenario.
     """
-    scenario = pixel_scenario(replace(sweep, after=None), y, x)
+    scenario = scenario_at(found, x, y)
     most = MOST_IMPACTS[engine]
     limited = scenario.replace("ending.max_impacts", min(most, scenario.rules.max_impacts))
     with warnings.catch_warnings(record=True, action="always", category=ApproximationWarning) as raised:
         try:
             require_mujoco(engine)
-            toss = engine.package.toss(limited, settings=_settings(sweep, engine))
-            shown = followed(toss, _settings(sweep, engine))
+            toss = engine.package.toss(limited, settings=_settings(found, engine))
+            shown = followed(toss, _settings(found, engine))
             played = playable(toss, 2, most_symbols)
         except (UnsupportedError, UnusableEngineError, BackEndError, FloatingPointError) as error:
             return {"engine": engine.value, "problem": str(error)}
@@ -60,21 +63,33 @@ def toss_pixel(
     return {**played, **later, **ending, "notes": notes}
 
 
-def _settings(sweep: Sweep, engine: Engine) -> Any:
+def scenario_at(found: "xr.Dataset", x: float, y: float) -> Scenario:
+    """Return the scenario of the toss at a point of a map.
+
+    Raises:
+        ScenarioError: for values that make no valid scenario, naming them.
+    """
+    batch, _ = asked_of(found)
+    given = zip([one.field for one in batch.varied], (y, x), strict=True)
+    # A number of impacts is whole on every axis.
+    pairs = ((field, int(at) if field == "ending.max_impacts" else at) for field, at in given)
+    first, second = pairs
+    return batch.scenario.replace(*first, *second)
+
+
+def _settings(found: "xr.Dataset", engine: Engine) -> Any:
     """Return an engine's settings of one toss, MuJoCo's with the contact of the map where it made that."""
-    fine = engine.package.FINE
-    if sweep.engine == engine == Engine.MUJOCO:
-        return replace(fine, contact=sweep.settings.as_dict()["contact"])
-    return fine
+    fine, (_, how) = engine.package.FINE, asked_of(found)
+    return replace(fine, contact=how.settings.contact) if how.engine == engine == Engine.MUJOCO else fine
 
 
-def require_inside(sweep: Sweep, x: float, y: float) -> None:
+def require_inside(found: "xr.Dataset", x: float, y: float) -> None:
     """Refuse a point outside of a map.
 
     Raises:
         SweepError: naming the field, its value and what is accepted.
     """
-    for axis, value in ((sweep.x, x), (sweep.y, y)):
+    for axis, value in zip(axes_of(found), (y, x), strict=True):
         low, high = sorted((axis.start, axis.stop))
         if not low <= value <= high:
             raise SweepError(f"{axis.field} = {value:g}: accepted: a number from {low!r} to {high!r}")

@@ -10,10 +10,11 @@ from cointoss.compare.engines import Engine
 from cointoss.compare.lab.lab import SERVED_POLICY, lab_page
 from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.basin import MOST_AFTER
+from cointoss.compare.sweep.batch import Batch
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.grid import Sweep
-from cointoss.compare.sweep.pieces import pieces
-from cointoss.compare.sweep.pixels import shown
+from cointoss.compare.sweep.layers import trust_layer
+from cointoss.compare.sweep.maps import asked
+from cointoss.compare.sweep.pieces import How, pieces
 from cointoss.compare.web.query import COUNT, Query, query_of, texts_in
 from cointoss.compare.web.server import PageServer
 from cointoss.compare.web.turns import Client
@@ -63,19 +64,18 @@ class ServedLab(PageServer):
 
     def _map(self, query: str, client: Client) -> bytes:
         """Return the codes of a map and then whether each is trusted, a signed octet each, row by row."""
-        sweep = sweep_asked(query_of(query, *NAMES), self.device)
-        codes, trusted = np.full((2, len(sweep.batch)), NOT_TOSSED, dtype=np.int8)
-        for numbers, answers in pieces(sweep.batch, replace(sweep.how, keeps=True)):
+        batch, how = map_asked(query_of(query, *NAMES), self.device)
+        codes, trusted = np.full((2, len(batch)), NOT_TOSSED, dtype=np.int8)
+        for numbers, found in pieces(batch, replace(how, keeps=True)):
             client.require_there()
-            codes[numbers] = shown(sweep, answers)
-            found = answers.outcome_certain if sweep.after is None else answers.trusted_impacts
-            if found is not None:
-                trusted[numbers] = found > (sweep.after or 0)
-        return codes.tobytes() + (trusted.tobytes() if sweep.trust else b"")
+            codes[numbers] = found["outcome"]
+            if how.trust:
+                trusted[numbers] = found[trust_layer(how.after)] > (how.after or 0)
+        return codes.tobytes() + (trusted.tobytes() if how.trust else b"")
 
 
-def sweep_asked(query: Query, device: Device) -> Sweep:
-    """Return what a map is made of that a page asks for.
+def map_asked(query: Query, device: Device) -> tuple[Batch, How]:
+    """Return the tosses of the map that a page asks for, and how they are tossed.
 
     Raises:
         QueryError, SweepError, ScenarioError: naming what is wrong and what is accepted.
@@ -86,12 +86,10 @@ def sweep_asked(query: Query, device: Device) -> Sweep:
     (after,) = texts_in(query, ["after"], _AFTER, f"final, or a whole number from 0 to {MOST_AFTER}")
     (trust,) = texts_in(query, ["trust"], _TRUST, "0 or 1")
     x, y = (_axis(query[name], span, count) for name, span, count in zip("xy", ends, counts, strict=True))
-    return Sweep(
-        scenario=scenario_of_row(row),
-        engine=Engine.ANALYTIC,
-        x=x,
-        y=y,
-        settings=Engine.ANALYTIC.package.MANY,
+    return asked(
+        scenario_of_row(row),
+        x,
+        y,
         after=None if after == "final" else int(after),
         trust=trust == "1",
         device=device,

@@ -110,7 +110,7 @@ def dataset_of(plan: Plan, counts: Counts, *, is_complete: bool = True) -> "xr.D
         counts: of all tosses, (engines, values of each field, 6).
         is_complete: whether nothing is left to count.
     """
-    from cointoss.compare.sweep.accessor import shares_of
+    from cointoss.compare.shares.show import shares_of
 
     coordinates: dict[str, Any] = {
         "engine": [engine.value for engine in plan.engines],

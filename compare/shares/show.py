@@ -1,14 +1,14 @@
-"""The dataset of `shares` as a table, as files, and compared between both engines."""
+"""The dataset of shares, as a table, as files, and compared between both engines."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.compare.metrics.estimate import Estimate
-from cointoss.compare.metrics.estimates import chance_alike, percent
+from cointoss.compare.metrics.estimates import chance_alike, percent, wilson
 from cointoss.compare.output.tables import sheet, table
 from cointoss.compare.sweep.axes import word_of
 from cointoss.models.units import printed_unit
@@ -17,6 +17,30 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _FACES, _LAST = ["heads", "tails"], "undecided"
+
+
+def shares_of(
+    counts: NDArray[np.int64], dims: tuple[Hashable, ...], coordinates: Any, attributes: Any
+) -> "xr.Dataset":
+    """Return a dataset of shares and their 99 % intervals.
+
+    Args:
+        counts: of each outcome, (..., 6).
+        dims: of the counts.
+        coordinates: of these.
+        attributes: of the dataset.
+    """
+    import xarray
+
+    values, low, high = wilson(counts, counts.sum(axis=-1, keepdims=True))
+    about = {
+        "count": (counts, "number of tosses"),
+        "share": (values, "share of the tosses"),
+        "low": (low, "low end of its 99 % interval"),
+        "high": (high, "high end of its 99 % interval"),
+    }
+    variables = {name: (dims, array, {"long_name": text}) for name, (array, text) in about.items()}
+    return xarray.Dataset(variables, coordinates, attributes)
 
 
 def over_engines(shares: "xr.Dataset") -> "xr.Dataset":

@@ -9,13 +9,11 @@ import numpy as np
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.axes import FORM, Axis, axis_given, parse_axis
 from cointoss.compare.sweep.errors import SweepError, require_whole
-from cointoss.compare.sweep.grid import Sweep
-from cointoss.compare.sweep.layers import layers_of
-from cointoss.compare.sweep.pieces import gather, whole
-from cointoss.compare.sweep.pixels import check
+from cointoss.compare.sweep.layers import map_layers
+from cointoss.compare.sweep.maps import asked, map_of
+from cointoss.compare.sweep.pieces import check_map, gather, pieces
 from cointoss.compare.sweep.reading import MOST_READ
-from cointoss.compare.sweep.run import toss_here
-from cointoss.compare.sweep.tossed_map import TossedMap
+from cointoss.compare.sweep.words import in_words
 from cointoss.models.devices import Device
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.scenario import Scenario
@@ -76,31 +74,29 @@ def basin(
     described, tosser = scenario_of(scenario), Engine(engine)
     if after is not None:
         require_whole("after", after, 0, MOST_AFTER)
-    sweep = Sweep(
-        scenario=described,
+    batch, how = asked(
+        described,
+        _axis("x", x, described),
+        _axis("y", y, described),
         engine=tosser,
-        x=_axis("x", x, described),
-        y=_axis("y", y, described),
-        settings=tosser.package.MANY,
         after=None if after is None else int(after),
         margin=margin,
         trust=trust,
         device=Device(device),
-        name="" if isinstance(scenario, Scenario) else Path(scenario).stem,
     )
-    ny, nx = sweep.shape
-    if ny * nx > MOST_READ:
+    ny, nx = batch.shape
+    if len(batch) > MOST_READ:
         raise SweepError(
             f"x, y: {nx} by {ny} pixels, accepted: at most {MOST_READ:g}; "
             "cointoss basin makes larger maps on disk"
         )
-    check(sweep)
-    layers = {name: np.full(ny * nx, layer.missing, layer.kind) for name, layer in layers_of(sweep).items()}
-    name = "map" if isinstance(scenario, Scenario) else f"map of {scenario}"
-    gather(layers, toss_here(sweep)(whole(ny * nx)), name)
-    arrays = {layer: array.reshape(sweep.shape) for layer, array in layers.items()}
-    made = TossedMap(name=name, sweep=sweep, layers=arrays).dataset()
-    return made.assign_attrs(sweep.how.processor.attributes)
+    check_map(batch, how)
+    layers = {name: np.full(len(batch), one.missing, one.kind) for name, one in map_layers(how).items()}
+    is_named = not isinstance(scenario, Scenario)
+    gather(layers, pieces(batch, how), f"map of {scenario}" if is_named else "map")
+    arrays = {name: array.reshape(batch.shape) for name, array in layers.items()}
+    made = map_of(batch, how, arrays, Path(scenario).stem if is_named else "")
+    return in_words(made).assign_attrs(how.processor.attributes)
 
 
 def _axis(name: str, given: str | tuple[Any, ...] | Mapping[str, Any], described: Scenario) -> Axis:

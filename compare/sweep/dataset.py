@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from cointoss.compare.sweep.batch import Batch
 from cointoss.compare.sweep.pieces import How
+from cointoss.compare.sweep.words import in_words
 from cointoss.models.answers import COLUMNS
 
 if TYPE_CHECKING:
@@ -25,17 +26,7 @@ def dataset_of(batch: Batch, how: How, answers: Mapping[str, NDArray[Any]]) -> "
     """
     import xarray
 
-    from cointoss.compare.sweep import accessor  # registers `Dataset.cointoss`
-
-    variables = {
-        name: (tuple(batch.sizes), array, COLUMNS[name].attributes) for name, array in answers.items()
-    }
-    return accessor.in_words(xarray.Dataset(variables, batch.coordinates, about(batch, how)))
-
-
-def about(batch: Batch, how: How) -> dict[str, Any]:
-    """Return what made the answers: the scenario, the engine, its settings and the versions."""
-    return {
+    about = {
         "scenario": batch.scenario.to_toml(),
         "engine": how.engine.value,
         "engine_settings": json.dumps(how.settings.as_dict()),
@@ -44,3 +35,7 @@ def about(batch: Batch, how: How) -> dict[str, Any]:
         **how.processor.attributes,
         "versions": json.dumps({**how.engine.versions, "xarray": version("xarray")}),
     }
+    variables = {
+        name: (tuple(batch.sizes), array, COLUMNS[name].attributes) for name, array in answers.items()
+    }
+    return in_words(xarray.Dataset(variables, batch.coordinates, about))

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.compare.basins.agreement import Agreement, Share, agreement
-from cointoss.compare.sweep.grid import Sweep
-from cointoss.compare.sweep.untrusted import untrusted_pixels
+from cointoss.compare.sweep.layers import is_untrusted
+from cointoss.compare.sweep.layout import Layout
 from cointoss.models.records import Array, Outcome
 
 if TYPE_CHECKING:
@@ -18,13 +18,13 @@ AWAY = 2.0
 """A pixel is away from the boundaries where all within this distance have its outcome [pixels]."""
 
 
-def describe_map(path: Path, sweep: Sweep, fractions: dict[Outcome, float]) -> str:
+def describe_map(path: Path, layout: Layout, fractions: dict[Outcome, float]) -> str:
     """Return a map as text: where it is, what it is of, and the share of each outcome."""
-    ny, nx = sweep.shape
-    shown = "" if sweep.after is None else f"face at touch {sweep.after + 1}, or "
+    (ny, nx), after = layout.batch.shape, layout.attributes["after"]
+    shown = "" if after is None else f"face at touch {after + 1}, or "
     lines = [
         f"map        {path}",
-        f"engine     {sweep.engine}",
+        f"engine     {layout.attributes['engine']}",
         f"tosses     {nx} by {ny}: {shown}final outcome",
         "shares     of these tosses:",
         *(
@@ -49,18 +49,18 @@ def describe_margins(quantity: "ReleaseQuantity", margins: Array) -> str:
     )
 
 
-def describe_trust(sweep: Sweep, counts: NDArray[np.int64]) -> str:
+def describe_trust(after: int | None, counts: NDArray[np.int64]) -> str:
     """Return as text how much of a map can be trusted.
 
     Args:
-        sweep: what the map is made of.
+        after: how many impacts, of a map of the touch after them; None of final outcomes.
         counts: how many pixels have 0, 1, 2, ... trusted impacts, or an outcome uncertain and certain, (n,).
     """
-    untrusted = untrusted_pixels(sweep.after, np.arange(len(counts), dtype=np.int32))
+    untrusted = is_untrusted(after, np.arange(len(counts), dtype=np.int32))
     share = 100 * counts[untrusted].sum() / counts.sum()
-    if sweep.after is None:
+    if after is None:
         return f"untrusted  {share:.3f} %: the engine's own errors may have decided the outcome"
-    why = f"impact {sweep.after + 1} is not trusted, or the toss ended before"
+    why = f"impact {after + 1} is not trusted, or the toss ended before"
     few, middle = np.searchsorted(np.cumsum(counts), counts.sum() * np.array([0.1, 0.5]))
     return "\n".join(
         [

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.compare.sweep.grid import Sweep
+from cointoss.compare.sweep.pieces import How
 from cointoss.models.answers import COLUMNS, NOT_TOSSED, REFUSED, AnswerColumn
 from cointoss.models.labelled import meanings_of
 from cointoss.models.records import Outcome
@@ -15,8 +15,8 @@ LAYERS = {**COLUMNS, "margin": AnswerColumn(kind=np.float64, attributes={}, miss
 """All arrays that there may be; what the attributes of a map's say depends on what is asked for."""
 
 
-def layers_of(sweep: Sweep) -> dict[str, AnswerColumn]:
-    """Return the arrays of a sweep's map, by name."""
+def map_layers(how: How) -> dict[str, AnswerColumn]:
+    """Return the arrays of a map that is tossed so, by name."""
     attributes = {
         "outcome": {
             "long_name": "outcome",
@@ -24,14 +24,14 @@ def layers_of(sweep: Sweep) -> dict[str, AnswerColumn]:
         },
         "impacts": {"long_name": "number of impacts"},
     }
-    if sweep.margin is not None:
-        found = f"smallest change of the release's {sweep.margin} that was found to change the outcome"
+    if how.margin is not None:
+        found = f"smallest change of the release's {how.margin} that was found to change the outcome"
         about = f"{found}; infinite: none up to 1 SI unit"
-        attributes["margin"] = {"long_name": about, "units": sweep.quantity.unit}
-    if sweep.trust and sweep.after is not None:
-        about = f"number of leading impacts up to touch {sweep.after + 1} that the engine's own errors cannot"
+        attributes["margin"] = {"long_name": about, "units": how.quantity.unit}
+    if how.trust and how.after is not None:
+        about = f"number of leading impacts up to touch {how.after + 1} that the engine's own errors cannot"
         attributes["trusted_impacts"] = {"long_name": f"{about} have changed"}
-    elif sweep.trust:
+    elif how.trust:
         attributes["outcome_certain"] = {
             "long_name": "whether the engine's own errors cannot change the outcome",
             **meanings_of({NOT_TOSSED: "not_tossed", 0: "uncertain", 1: "certain"}),
@@ -44,14 +44,25 @@ def trust_layer(after: int | None) -> str:
     return "outcome_certain" if after is None else "trusted_impacts"
 
 
+def is_untrusted(after: int | None, trust: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """Return where the engine's own errors may have decided the face or the outcome, in any shape.
+
+    The face at touch n + 1 can be trusted where n + 1 impacts can. Where the toss ended before, its outcome
+    is shown, which depends on more than its impacts: there it is not trusted. A final outcome can be trusted
+    where it is certain.
+
+    Args:
+        after: n of the map; None where it shows final outcomes.
+        trust: its `trust_layer`; below 0 where no toss was made yet.
+    """
+    return (trust >= 0) & (trust <= (after or 0))
+
+
 def holds_tosses(name: str, values: NDArray[Any]) -> NDArray[np.bool_]:
     """Return where an array, by its name, holds what a toss gave."""
-    if name == "outcome":
-        return np.isin(values, [*Outcome, REFUSED])
-    if name == "outcome_certain":
-        return np.isin(values, (0, 1, REFUSED))
     if name == "margin":
         return ~np.isnan(values)
     if name == "end_time":  # NaN, too, of what is no scenario
         return np.ones(values.shape, dtype=bool)
-    return (values >= 0) | (values == REFUSED)
+    known = {"outcome": [*Outcome], "outcome_certain": [0, 1]}.get(name)
+    return (values == REFUSED) | (values >= 0 if known is None else np.isin(values, known))

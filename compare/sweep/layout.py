@@ -6,15 +6,15 @@ from typing import Any
 
 from cointoss.compare.sweep.batch import Batch
 from cointoss.compare.sweep.chunks import FORMAT, TOSSES_FORMAT
-from cointoss.compare.sweep.grid import MARGIN_TOSSES, Sweep, tile_shape
-from cointoss.compare.sweep.layers import layers_of
+from cointoss.compare.sweep.layers import map_layers
 from cointoss.compare.sweep.pieces import How
+from cointoss.compare.sweep.tiles import MARGIN_TOSSES, tile_shape
 from cointoss.models.answers import COLUMNS, AnswerColumn
 
 MARGIN_ALONG = "margin_along"
 """Attribute of a map with margins: their quantity."""
 TRUST = "trust"
-"""Attribute of a map that says which of its pixels can be trusted: true."""
+"""Attribute that says what is known of trust: true for a map where it is."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,45 +28,33 @@ class Layout:
     attributes: dict[str, Any]
 
 
-def layout_of_map(sweep: Sweep, scenario_text: str) -> Layout:
-    """Return what a sweep's map is made of.
+def layout_of(batch: Batch, how: How, *, name: str | None = None, scenario_text: str = "") -> Layout:
+    """Return what a store of tosses is made of, or a map's.
 
     Args:
-        sweep: of the map.
-        scenario_text: the scenario's TOML.
+        batch: of the tosses.
+        how: they are tossed.
+        name: of the map's scenario; None for what is no map.
+        scenario_text: the scenario's TOML as it was given, by default as it is written.
     """
-    return Layout(
-        batch=sweep.batch,
-        tile=tile_shape(sweep.engine, sweep.batch, 1 if sweep.margin is None else MARGIN_TOSSES),
-        layers=layers_of(sweep),
-        attributes={
-            "cointoss_map": FORMAT,
-            "name": sweep.name,
-            "scenario": scenario_text,
-            "engine": sweep.engine.value,
-            "engine_settings": sweep.settings.as_dict(),
-            "after": sweep.after,
-            **({} if sweep.margin is None else {MARGIN_ALONG: sweep.margin}),
-            **({TRUST: True} if sweep.trust else {}),
-            "versions": {**sweep.engine.versions, "zarr": version("zarr")},
-        },
-    )
-
-
-def layout_of_tosses(batch: Batch, how: How) -> Layout:
-    """Return what a store of a batch's tosses is made of."""
+    if name is None:
+        head = {"cointoss_tosses": TOSSES_FORMAT, "errors": "keep" if how.keeps else "raise"}
+        layers, trust = {one: COLUMNS[one] for one in how.names}, {TRUST: how.trust}
+    else:
+        head = {"cointoss_map": FORMAT, "name": name}
+        layers, trust = map_layers(how), {TRUST: True} if how.trust else {}
     return Layout(
         batch=batch,
-        tile=tile_shape(how.engine, batch),
-        layers={name: COLUMNS[name] for name in how.names},
+        tile=tile_shape(how.engine, batch, 1 if how.margin is None else MARGIN_TOSSES),
+        layers=layers,
         attributes={
-            "cointoss_tosses": TOSSES_FORMAT,
-            "scenario": batch.scenario.to_toml(),
+            **head,
+            "scenario": scenario_text or batch.scenario.to_toml(),
             "engine": how.engine.value,
             "engine_settings": how.settings.as_dict(),
-            "after": None,
-            "errors": "keep" if how.keeps else "raise",
-            "trust": how.trust,
+            "after": how.after,
+            **({} if how.margin is None else {MARGIN_ALONG: how.margin}),
+            **trust,
             "versions": {**how.engine.versions, "zarr": version("zarr")},
         },
     )

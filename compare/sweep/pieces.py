@@ -4,19 +4,25 @@ import time
 import warnings
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.batch import Batch
+from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.answers import ANSWER, NOT_TOSSED, REFUSED, Answers, Trust, names_of
-from cointoss.models.batch import refused
+from cointoss.models.batch import PLACE, refused
 from cointoss.models.devices import Device
+from cointoss.models.errors import ScenarioError
 from cointoss.models.processor import Processor
+from cointoss.models.records import Array
 from cointoss.models.stages import stage
 from cointoss.models.unused import warn_of_unused_fields
+
+if TYPE_CHECKING:
+    from cointoss.compare.metrics.margin import ReleaseQuantity
 
 FIRST, GROWTH, SECOND = 64, 8, 1.0
 """Tosses of the first piece; the factor by which the next may grow; and the time that a piece should take
@@ -47,10 +53,23 @@ class How:
     processor: Processor = field(default_factory=Processor, compare=False)
     """What tosses, and counts what a card tossed."""
 
+    after: int | None = None
+    """Each toss stops at the touch after this number of impacts, and the face there is its outcome; None for
+    the final outcome."""
+    margin: str | None = None
+    """The full name of the quantity of the release along which each toss has its margin, if any."""
+
     @property
     def names(self) -> tuple[str, ...]:
         """The names of the answers."""
         return names_of(self.trust)
+
+    @property
+    def quantity(self) -> "ReleaseQuantity":
+        """The quantity along which each toss has its margin, where one is asked for."""
+        from cointoss.compare.metrics.margin import quantity_of
+
+        return quantity_of(self.margin or "")
 
 
 def check(batch: Batch, how: How) -> None:
@@ -61,6 +80,18 @@ def check(batch: Batch, how: How) -> None:
     if not how.keeps:
         require_scenarios(batch)
     require_supported(batch, how)
+
+
+def check_map(batch: Batch, how: How) -> None:
+    """Refuse a map as `check` does its tosses.
+
+    Raises:
+        SweepError: for a pixel that is no scenario, naming field, value, and what is accepted.
+    """
+    try:
+        check(batch, how)
+    except ScenarioError as error:
+        raise SweepError(str(error)) from None
 
 
 def require_scenarios(batch: Batch) -> None:
@@ -93,14 +124,6 @@ def require_supported(batch: Batch, how: How) -> None:
         )
 
 
-def columns(
-    batch: Batch, how: How, parts: Iterable[NDArray[np.intp]] | None = None
-) -> Iterator[tuple[NDArray[np.intp], Columns]]:
-    """Yield what `pieces` does, with the answers by their names."""
-    for tosses, found in pieces(batch, how, parts):
-        yield tosses, {name: getattr(found, name) for name in how.names}
-
-
 def gather(
     arrays: Columns,
     tossed: Iterator[tuple[NDArray[np.intp], Columns]],
@@ -130,8 +153,8 @@ def gather(
 
 def pieces(
     batch: Batch, how: How, parts: Iterable[NDArray[np.intp]] | None = None
-) -> Iterator[tuple[NDArray[np.intp], Answers]]:
-    """Toss some of a batch, and yield the numbers of the tosses of each piece, and their answers.
+) -> Iterator[tuple[NDArray[np.intp], Columns]]:
+    """Toss some of a batch, and yield the numbers of the tosses of each piece, and their answers by name.
 
     What a toss costs is known from the piece before: some cost a thousand times what others do. Ctrl-C yields
     what is made of its piece before it is raised.
@@ -148,7 +171,7 @@ def pieces(
         while done < len(part):
             piece, start = part[done : done + size], time.perf_counter()
             for answers in _tossed(batch, how, piece):
-                yield piece, answers
+                yield piece, columns_of(batch, how, piece, answers)
             done += len(piece)
             seconds = max(time.perf_counter() - start, 1e-9)
             if len(piece) == size or seconds > SECOND:
@@ -162,9 +185,55 @@ def whole(count: int, most: int = MOST) -> Iterator[NDArray[np.intp]]:
         yield np.arange(first, min(first + most, count))
 
 
+def toss_part(batch: Batch, how: How, numbers: NDArray[np.intp]) -> Columns:
+    """Return what is known of some tosses, made at once, by name."""
+    (answers,) = _tossed(batch, how, numbers)
+    return columns_of(batch, how, numbers, answers)
+
+
+def columns_of(batch: Batch, how: How, numbers: NDArray[np.intp], answers: Answers) -> Columns:
+    """Return what is known of some tosses by name, (n,) each.
+
+    Args:
+        batch: that they are of.
+        how: they were tossed.
+        numbers: of the tosses.
+        answers: of the engine.
+    """
+    found: Columns = {name: getattr(answers, name) for name in how.names}
+    found["outcome"] = _shown(how, answers)
+    if how.margin is not None:
+        found["margin"] = _margins(how, _rows(batch, how, numbers))
+    return found
+
+
+def _shown(how: How, answers: Answers) -> NDArray[np.int8]:
+    """Return the outcomes, or the faces at a touch."""
+    return answers.outcome if how.after is None else answers.after(how.after)
+
+
+def _margins(how: How, rows: Array) -> Array:
+    from cointoss.compare.metrics.margin import MANY, smallest_changes
+
+    def outcomes(changed: Array) -> NDArray[np.int8]:
+        toss_rows = how.engine.package.toss_rows
+        return _shown(how, toss_rows(changed, settings=how.settings, device=how.processor))
+
+    return how.quantity.factor * smallest_changes(rows, how.quantity, outcomes=outcomes, search=MANY)
+
+
+def _rows(batch: Batch, how: How, numbers: NDArray[np.intp]) -> Array:
+    """Return some tosses as rows, (n, m), each of which stops at the touch that is shown."""
+    rows = batch.rows(numbers)
+    if how.after is not None:
+        most = rows[:, PLACE["ending.max_impacts"]]
+        np.fmin(most, how.after + 1, out=most)  # NaN stands for no such number
+    return rows
+
+
 def _tossed(batch: Batch, how: How, piece: NDArray[np.intp]) -> Iterator[Answers]:
     """Yield the answers of a piece; and where Ctrl-C came meanwhile, raise it after them."""
-    rows = batch.rows(piece)
+    rows = _rows(batch, how, piece)
     table, kept = np.full((len(rows), len(ANSWER)), float(REFUSED)), np.ones(len(rows), dtype=bool)
     if how.keeps:
         kept = ~refused(rows, batch.fields)

@@ -1,8 +1,6 @@
 """Read a map from disk: what it is of, and the pixels that are tossed."""
 
-import json
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,9 +12,10 @@ from cointoss.compare.film.back_end import BackEndError, require_mujoco
 from cointoss.compare.sweep.axes import NUMBERS
 from cointoss.compare.sweep.chunks import FORMAT, DamagedError
 from cointoss.compare.sweep.errors import MapError, SweepError, is_whole
-from cointoss.compare.sweep.layers import LAYERS, layers_of
+from cointoss.compare.sweep.layers import LAYERS, map_layers
+from cointoss.compare.sweep.maps import asked_of, map_of, stride_of
 from cointoss.compare.sweep.store import Store
-from cointoss.compare.sweep.tossed_map import TossedMap, map_of, stride_of
+from cointoss.compare.sweep.words import in_words
 from cointoss.models.errors import ScenarioError, shown
 
 if TYPE_CHECKING:
@@ -42,13 +41,13 @@ _ACCEPTED = "accepted: a map that cointoss basin made"
 def read_map(path: str | Path, *, most: int = MOST_READ) -> "xr.Dataset":
     """Return a map that `cointoss basin` made, as far as its tiles are tossed and whole.
 
-    The arguments and errors are those of `tossed_map_at`; what it returns is as of `cointoss.basin`.
+    The arguments and errors are those of `map_at`; what it returns is as of `cointoss.basin`.
     """
-    return tossed_map_at(path, most=most).dataset()
+    return in_words(map_at(path, most=most))
 
 
-def tossed_map_at(path: str | Path, *, most: int = MOST_READ) -> TossedMap:
-    """Return a map that `cointoss basin` made, as far as its tiles are tossed and whole.
+def map_at(path: str | Path, *, most: int = MOST_READ) -> "xr.Dataset":
+    """Return a map that `cointoss basin` made, its words as codes, as far as its tiles are tossed and whole.
 
     Args:
         path: of the map's folder.
@@ -71,10 +70,7 @@ def tossed_map_at(path: str | Path, *, most: int = MOST_READ) -> TossedMap:
         store = Store.at(path, "r")
         _require_map(store.attributes)
         _require_size(path, store)
-        read = map_of(_dataset(path, store, stride_of(store.shape, most)))
-        if lacking := layers_of(read.sweep).keys() - read.layers.keys():
-            raise DamagedError(f"array {min(lacking)} missing")
-        return replace(read, name=path.name)
+        return map_in(store, stride_of(store.shape, most))
     except (MapError, BackEndError):
         raise
     except ScenarioError as error:
@@ -106,25 +102,23 @@ def _require_size(path: Path, store: Store) -> None:
         raise MapError(f"{path}: has tiles of {tile[1]} by {tile[0]} pixels; {few}")
 
 
-def _dataset(path: Path, store: Store, stride: int) -> "xr.Dataset":
-    """Return every n-th pixel of a map along both axes, with its coordinates and what it says of itself."""
+def map_in(store: Store, stride: int = 1) -> "xr.Dataset":
+    """Return every n-th pixel of the map in a store along both axes, its words as codes."""
     import xarray
 
-    dims = {name: array.metadata.dimension_names for name, array in store.arrays.items()}
-    axes = {name: store.whole(name) for name in store.arrays if name in NUMBERS}
-    ends = [
-        [axis[0], axis[-1], len(axis)]
-        for dim in dims["outcome"]
-        for name, axis in axes.items()
-        if dims[name] == (dim,)
-    ]
-    coordinates = {name: (dims[name], axis[::stride]) for name, axis in axes.items()}
-    layers = {name: (dims["outcome"], array) for name, array in _layers(path, store, stride).items()}
-    about = {**store.attributes, "stride": stride, "axes": json.dumps(ends)}
-    return xarray.Dataset(layers, coordinates, about)
+    given = {
+        name: (array.metadata.dimension_names, np.broadcast_to(0, array.shape))
+        for name, array in store.arrays.items()
+    }
+    axes = {name: (given[name][0], store.whole(name)) for name in given if name in NUMBERS}
+    layers = {name: given[name] for name in store.layers}
+    batch, how = asked_of(xarray.Dataset(layers, axes, store.attributes))
+    if lacking := map_layers(how).keys() - layers.keys():
+        raise DamagedError(f"array {min(lacking)} missing")
+    return map_of(batch, how, _layers(store, stride), store.attributes.get("name", ""), stride)
 
 
-def _layers(path: Path, store: Store, stride: int) -> dict[str, NDArray[Any]]:
+def _layers(store: Store, stride: int) -> dict[str, NDArray[Any]]:
     shape = [-(-count // stride) for count in store.shape]
     arrays = {name: np.full(shape, LAYERS[name].missing, LAYERS[name].kind) for name in store.layers}
     for tile in store.tiles:
@@ -134,7 +128,7 @@ def _layers(path: Path, store: Store, stride: int) -> dict[str, NDArray[Any]]:
             found = {name: store.read(tile, name) for name in arrays}
         except DamagedError as error:
             raise MapError(
-                f"{path}: a file is damaged ({_line(error)}); accepted: a whole map "
+                f"{store.path}: a file is damaged ({_line(error)}); accepted: a whole map "
                 "(cointoss basin --resume tosses again what is damaged)"
             ) from None
         kept = tuple(slice(-(-part.start // stride), -(-part.stop // stride)) for part in tile)

@@ -1,10 +1,11 @@
-"""Fill a store with the tosses that it lacks."""
+"""Fill a store with the tosses that it lacks, or with a map from memory; and count what it has."""
 
 import math
 import os
 import shutil
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,14 +13,18 @@ from numpy.typing import NDArray
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.output.interruption import saying
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.grid import Sweep
-from cointoss.compare.sweep.layers import layers_of, trust_layer
-from cointoss.compare.sweep.pieces import Columns, pieces
-from cointoss.compare.sweep.pixels import pixels_of
-from cointoss.compare.sweep.store import Store
+from cointoss.compare.sweep.layers import trust_layer
+from cointoss.compare.sweep.layout import Layout, layout_of
+from cointoss.compare.sweep.maps import asked_of, layers_in, name_of
+from cointoss.compare.sweep.pieces import Columns
+from cointoss.compare.sweep.store import Store, opened, require_place
+from cointoss.compare.sweep.tiles import numbers_in
 from cointoss.models.answers import tally
 from cointoss.models.records import Outcome
 from cointoss.models.stages import stage
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Numbers = NDArray[np.intp]
 Tosser = Callable[[Iterable[Numbers]], Iterator[tuple[Numbers, Columns]]]
@@ -27,24 +32,6 @@ Tosser = Callable[[Iterable[Numbers]], Iterator[tuple[Numbers, Columns]]]
 order."""
 DRAWING_BYTES_PER_PIXEL = 80
 """Memory that measuring and drawing a map takes, at most."""
-
-
-def toss_here(sweep: Sweep) -> Tosser:
-    """Return a `Tosser` of pixels, one part after the other, on all cores of this machine."""
-
-    def toss(parts: Iterable[Numbers]) -> Iterator[tuple[Numbers, Columns]]:
-        for numbers, answers in pieces(sweep.batch, sweep.how, parts):
-            yield numbers, pixels_of(sweep, numbers, answers)
-
-    return toss
-
-
-def toss_part(sweep: Sweep, numbers: Numbers) -> Columns:
-    """Return what is known of some pixels, tossed at once."""
-    rows = sweep.batch.rows(numbers)
-    how = sweep.how
-    answers = how.engine.package.toss_rows(rows, settings=how.settings, trust=how.trust, device=how.processor)
-    return pixels_of(sweep, numbers, answers)
 
 
 def fill(store: Store, tosser: Tosser, *, shown: bool | None = None) -> None:
@@ -67,6 +54,19 @@ def fill(store: Store, tosser: Tosser, *, shown: bool | None = None) -> None:
             progress(kept, whole)
 
 
+def save_map(dataset: "xr.Dataset", path: Path, *, overwrite: bool) -> None:
+    """Write a map from memory into a store; see `cointoss.compare.accessor.Tosses.save`."""
+    (batch, how), name = asked_of(dataset), dataset.attrs.get("name", "")
+    if (stride := dataset.attrs.get("stride", 1)) > 1:
+        raise SweepError(f"{name_of(dataset)}: one pixel of every {stride} is here; accepted: a whole map")
+    require_place(path, resume=False, overwrite=overwrite)
+    layers = layers_in(dataset)
+    with opened(path, layout_of(batch, how, name=name), overwrite=overwrite) as kept:
+        for tile in kept.tiles:
+            parts = {layer: array[tile].ravel() for layer, array in layers.items()}
+            kept.write(numbers_in(tile, kept.shape).ravel(), parts)
+
+
 def fractions_of(store: Store) -> dict[Outcome, float]:
     """Return the share of a map's pixels that each outcome fills, without the whole map in memory."""
     counts = np.zeros(len(Outcome), dtype=np.int64)
@@ -86,11 +86,11 @@ def trust_counts(store: Store, after: int | None) -> NDArray[np.int64]:
     return counts
 
 
-def require_room(sweep: Sweep, folder: Path, *, maps: int, drawn: bool) -> None:
+def require_room(layout: Layout, folder: Path, *, maps: int, drawn: bool) -> None:
     """Refuse a grid beyond the disk, or one to be drawn beyond the memory; the message says what it needs.
 
     Args:
-        sweep: whose grid.
+        layout: of each map.
         folder: where the maps will be.
         maps: how many of them are not whole.
         drawn: whether they are measured or drawn as a whole.
@@ -99,17 +99,16 @@ def require_room(sweep: Sweep, folder: Path, *, maps: int, drawn: bool) -> None:
         UnwritableError: if the disk has not room enough for maps that can't be compressed.
         SweepError: if the machine has not the memory.
     """
-    pixels = sweep.shape[0] * sweep.shape[1]
-    grid = f"{sweep.shape[1]} by {sweep.shape[0]} tosses"
-    in_a_pixel = sum(np.dtype(layer.kind).itemsize for layer in layers_of(sweep).values())
+    pixels, (ny, nx) = len(layout.batch), layout.batch.shape
+    grid = f"{nx} by {ny} tosses"
+    in_a_pixel = sum(np.dtype(layer.kind).itemsize for layer in layout.layers.values())
     needed, free = maps * pixels * in_a_pixel, shutil.disk_usage(folder).free
     if needed > free:
         raise UnwritableError(
             f"{folder}: {grid} need up to {_bytes(needed)} of disk; accepted: a grid for the "
             f"{_bytes(free)} that are free"
         )
-    pictures = 1 if sweep.margin is None else 2
-    needed = pictures * pixels * DRAWING_BYTES_PER_PIXEL
+    needed = (1 + ("margin" in layout.layers)) * pixels * DRAWING_BYTES_PER_PIXEL
     there = _memory()
     if drawn and needed > there:
         raise SweepError(

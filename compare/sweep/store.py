@@ -28,10 +28,10 @@ from cointoss.compare.sweep.chunks import (
     require_chunk,
     require_plain,
 )
-from cointoss.compare.sweep.grid import numbers_in, tiles
 from cointoss.compare.sweep.layers import LAYERS, holds_tosses
 from cointoss.compare.sweep.layout import MARGIN_ALONG, TRUST, Layout
 from cointoss.compare.sweep.pieces import Columns
+from cointoss.compare.sweep.tiles import numbers_in, tiles
 from cointoss.models.errors import ScenarioError
 from cointoss.models.fields import FIELDS
 from cointoss.models.reading import parse
@@ -150,7 +150,7 @@ class Store:
 
         Args:
             numbers: of the tosses, in one tile.
-            layers: by name, (n,) each.
+            layers: by name, (n,) each; those are kept that the store has.
 
         Raises:
             UnwritableError: naming the store and why, for every error of the system.
@@ -164,7 +164,7 @@ class Store:
         inside = tuple(one - part.start for one, part in zip(at, tile, strict=True))
         with naming(self.path):
             # The outcome last: where it is, the tile is whole.
-            for name in sorted(layers, key=lambda name: name == "outcome"):
+            for name in sorted(self.layers, key=lambda name: name == "outcome"):
                 self._put(name, tile, inside, layers[name])
 
     def _put(self, name: str, tile: tuple[slice, ...], inside: tuple[Any, ...], values: NDArray[Any]) -> None:

@@ -12,7 +12,7 @@ from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.batch import Batch, batch_of
 from cointoss.compare.sweep.dataset import dataset_of
 from cointoss.compare.sweep.errors import SweepError, require_whole
-from cointoss.compare.sweep.pieces import How, check, columns, gather, warn_of_interruption
+from cointoss.compare.sweep.pieces import How, check, gather, pieces, warn_of_interruption
 from cointoss.models.answers import COLUMNS, Trust
 from cointoss.models.devices import Device
 from cointoss.models.errors import require_type
@@ -118,7 +118,7 @@ def toss_many(
         )
     check(batch, how)
     answers = {name: np.full(len(batch), COLUMNS[name].missing, COLUMNS[name].kind) for name in how.names}
-    gather(answers, columns(batch, how), f"tossing by {how.engine}", shown=progress)
+    gather(answers, pieces(batch, how), f"tossing by {how.engine}", shown=progress)
     return dataset_of(batch, how, {name: array.reshape(batch.shape) for name, array in answers.items()})
 
 
@@ -126,8 +126,10 @@ def _into_store(
     batch: Batch, how: How, path: Path, progress: bool | None, *, resume: bool, overwrite: bool
 ) -> "xr.Dataset":
     """Toss a batch into a store, and return its dataset; the arguments are those of `toss_many`."""
-    from cointoss.compare.sweep import accessor, store
-    from cointoss.compare.sweep.layout import layout_of_tosses
+    import xarray
+
+    from cointoss.compare.sweep import store
+    from cointoss.compare.sweep.layout import layout_of
     from cointoss.compare.sweep.run import fill
 
     if how.law is not None:
@@ -136,13 +138,13 @@ def _into_store(
         raise SweepError("vary: nothing varies, accepted: one field or more for a store")
     store.require_place(path, resume=resume, overwrite=overwrite)
     check(batch, how)
-    with store.opened(path, layout_of_tosses(batch, how), overwrite=overwrite) as kept:
+    with store.opened(path, layout_of(batch, how), overwrite=overwrite) as kept:
         try:
-            fill(kept, partial(columns, batch, how), shown=progress)
+            fill(kept, partial(pieces, batch, how), shown=progress)
         except KeyboardInterrupt:
             left = sum(kept.missing(tile).size for tile in kept.tiles)
             warn_of_interruption(len(batch) - left, len(batch))
-    return accessor.opened(path).assign_attrs(how.processor.attributes)
+    return xarray.open_zarr(path, chunks=None).assign_attrs(how.processor.attributes)
 
 
 def how_of(

@@ -5,9 +5,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.axes import parse_axis
-from cointoss.compare.sweep.grid import Sweep
+from cointoss.compare.sweep.batch import Batch
+from cointoss.compare.sweep.layout import Layout, layout_of
+from cointoss.compare.sweep.maps import asked
+from cointoss.compare.sweep.pieces import How
 from cointoss.models.reading import parse
 from cointoss.models.scenario import Scenario
 from tests.helpers.command_line import cointoss
@@ -38,13 +40,15 @@ SMALL, TILES = 48, 40
 """Tosses in a tile of these tests, and tiles in a map."""
 
 
-def sweep_of(
-    x: str, y: str, case: Scenario | str = SCENARIO, engine: Engine = Engine.ANALYTIC, **extra: Any
-) -> Sweep:
-    """Return the sweep of two axes over a scenario or its text, with the engine's settings for many."""
+def map_asked(x: str, y: str, case: Scenario | str = SCENARIO, **extra: Any) -> tuple[Batch, How]:
+    """Return the tosses of a map over two axes of a scenario or of its text, and how they are tossed."""
     case = parse(case, "coin") if isinstance(case, str) else case
-    given: dict[str, Any] = {"scenario": case, "engine": engine, "settings": engine.package.MANY, **extra}
-    return Sweep(x=parse_axis(x, case), y=parse_axis(y, case), **given)
+    return asked(case, parse_axis(x, case), parse_axis(y, case), **extra)
+
+
+def map_layout(x: str, y: str, case: str = SCENARIO, *, name: str = "", **extra: Any) -> Layout:
+    """Return the layout of such a map."""
+    return layout_of(*map_asked(x, y, case, **extra), name=name, scenario_text=case)
 
 
 def basin(*arguments):
@@ -72,13 +76,13 @@ def begun(coin, out, *extra, most=TILES):
     """Start a process, for a `with` statement, that makes the map in small tiles until `most` are there."""
     script = (
         "import threading, time; from pathlib import Path; from cointoss.compare.engines import Engine\n"
-        "from cointoss.compare.sweep import grid, run\n"
-        f"grid.TILE_TOSSES[Engine.ANALYTIC], known = {SMALL}, run.pixels_of\n"
-        "def pixels_of(*tossed):\n"
+        "from cointoss.compare.sweep import pieces, tiles\n"
+        f"tiles.TILE_TOSSES[Engine.ANALYTIC], known = {SMALL}, pieces.columns_of\n"
+        "def columns_of(*tossed):\n"
         f"    made = [entry for entry in Path({str(out)!r}).glob('outcome/c/*/*') if not entry.suffix]\n"
         f"    threading.Event().wait(None if len(made) >= {most} else 0.05)\n"
         "    return known(*tossed)\n"
-        "run.pixels_of = pixels_of\n"
+        "pieces.columns_of = columns_of\n"
         "from cointoss.compare.cli import main; main()"
     )
     return started("-c", script, "basin", coin, *AXES, "--out", out, *extra)

@@ -7,11 +7,9 @@ import numpy as np
 import pytest
 
 import cointoss
-from cointoss import analytic
+from cointoss import analytic, read_map
 from cointoss.compare.engines import Engine
 from cointoss.compare.explorer import static
-from cointoss.compare.sweep.reading import tossed_map_at
-from cointoss.compare.sweep.tossed_map import map_of
 from cointoss.models.certificate import energies
 from cointoss.models.errors import ScenarioError
 from cointoss.models.fields import put
@@ -19,7 +17,7 @@ from cointoss.models.records import Outcome
 from cointoss.models.scenario import Scenario
 from tests.helpers.draws import LONG_TRANSIENT, ZLOTY, scenario
 from tests.helpers.engine_page import ENGINE, written
-from tests.helpers.explored import SCENARIO, small_map
+from tests.helpers.explored import FIELDS, SCENARIO, small_map
 
 LARGEST = 640_000
 """Bytes of the engine, by gzip less than half."""
@@ -219,10 +217,9 @@ def test_a_map_has_each_pixel_once_coarse_ones_first_and_is_that_of_the_package(
         trust=True,
         **more,
     )
-    native = map_of(made)
-    assert native.untrusted is not None
-    assert np.array_equal(codes, native.outcome)
-    assert np.array_equal(trusted != 1, native.untrusted)
+    assert made.cointoss.untrusted is not None
+    assert np.array_equal(codes, made.cointoss.codes)
+    assert np.array_equal(trusted != 1, made.cointoss.untrusted)
 
 
 def test_a_pixel_beyond_the_bounds_of_its_field_is_no_scenario(loaded):
@@ -296,12 +293,12 @@ def test_any_pixel_of_the_explorer_in_a_file_is_tossed_by_the_engine_in_it(page,
     target = tmp_path / "map.html"
     longer = SCENARIO.replace("max_impacts = 4", "max_impacts = 40")
     static.write_static(small_map(tmp_path, size=(24, 18), text=longer), target)
-    sweep = tossed_map_at(tmp_path / "map.zarr").sweep
-    x, y = float(sweep.x.values[3]), float(sweep.y.values[9])
+    made = read_map(tmp_path / "map.zarr")
+    x, y = float(made[FIELDS[0]].values[3]), float(made[FIELDS[1]].values[9])
     page.open(f"{target.as_uri()}#x={x}&y={y}")
     page.wait_for("document.getElementById('outcome').textContent.includes(' impacts in ')")
     page.wait_for("document.getElementById('outcome').textContent.includes('MuJoCo: tossed only')")
-    case = sweep.scenario.replace("release.angular_velocity.eta", x, "release.position.z", y)
+    case = made.cointoss.scenario.replace("release.angular_velocity.eta", x, "release.position.z", y)
     toss = analytic.toss(case.replace("ending.max_impacts", min(most, case.rules.max_impacts)))
     told = page.text("outcome")
     is_cut = most < case.rules.max_impacts
@@ -311,16 +308,16 @@ def test_any_pixel_of_the_explorer_in_a_file_is_tossed_by_the_engine_in_it(page,
     assert "Any pixel can be tossed" in page.text("about")
     page.value("document.getElementById('map').focus()")
     page.press("ArrowRight")
-    page.wait_for(f"location.hash.includes('x={float(sweep.x.values[4])}')")
+    page.wait_for(f"location.hash.includes('x={float(made[FIELDS[0]].values[4])}')")
 
 
 def test_any_pixel_is_tossed_in_the_frame_of_a_notebook(page, tmp_path, monkeypatch):
     monkeypatch.setattr(static, "TOSSED_IN_FRAME", (1, 1))
-    found = tossed_map_at(small_map(tmp_path))
+    found = read_map(small_map(tmp_path))
     (tmp_path / "notebook.html").write_text(static.explore(found)._repr_html_(), encoding="utf-8")
     (frame,) = page.open_frames((tmp_path / "notebook.html").as_uri(), 1)
-    x, y = found.sweep.x.values[11], found.sweep.y.values[9]
-    toss = analytic.toss(found.sweep.scenario.replace(found.sweep.x.field, x, found.sweep.y.field, y))
+    x, y = found[FIELDS[0]].values[11], found[FIELDS[1]].values[9]
+    toss = analytic.toss(found.cointoss.scenario.replace(FIELDS[0], x, FIELDS[1], y))
     for key in ("Enter", "ArrowLeft"):
         pressed = f"new KeyboardEvent('keydown', {{ key: '{key}' }})"
         frame.value(f"document.getElementById('map').dispatchEvent({pressed})")

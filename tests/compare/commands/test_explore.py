@@ -9,13 +9,13 @@ import webbrowser
 import numpy as np
 import pytest
 
+from cointoss import read_map
 from cointoss.compare.engines import Engine
 from cointoss.compare.explorer.page_map import page_map
 from cointoss.compare.explorer.server import Explorer
 from cointoss.compare.film.back_end import BackEndError
 from cointoss.compare.sweep import reading
-from cointoss.compare.sweep.grid import tile_shape, tiles
-from cointoss.compare.sweep.reading import tossed_map_at
+from cointoss.compare.sweep.store import Store
 from cointoss.models.devices import Device
 from tests.helpers.cards import with_card, without_card
 from tests.helpers.command_line import cointoss, refused
@@ -57,32 +57,30 @@ def test_a_map_of_too_many_pixels_is_refused(map_path, monkeypatch):
 
 @pytest.mark.parametrize("tile", [None, 7, 10])
 def test_of_a_large_map_every_so_many_th_pixel_is_shown(map_path, tmp_path, monkeypatch, tile):
-    full, path = tossed_map_at(map_path), map_path
+    full, path = read_map(map_path), map_path
     if tile is not None:  # whose sides the stride crosses
-        monkeypatch.setattr("cointoss.compare.sweep.grid.TILE_TOSSES", dict.fromkeys(Engine, tile))
+        monkeypatch.setattr("cointoss.compare.sweep.tiles.TILE_TOSSES", dict.fromkeys(Engine, tile))
         path = small_map(tmp_path)
-        cut = list(tiles(full.sweep.shape, tile_shape(full.sweep.engine, full.sweep.batch)))
+        cut = Store.at(path, "r").tiles
         for sides in zip(*cut, strict=True):
             assert {side.start % 3 for side in sides} == {0, 1, 2}
-    part = tossed_map_at(path, most=100)
-    assert (full.stride, part.stride) == (1, 3)
-    assert part.outcome.shape == (6, 8)
-    for name, array in part.layers.items():
-        assert np.array_equal(array, full.layers[name][::3, ::3])
+    part = read_map(path, most=100)
+    assert (full.attrs["stride"], part.attrs["stride"]) == (1, 3)
+    assert part.equals(full.isel(x=slice(None, None, 3), y=slice(None, None, 3)))
 
 
 def test_an_unfinished_map_is_shown_as_far_as_it_is(tmp_path, monkeypatch):
-    monkeypatch.setattr("cointoss.compare.sweep.grid.TILE_TOSSES", dict.fromkeys(Engine, 64))
+    monkeypatch.setattr("cointoss.compare.sweep.tiles.TILE_TOSSES", dict.fromkeys(Engine, 64))
     path = small_map(tmp_path)
-    before = tossed_map_at(path).outcome
+    before = read_map(path).cointoss.codes
     chunks = sorted(part for part in (path / "outcome" / "c").rglob("*") if part.is_file())
     assert len(chunks) > 3
     chunks[0].unlink()
-    found = tossed_map_at(path)
-    outcome = found.outcome
+    found = read_map(path)
+    outcome = found.cointoss.codes
     assert 0 < (outcome == -1).mean() < 0.8
     assert np.array_equal(outcome[outcome != -1], before[outcome != -1])
-    assert page_map(found)["tossed"] == pytest.approx(np.mean(outcome != -1))
+    assert page_map(found, "")["tossed"] == pytest.approx(np.mean(outcome != -1))
 
 
 def test_a_port_in_use_is_refused(map_path):

@@ -1,16 +1,12 @@
 """Finer tiles of a map, where the explorer is zoomed in."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
-from cointoss import analytic, toss_many
+from cointoss import analytic, read_map, toss_many
 from cointoss.compare.explorer import static
 from cointoss.compare.explorer.finer import SIDE, toss_tile
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.reading import tossed_map_at
-from cointoss.compare.sweep.tossed_map import map_of
 from cointoss.models.devices import Device
 from cointoss.models.reading import parse
 from tests.helpers.cards import with_card
@@ -18,9 +14,9 @@ from tests.helpers.explored import FIELDS, SCENARIO
 
 
 def test_a_finer_tile_has_the_outcomes_of_its_points(map_path):
-    sweep = tossed_map_at(map_path).sweep
-    assert np.array_equal(toss_tile(sweep, 0, 0, 0)[:18, :24], tossed_map_at(map_path).outcome)
-    tile = toss_tile(sweep, 2, 1, 1)
+    made = read_map(map_path)
+    assert np.array_equal(toss_tile(made, 0, 0, 0)[:18, :24], read_map(map_path).cointoss.codes)
+    tile = toss_tile(made, 2, 1, 1)
     assert tile.shape == (SIDE, SIDE)
     assert {1, 2} <= set(tile.ravel())
     scenario = parse(SCENARIO, "here").replace("ending.max_impacts", 2)
@@ -28,21 +24,21 @@ def test_a_finer_tile_has_the_outcomes_of_its_points(map_path):
         u, v = ((SIDE + place + 0.5) / 4 - 0.5 for place in (column, row))
         values = FIELDS[0], 20 + u * 40 / 23, FIELDS[1], 0.2 + v * 0.4 / 17
         assert tile[row, column] == analytic.toss(scenario.replace(*values)).impacts.face[1]
-    first = toss_tile(sweep, 1, 0, 0)
+    first = toss_tile(made, 1, 0, 0)
     assert (first[0] == -1).all()  # below the map's first row
     assert (first[:, 0] == -1).all()
     assert (first[1:, 1:] > 0).all()
     with pytest.raises(SweepError):
-        toss_tile(sweep, 1, 2, 0)
+        toss_tile(made, 1, 2, 0)
 
 
 @pytest.mark.parametrize(("device", "levels"), [(Device.CUDA, (0, 2)), (Device.AUTO, (2,))])
 def test_a_tile_is_tossed_on_a_card_where_the_whole_finer_map_pays(map_path, monkeypatch, device, levels):
-    sweep = tossed_map_at(map_path).sweep
-    due, card = {level: toss_tile(sweep, level, 0, 0) for level in (0, 2)}, with_card(monkeypatch)
+    made = read_map(map_path)
+    due, card = {level: toss_tile(made, level, 0, 0) for level in (0, 2)}, with_card(monkeypatch)
     for level, tile in due.items():
         card.given.clear()
-        assert np.array_equal(toss_tile(replace(sweep, device=device), level, 0, 0), tile)
+        assert np.array_equal(toss_tile(made, level, 0, 0, device), tile)
         assert card.given == ([np.sum(tile != -1)] if level in levels else [])
 
 
@@ -50,7 +46,7 @@ def test_a_page_tosses_no_map_over_a_field_that_it_does_not_know(monkeypatch):
     """A spin stands for components of the angular velocity; the page's engine knows these."""
     monkeypatch.setattr(static, "engine_data", lambda _: {"wasm": "", "scenario": {}})
     known, derived = (
-        map_of(toss_many("fig24a", {name: "20:60:2", "height": "0.2:0.3:2"})).sweep
+        toss_many("fig24a", {name: "20:60:2", "height": "0.2:0.3:2"})
         for name in ("release.angular_velocity.eta", "spin")
     )
     assert static._engine(known) is not None

@@ -8,9 +8,8 @@ from urllib.parse import parse_qs
 import numpy as np
 import pytest
 
-from cointoss import analytic
+from cointoss import analytic, read_map
 from cointoss.compare.explorer import static
-from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.models.reading import parse
 from tests.helpers.coins_shown import BLUE, GOLD, NO_WEBGL, UNNAMED, box, faces, picture, set_time
 from tests.helpers.command_line import cointoss
@@ -52,7 +51,7 @@ def sequences(page):
 @pytest.mark.parametrize("width", [1280, 420])
 def test_a_click_tosses_a_pixel_by_both_engines(page, server, map_path, width, scheme):
     page.open(server.url, width=width, height=1900, scheme=scheme)
-    codes = tossed_map_at(map_path).outcome
+    codes = read_map(map_path).cointoss.codes
     shown = picture(page, "map")
     left, top, *_ = box(page, "map")
     for u, v in ((0, 0), (23, 0), (0, 17), (23, 17), (11, 6), (5, 13)):
@@ -62,8 +61,8 @@ def test_a_click_tosses_a_pixel_by_both_engines(page, server, map_path, width, s
 
     page.click(*place_of(page, 11, 6))
     page.wait_for(TOSSED)
-    sweep = tossed_map_at(map_path).sweep
-    x, y = sweep.x.values[11], sweep.y.values[6]
+    made = read_map(map_path)
+    x, y = made[FIELDS[0]].values[11], made[FIELDS[1]].values[6]
     assert chosen(page) == (x, y)
     toss = analytic.toss(parse(SCENARIO, "here").replace(FIELDS[0], x, FIELDS[1], y))
     found = sequences(page)
@@ -96,8 +95,8 @@ def test_a_click_tosses_a_pixel_by_both_engines(page, server, map_path, width, s
 def test_the_page_opens_with_the_toss_in_the_middle(page, server, map_path):
     page.open(server.url, moving=True)
     page.wait_for("Number(document.getElementById('time').value) > 0.01")
-    sweep = tossed_map_at(map_path).sweep
-    assert chosen(page) == (sweep.x.values[12], sweep.y.values[9])
+    made = read_map(map_path)
+    assert chosen(page) == (made[FIELDS[0]].values[12], made[FIELDS[1]].values[9])
     page.wait_for(TOSSED)
     assert set(sequences(page)) == {"analytic", "MuJoCo"}
 
@@ -112,8 +111,8 @@ def test_the_map_keeps_its_shape_in_any_window(page, server):
 
 def test_the_keyboard_steps_to_neighbours_and_zooms(page, server, map_path):
     page.open(server.url)
-    sweep = tossed_map_at(map_path).sweep
-    x, y = sweep.x.values, sweep.y.values
+    made = read_map(map_path)
+    x, y = made[FIELDS[0]].values, made[FIELDS[1]].values
     page.value("document.getElementById('map').focus()")
     page.press("Enter")
     page.wait_for(TOSSED)
@@ -193,7 +192,7 @@ def test_the_mouse_hovers_and_zooms_into_a_finer_map(page, server):
 
 def test_the_margin_of_a_pixel_is_told(page, tmp_path):
     path = small_map(tmp_path, "--margin", "height", size=(3, 3))
-    found = tossed_map_at(path).layers["margin"][2, 1]
+    found = read_map(path)["margin"].values[2, 1]
     with serving(path) as explorer:
         page.open(f"{explorer.url}#x=40&y=0.6")
         shown = float(
@@ -206,8 +205,8 @@ def test_the_margin_of_a_pixel_is_told(page, tmp_path):
 def test_untrusted_pixels_are_hatched(page, tmp_path):
     longer = SCENARIO.replace("max_impacts = 4", "max_impacts = 20")
     path = small_map(tmp_path, "--trust", "--after", "6", size=(6, 4), text=longer)
-    found = tossed_map_at(path)
-    untrusted = found.untrusted
+    found = read_map(path)
+    untrusted = found.cointoss.untrusted
     assert untrusted is not None
     assert 0 < untrusted.sum() < untrusted.size
     with serving(path) as explorer:
@@ -312,11 +311,11 @@ def test_the_static_page_works_from_a_file_with_the_network_off(page, map_path, 
     assert set(sequences(page)) == {"analytic", "MuJoCo"}
     page.click(*place_of(page, 7, 5))
     page.wait_for(TOSSED)
-    sweep = tossed_map_at(map_path).sweep
-    assert chosen(page) == (sweep.x.values[6], sweep.y.values[4])
+    made = read_map(map_path)
+    assert chosen(page) == (made[FIELDS[0]].values[6], made[FIELDS[1]].values[4])
     assert set(sequences(page)) == {"analytic", "MuJoCo"}
     page.press("ArrowRight")
-    assert chosen(page) == (sweep.x.values[18], sweep.y.values[4])
+    assert chosen(page) == (made[FIELDS[0]].values[18], made[FIELDS[1]].values[4])
     set_time(page, 0)
     assert faces(picture(page, "coins")) > 500
     assert {address.partition(":")[0] for address in page.asked()} <= {"file", "data", "about", "blob"}

@@ -11,11 +11,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from cointoss import analytic
+from cointoss import analytic, read_map
 from cointoss.compare.explorer import server as serving
 from cointoss.compare.explorer.finer import toss_tile
 from cointoss.compare.explorer.page_files import page_files
-from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.models.reading import parse
 from tests.helpers.explored import FIELDS, SCENARIO, asked, got, sent
 
@@ -221,4 +220,4 @@ def test_a_pixel_is_tossed_by_both_engines_to_its_end(server):
 def test_a_tile_is_served(server, map_path):
     status, headers, body = got(server.port, "/tile?level=3&column=2&row=1")
     assert (status, headers["content-type"]) == (200, "application/octet-stream")
-    assert body == toss_tile(tossed_map_at(map_path).sweep, 3, 2, 1).tobytes()
+    assert body == toss_tile(read_map(map_path), 3, 2, 1).tobytes()

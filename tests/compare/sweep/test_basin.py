@@ -1,7 +1,7 @@
 """Maps from Python: the same as the command's, and what xarray and pandas see of them."""
 
 import json
-from dataclasses import replace
+from functools import partial
 from io import BytesIO
 from pathlib import Path
 
@@ -11,9 +11,8 @@ from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 import cointoss
-from cointoss.compare.sweep import run
-from cointoss.compare.sweep.layers import NOT_TOSSED
-from cointoss.compare.sweep.tossed_map import map_of
+from cointoss.compare.sweep import pieces
+from cointoss.compare.sweep.maps import axes_of
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
 from tests.helpers.command_line import cointoss as command
@@ -69,7 +68,7 @@ def test_a_map_is_two_axes_of_the_verb(found):
     same = cointoss.toss_many("fig24a", {"height": ("20 cm", "60 cm", 5), ETA: "20:60:7"})
     assert np.array_equal(same.outcome.values, found.outcome.values)
     assert np.array_equal(same.impacts.values, found.impacts.values)
-    assert map_of(same).sweep.shape == map_of(found).sweep.shape
+    assert axes_of(same) == axes_of(found)
 
 
 def test_a_map_counts_the_trusted_impacts_of_each_pixel(trusted):
@@ -157,35 +156,32 @@ def test_a_map_is_saved_as_the_command_saves_it(found, margins, trusted, tmp_pat
         path = tmp_path / f"{name}.zarr"
         assert made.cointoss.save(str(path)) == path
         assert cointoss.read_map(str(path)).equals(made)
-        sweep = map_of(made).sweep
-        x, y = (f"{axis.field}={axis.start}:{axis.stop}:{axis.count}" for axis in (sweep.x, sweep.y))
+        y, x = (f"{axis.field}={axis.start}:{axis.stop}:{axis.count}" for axis in axes_of(made))
         asked = ("basin", "fig24a", "--x", x, "--y", y, *more, "--out")
         theirs = tmp_path / "theirs.zarr"
         command(*asked, theirs, "--overwrite")
         assert contents(path) == contents(theirs)
         with monkeypatch.context() as patched:
-            patched.setattr(run, "pixels_of", None)  # nothing is tossed
+            patched.setattr(pieces, "columns_of", None)  # nothing is tossed
             assert command(*asked, path, "--resume").exit_code == 0
 
 
-def missing_at(dataset, *places, name="outcome"):
+def missing_at(dataset, place, name="outcome", value: str | int = "not_tossed"):
     """Return a map in which some pixels are not tossed."""
-    made = map_of(dataset)
-    array = made.layers[name].copy()
-    for place in places:
-        array[place] = NOT_TOSSED
-    return replace(made, layers={**made.layers, name: array}).dataset()
+    made = dataset.copy(deep=True)
+    made[name][place] = value
+    return made
 
 
 def test_a_part_of_a_map_is_saved_and_gone_on_with(found, tmp_path):
-    path = missing_at(found, slice(None)).cointoss.save(tmp_path / "m.zarr")
+    path = missing_at(found, ...).cointoss.save(tmp_path / "m.zarr")
     assert cointoss.read_map(path).cointoss.counts == {"not_tossed": 35}
     command(*ASKED, "--out", path, "--resume")
     assert cointoss.read_map(path).equals(found)
 
 
 def test_a_pixel_without_its_trusted_impacts_is_tossed_again(trusted, tmp_path):
-    path = missing_at(trusted, (2, 3), name="trusted_impacts").cointoss.save(tmp_path / "m.zarr")
+    path = missing_at(trusted, (2, 3), "trusted_impacts", -1).cointoss.save(tmp_path / "m.zarr")
     assert cointoss.read_map(path).cointoss.counts["not_tossed"] == 1
     asked = (*ASKED, "--after", 8, "--out", path, "--resume")
     assert "another set of arrays (--trust)" in command(*asked).stderr
@@ -201,9 +197,10 @@ def test_a_map_that_is_not_finished_says_so(found):
 
 
 def test_what_is_no_map_is_refused(found):
-    made = map_of(found)
-    with pytest.raises(ValueError, match="77 is no outcome"):
-        replace(made, layers={**made.layers, "outcome": np.full((5, 7), 77, np.int8)})
+    made = found.assign(outcome=(found.outcome.dims, np.full((5, 7), 77, np.int8)))
+    for asked in (made.cointoss.page, made.cointoss.plot, partial(made.cointoss.save, "never.zarr")):
+        with pytest.raises(ValueError, match="77 is no outcome"):
+            asked()
 
 
 def test_outcomes_without_two_fields_are_bars(found):

@@ -15,11 +15,9 @@ from zarr.codecs import BytesCodec, ZstdCodec
 
 import cointoss
 from cointoss.compare.engines import Engine
-from cointoss.compare.sweep import chunks, grid
-from cointoss.compare.sweep.layout import layout_of_map
-from cointoss.compare.sweep.reading import tossed_map_at
+from cointoss.compare.sweep import chunks, tiles
 from cointoss.compare.sweep.store import opened
-from tests.helpers.basin_runs import SCENARIO, sweep_of
+from tests.helpers.basin_runs import map_layout
 from tests.helpers.command_line import refused
 from tests.helpers.pickles import Runs
 from tests.helpers.strange_maps import (
@@ -255,15 +253,12 @@ def test_tiles_without_number_are_refused_at_once(path):
 
 
 def test_what_lies_beside_the_arrays_is_not_looked_at(path):
-    before = tossed_map_at(path)
+    before = cointoss.read_map(path)
     (path / "README.txt").write_text("a map of mine")
     (path / X / ".zarray").write_text("{")
     (path / "more").mkdir()
     (path / "more" / "zarr.json").write_text("{")
-    after = tossed_map_at(path)
-    assert after.sweep == before.sweep
-    for name, array in before.layers.items():
-        assert np.array_equal(after.layers[name], array)
+    assert cointoss.read_map(path).identical(before)
 
 
 def frame(size, length=8):
@@ -310,13 +305,12 @@ def test_values_that_are_lost_are_no_zeros(path, name):
 
 @pytest.mark.parametrize("tile", [25, 1 << 14])
 def test_maps_of_all_tiles_are_read(tmp_path, monkeypatch, tile):
-    monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, tile)
-    sweep = sweep_of(*AXES, after=3)
-    with opened(tmp_path / "map.zarr", layout_of_map(sweep, SCENARIO), overwrite=False) as map_:
+    monkeypatch.setitem(tiles.TILE_TOSSES, Engine.ANALYTIC, tile)
+    with opened(tmp_path / "map.zarr", map_layout(*AXES, after=3), overwrite=False) as map_:
         for number, part in enumerate(map_.tiles):
             numbers = map_.missing(part)
             filled = np.full(len(numbers), number % 5)
             map_.write(numbers, {"outcome": filled.astype(np.int8), "impacts": filled.astype(np.int32)})
-    read = tossed_map_at(tmp_path / "map.zarr")
-    assert read.sweep == sweep
-    assert -1 not in read.outcome
+    read = cointoss.read_map(tmp_path / "map.zarr")
+    assert read.attrs["after"] == 3
+    assert "not_tossed" not in read.cointoss.counts

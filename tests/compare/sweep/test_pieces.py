@@ -55,5 +55,5 @@ def test_what_is_tossed_when_it_is_interrupted_comes_before_the_interruption():
     with pytest.raises(KeyboardInterrupt):
         next(made)
     assert tosses.tolist() == list(range(10))
-    assert (answers.outcome != NOT_TOSSED).tolist() == [True] * 3 + [False] * 7
-    assert np.isnan(answers.end_time).tolist() == [False] * 3 + [True] * 7
+    assert (answers["outcome"] != NOT_TOSSED).tolist() == [True] * 3 + [False] * 7
+    assert np.isnan(answers["end_time"]).tolist() == [False] * 3 + [True] * 7

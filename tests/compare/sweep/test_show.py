@@ -12,6 +12,7 @@ import pytest
 import xarray as xr
 from PIL import Image
 
+from cointoss import read_map
 from cointoss.coin_mj import MujocoSettings, Realisation
 from cointoss.compare.basins.picture_style import PictureStyle
 from cointoss.compare.engines import Engine
@@ -20,13 +21,11 @@ from cointoss.compare.report.comparison import compare, compared
 from cointoss.compare.report.contents import require_folder
 from cointoss.compare.report.folder import write_report
 from cointoss.compare.sweep import job, show
-from cointoss.compare.sweep.layout import layout_of_map
-from cointoss.compare.sweep.reading import tossed_map_at
+from cointoss.compare.sweep.maps import map_of
 from cointoss.compare.sweep.store import opened
-from cointoss.compare.sweep.tossed_map import TossedMap
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
-from tests.helpers.basin_runs import SCENARIO, sweep_of
+from tests.helpers.basin_runs import SCENARIO, map_asked, map_layout
 from tests.helpers.command_line import cointoss, printed, python
 from tests.helpers.made_maps import halves
 
@@ -43,16 +42,13 @@ def coin(tmp_path, monkeypatch):
 
 
 def section_of(maps, after=None, certain=None):
-    case = parse(COIN, "coin")
-    trusted = {} if certain is None else {"outcome_certain": certain.astype(np.int8)}
-    sweeps = [
-        sweep_of(X, Y, case, engine, after=after, trust=bool(trusted) and engine == Engine.ANALYTIC)
-        for engine in Engine
-    ]
-    made = [
-        TossedMap(name="", sweep=sweep, layers={"outcome": outcomes, **trusted})
-        for sweep, outcomes in zip(sweeps, maps, strict=True)
-    ]
+    ny, nx = maps[0].shape
+    axes, made = (X.replace(":5", f":{nx}"), Y.replace(":4", f":{ny}")), []
+    for engine, outcomes in zip(Engine, maps, strict=True):
+        is_trusted = certain is not None and engine == Engine.ANALYTIC
+        asked = map_asked(*axes, COIN, engine=engine, after=after, trust=is_trusted)
+        arrays = {"outcome": outcomes, "impacts": outcomes, "outcome_certain": certain}
+        made.append(map_of(*asked, arrays, ""))  # pyright: ignore[reportArgumentType]
     return show.section(made, PictureStyle(dpi=20), "cointoss basin")
 
 
@@ -101,10 +97,8 @@ def test_the_report_hatches_what_the_analytic_engine_cannot_be_trusted_with(coin
     asked = ("--x", X, "--y", Y, "--trust", "--compare", "--out", out, "--report", report)
     printed("basin", coin, *asked)
     numbers = json.loads((report / "numbers.json").read_text(encoding="utf-8"))["map"]
-    found = tossed_map_at(out)
-    assert found.untrusted is not None
-    assert numbers["untrusted"] == found.untrusted.mean() > 0
-    assert tossed_map_at(tmp_path / "map-mujoco.zarr").untrusted is None
+    assert numbers["untrusted"] == read_map(out).cointoss.untrusted.mean() > 0
+    assert read_map(tmp_path / "map-mujoco.zarr").cointoss.untrusted is None
     assert "--trust" in shlex.split(numbers["command"])
     maps, hatched = [halves(20, 20)] * 2, np.arange(400).reshape(20, 20) < 100
     plain, shown = section_of(maps), section_of(maps, certain=~hatched)
@@ -134,8 +128,8 @@ def test_the_section_tells_what_is_on_made_maps(tmp_path):
         "more than 2 pixels from the boundaries of the analytic map 192 99.479 %",
         "nearer to the boundaries 207 100.000 %",
         "undecided by one or both, not compared 1 –",
-        "x spin about η release.angular_velocity.eta 20 rad/s 60 rad/s 5",
-        "y height release.position.z 0.2 m 0.6 m 4",
+        "x spin about η release.angular_velocity.eta 20 rad/s 60 rad/s 20",
+        "y height release.position.z 0.2 m 0.6 m 20",
         "tolerance 1e-13",
         "stiffness 1e+11 1/s²",
         "cointoss basin",
@@ -151,9 +145,8 @@ def test_a_share_of_no_pixels_is_a_dash(tmp_path):
 
 
 def test_a_back_end_for_drawing_is_chosen_before_mujoco_is_imported(coin, tmp_path):
-    case = parse(COIN, "coin")
     for engine, name in zip(Engine, ("map.zarr", "map-mujoco.zarr"), strict=True):
-        with opened(tmp_path / name, layout_of_map(sweep_of(X, Y, case, engine), COIN), overwrite=False):
+        with opened(tmp_path / name, map_layout(X, Y, COIN, engine=engine), overwrite=False):
             pass
     script = (
         "import sys; from cointoss.compare.cli import main; from cointoss.compare.sweep import job\n"

@@ -15,16 +15,14 @@ import zarr
 from matplotlib.figure import Figure
 from zarr.storage import LocalStore
 
-from cointoss import analytic, coin_mj
+from cointoss import analytic, coin_mj, read_map
 from cointoss.coin_mj import Realisation
 from cointoss.compare.engines import Engine
 from cointoss.compare.output.files import UnwritableError
-from cointoss.compare.sweep import grid, run, store
-from cointoss.compare.sweep.grid import numbers_in
-from cointoss.compare.sweep.layers import holds_tosses, layers_of
-from cointoss.compare.sweep.layout import layout_of_map
-from cointoss.compare.sweep.reading import read_map
+from cointoss.compare.sweep import pieces, store, tiles
+from cointoss.compare.sweep.layers import holds_tosses
 from cointoss.compare.sweep.store import Store, opened, require_place
+from cointoss.compare.sweep.tiles import numbers_in
 from tests.helpers.basin_runs import (
     AXES,
     SCENARIO,
@@ -33,8 +31,9 @@ from tests.helpers.basin_runs import (
     assert_same,
     basin,
     begun,
+    map_asked,
+    map_layout,
     pixels,
-    sweep_of,
     wait_for,
     whole_tiles,
 )
@@ -44,13 +43,13 @@ from tests.helpers.command_line import refused
 @pytest.fixture
 def coin(coin, monkeypatch):
     """A scenario's file; the tiles of its maps are small."""
-    monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, SMALL)
+    monkeypatch.setitem(tiles.TILE_TOSSES, Engine.ANALYTIC, SMALL)
     return coin
 
 
-def map_sweep(**given):
-    """Return the sweep of the map, but for what is given."""
-    return sweep_of(**{"x": AXES[1], "y": AXES[3], **given})
+def layout(**given):
+    """Return the layout of the map, but for what is given."""
+    return map_layout(**{"x": AXES[1], "y": AXES[3], **given})
 
 
 @pytest.fixture(scope="module")
@@ -68,7 +67,7 @@ def in_tiles(tmp_path_factory):
     folder = tmp_path_factory.mktemp("in_tiles")
     (folder / "coin.toml").write_text(SCENARIO)
     with pytest.MonkeyPatch.context() as patched:
-        patched.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, SMALL)
+        patched.setitem(tiles.TILE_TOSSES, Engine.ANALYTIC, SMALL)
         assert basin(folder / "coin.toml", *AXES, "--out", folder / "map.zarr").exit_code == 0
     assert whole_tiles(folder / "map.zarr") == TILES
     return folder / "map.zarr"
@@ -76,14 +75,14 @@ def in_tiles(tmp_path_factory):
 
 def tosses_of(monkeypatch, resumed):
     """Count the pixels that a call of `resumed` tosses."""
-    count, known = [0], run.pixels_of
+    count, known = [0], pieces.columns_of
 
-    def counted(sweep, numbers, answers):
+    def counted(batch, how, numbers, answers):
         count[0] += len(numbers)
-        return known(sweep, numbers, answers)
+        return known(batch, how, numbers, answers)
 
     with monkeypatch.context() as patched:
-        patched.setattr(run, "pixels_of", counted)
+        patched.setattr(pieces, "columns_of", counted)
         answered = resumed()
     assert answered.exit_code == 0, answered.stderr
     return count[0]
@@ -124,17 +123,17 @@ def test_a_killed_map_is_resumed_to_the_same_pixels(undisturbed, coin, tmp_path,
 
 
 def test_a_new_map_is_known_to_be_empty_without_reading_its_tiles(tmp_path, monkeypatch):
-    monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, SMALL)
+    monkeypatch.setitem(tiles.TILE_TOSSES, Engine.ANALYTIC, SMALL)
     read, reads = Store.read, []
     monkeypatch.setattr(Store, "read", lambda kept, *asked: reads.append(asked) or read(kept, *asked))
-    sweep = map_sweep()
-    with opened(tmp_path / "map.zarr", layout_of_map(sweep, SCENARIO), overwrite=False) as kept:
+    batch, how = map_asked(AXES[1], AXES[3])
+    with opened(tmp_path / "map.zarr", layout(), overwrite=False) as kept:
         assert [kept.missing(tile).size for tile in kept.tiles] == [SMALL] * TILES
-        assert {name for _, name in reads} == {sweep.x.field, sweep.y.field}
-        last = numbers_in(kept.tiles[-1], sweep.shape).ravel()
-        kept.write(last, run.toss_part(sweep, last))
+        assert {name for _, name in reads} == set(batch.fields)
+        last = numbers_in(kept.tiles[-1], batch.shape).ravel()
+        kept.write(last, pieces.toss_part(batch, how, last))
         assert [kept.missing(tile).size for tile in kept.tiles] == [*[SMALL] * (TILES - 1), 0]
-        assert {name for _, name in reads} > {sweep.x.field, sweep.y.field}
+        assert {name for _, name in reads} > set(batch.fields)
 
 
 def test_a_full_disk_is_one_line_and_what_was_tossed_is_kept(undisturbed, coin, tmp_path, monkeypatch):
@@ -167,10 +166,10 @@ def test_a_disk_that_is_full_at_the_start_leaves_nothing(coin, tmp_path, monkeyp
 
 
 def test_a_tile_is_whole_when_its_outcome_is_there(tmp_path, monkeypatch):
-    path, sweep, put = tmp_path / "map.zarr", map_sweep(margin="height", trust=True), LocalStore.set
-    with opened(path, layout_of_map(sweep, SCENARIO), overwrite=False) as kept:
+    path, made, put = tmp_path / "map.zarr", layout(margin="height", trust=True), LocalStore.set
+    with opened(path, made, overwrite=False) as kept:
         numbers = kept.missing(kept.tiles[0])
-        layers = {name: np.ones(len(numbers), layer.kind) for name, layer in layers_of(sweep).items()}
+        layers = {name: np.ones(len(numbers), layer.kind) for name, layer in made.layers.items()}
         for room in range(len(layers)):
             writes = count()
 
@@ -267,15 +266,13 @@ def test_a_map_is_replaced_where_that_is_asked_for(in_tiles, coin, tmp_path):
 )
 def test_a_map_of_something_else_is_not_gone_on_with(tmp_path, change, named):
     one, other = tmp_path / "one.zarr", tmp_path / "other.zarr"
-    layout = layout_of_map(map_sweep(), SCENARIO)
-    changed = layout_of_map(map_sweep(**change), change.get("case", SCENARIO))
-    for path, made, asked in ((one, layout, changed), (other, changed, layout)):
+    for path, made, asked in ((one, layout(), layout(**change)), (other, layout(**change), layout())):
         with opened(path, made, overwrite=False):
             pass
         with pytest.raises(UnwritableError, match=f"is a map with another {named}"):
             opened(path, asked, overwrite=False).__enter__()
     same = SCENARIO + "# another word for the same coin\n"
-    with opened(one, layout_of_map(map_sweep(case=same, name="another file"), same), overwrite=False) as map_:
+    with opened(one, layout(case=same, name="another file"), overwrite=False) as map_:
         assert (map_.attributes["scenario"], map_.attributes["name"]) == (SCENARIO, "")
 
 
@@ -295,9 +292,7 @@ def test_a_map_of_other_versions_or_that_lost_an_axis_is_not_gone_on_with(in_til
 def test_a_map_with_another_contact_is_refused_before_the_first_toss(coin, tmp_path, made, asked):
     second = tmp_path / "map-mujoco.zarr"
     settings = replace(coin_mj.MANY, contact=Realisation(made))
-    with opened(
-        second, layout_of_map(map_sweep(engine=Engine.MUJOCO, settings=settings), SCENARIO), overwrite=False
-    ):
+    with opened(second, layout(engine=Engine.MUJOCO, settings=settings), overwrite=False):
         pass
     assert xr.open_zarr(second, chunks=None).attrs["engine_settings"]["contact"] == made
     both = ("--compare", "--contact", asked, "--out", tmp_path / "map.zarr")
@@ -311,7 +306,7 @@ def test_an_empty_folder_and_a_link_to_one_are_places_for_a_map(tmp_path):
     (tmp_path / "link.zarr").symlink_to(tmp_path / "empty.zarr")
     for name, overwrite in (("new.zarr", False), ("link.zarr", True)):
         require_place(tmp_path / name, resume=False, overwrite=overwrite)
-        with opened(tmp_path / name, layout_of_map(map_sweep(), SCENARIO), overwrite=overwrite):
+        with opened(tmp_path / name, layout(), overwrite=overwrite):
             pass
     assert (tmp_path / "link.zarr").is_symlink()
     assert (tmp_path / "empty.zarr" / "outcome").is_dir()

@@ -5,11 +5,11 @@ import time
 import numpy as np
 import pytest
 
-from cointoss import analytic, coin_mj
+from cointoss import analytic, coin_mj, read_map
 from cointoss.compare.explorer import static
-from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.models.reading import load
 from tests.helpers.coins_shown import UNNAMED, faces, picture, set_time
+from tests.helpers.explored import FIELDS
 from tests.helpers.processes import HANGS
 
 STAGE = 300
@@ -141,15 +141,15 @@ def _few_tosses(monkeypatch):
 @pytest.mark.usefixtures("_few_tosses")
 @pytest.mark.parametrize(("width", "scheme"), [(1280, "light"), (420, "dark")])
 def test_a_map_is_explored_in_a_frame(page, notebook, map_path, width, scheme):
-    found = tossed_map_at(map_path)
+    found = read_map(map_path)
     (frame,) = notebook(static.explore(found), width=width, scheme=scheme)
     frame.value("document.getElementById('map').focus()")
     frame.value(
         "document.getElementById('map').dispatchEvent(new KeyboardEvent('keydown', { key: 'Enter' }))"
     )
     frame.wait_for("document.querySelectorAll('#sequences .row[role=img]').length === 2")
-    x, y = found.sweep.x.values[6], found.sweep.y.values[4]
-    case = found.sweep.scenario.replace(found.sweep.x.field, x, found.sweep.y.field, y)
+    x, y = found[FIELDS[0]].values[6], found[FIELDS[1]].values[4]
+    case = found.cointoss.scenario.replace(FIELDS[0], x, FIELDS[1], y)
     assert frame.value(SEQUENCES)[0] == row(analytic.toss(case), "analytic", "analytic")
     assert frame.value("document.documentElement.scrollWidth <= innerWidth")
     assert frame.value("location.href") == "about:srcdoc"
@@ -159,12 +159,12 @@ def test_a_map_is_explored_in_a_frame(page, notebook, map_path, width, scheme):
 @pytest.mark.usefixtures("_few_tosses")
 def test_a_large_map_is_thinned(map_path, monkeypatch):
     monkeypatch.setattr(static, "MOST_PIXELS", 24 * 18 // 4)
-    found = tossed_map_at(map_path)
+    found = read_map(map_path)
     shown = []
-    monkeypatch.setattr(static, "page_map", lambda thinned: shown.append(thinned) or {})
+    monkeypatch.setattr(static, "page_map", lambda thinned, _: shown.append(thinned) or {})
     static.explore(found)
-    assert shown[0].stride == 2
-    np.testing.assert_array_equal(shown[0].outcome, found.outcome[::2, ::2])
+    assert shown[0].attrs["stride"] == 2
+    assert shown[0].equals(found[{"x": slice(None, None, 2), "y": slice(None, None, 2)}])
 
 
 @pytest.mark.slow

@@ -6,14 +6,13 @@ from html.parser import HTMLParser
 
 import pytest
 
-from cointoss import analytic
+from cointoss import analytic, read_map
 from cointoss.compare.explorer import static
 from cointoss.compare.explorer.page_files import page_files
 from cointoss.compare.explorer.static import write_static
 from cointoss.compare.report.comparison import Comparison
 from cointoss.compare.report.map_section import MapSection
 from cointoss.compare.report.page import render
-from cointoss.compare.sweep.reading import tossed_map_at
 from cointoss.models.reading import parse
 from tests.helpers.explored import SCENARIO, got, serving
 
@@ -149,7 +148,7 @@ def test_a_browser_runs_none_of_them(page, named, static_page):
 def test_a_frame_of_a_notebook_keeps_them_inside(page, named, tmp_path, monkeypatch):
     monkeypatch.setattr(static, "toss_pixel", lambda *_, **__: {"engine": "analytic", "problem": HOSTILE[1]})
     monkeypatch.setattr(static, "engine_data", lambda *_: None)
-    frame = static.explore(tossed_map_at(named))
+    frame = static.explore(read_map(named))
     found = Parsed(frame._repr_html_())
     attributes = ("title", "sandbox", "loading", "style", "srcdoc")
     assert found.elements == [("iframe", attributes), ("iframe", "end")]

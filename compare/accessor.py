@@ -1,7 +1,6 @@
 """What a dataset of tosses can be asked: `ds.cointoss`, an accessor of xarray."""
 
-from collections.abc import Hashable, Mapping
-from importlib import import_module
+from collections.abc import Hashable
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,10 +9,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from cointoss.compare.metrics.estimates import wilson
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.grid import numbers_in
-from cointoss.models.answers import COLUMNS, NOT_TOSSED
+from cointoss.compare.sweep.maps import field_along, untrusted_in
+from cointoss.compare.sweep.words import codes_of, in_words, words_of
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
 from cointoss.models.scenario import Scenario
@@ -22,68 +20,6 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from cointoss.models.notebook import Frame
-
-WORDED = {name: column.words for name, column in COLUMNS.items() if column.words is not None}
-"""The variables that are words in memory and codes in files, with what their codes mean."""
-
-
-def words_of(name: str, codes: NDArray[Any]) -> NDArray[np.str_]:
-    """Return the codes of a variable in words, of NumPy's strings, of any shape; words as they are."""
-    if codes.dtype.kind in "UTO":
-        return codes.astype(str)
-    known = WORDED[name]
-    first = min(known)
-    words = np.array([known.get(code, "") for code in range(first, max(known) + 1)])
-    return words[codes.astype(np.intp) - first]
-
-
-def codes_of(name: str, words: NDArray[Any]) -> NDArray[np.int8]:
-    """Return the words of a variable as codes, of any shape; codes as they are."""
-    if words.dtype.kind not in "UTO":
-        return words.astype(np.int8)
-    known = {word: code for code, word in WORDED[name].items()}
-    each, inverse = np.unique(words.astype(str), return_inverse=True)
-    # What xarray puts where there was nothing, as after `where`, is no toss.
-    codes = np.array([known.get(word, NOT_TOSSED) for word in each.tolist()], dtype=np.int8)
-    return codes[inverse].reshape(words.shape)
-
-
-def in_words(dataset: xr.Dataset) -> xr.Dataset:
-    """Return a dataset whose codes are words, those of coordinates too."""
-    new: dict[Hashable, Any] = {
-        name: (dataset[name].dims, words_of(name, dataset[name].values), _named(COLUMNS[name].attributes))
-        for name in WORDED
-        if name in dataset
-    }
-    if (certain := dataset.get("outcome_certain")) is not None:
-        new["outcome_certain"] = certain.copy(data=certain.values == 1)
-    for name, one in dataset.coords.items():
-        if "flag_values" in one.attrs and one.dtype.kind in "iuf":
-            known = dict(zip(one.attrs["flag_values"], one.attrs["flag_meanings"].split(), strict=True))
-            words = np.array([known[int(code)] for code in one.values.ravel()]).reshape(one.shape)
-            new[name] = (one.dims, words, _named(one.attrs))
-    return dataset.assign(new)
-
-
-def in_codes(dataset: xr.Dataset) -> xr.Dataset:
-    """Return a dataset whose words are codes of int8, which CF's attributes `flag_values` explain."""
-    return dataset.assign(
-        {
-            name: (dataset[name].dims, codes_of(name, dataset[name].values), COLUMNS[name].attributes)
-            for name in WORDED
-            if name in dataset
-        }
-    )
-
-
-def _named(attributes: Mapping[Any, Any]) -> dict[str, Any]:
-    """Return the attributes of words, without those that explain the codes."""
-    return {"long_name": attributes["long_name"]}
-
-
-def opened(path: Path) -> xr.Dataset:
-    """Return the dataset of a store, which is read as it is asked for; its words are codes."""
-    return xr.open_zarr(path, chunks=None)
 
 
 @xr.register_dataset_accessor("cointoss")
@@ -136,6 +72,8 @@ class Tosses:
         Raises:
             SweepError: for a dimension that there is none of.
         """
+        from cointoss.compare.shares.show import shares_of  # loads scipy
+
         made = self.codes
         dims = self._dataset["outcome"].dims
         for dim in along:
@@ -161,7 +99,9 @@ class Tosses:
         Of shares it is a text: a row for each setting, with 99 % intervals, in Markdown.
         """
         if self._is_of_shares:
-            return _front("shares.show").markdown(self._dataset)
+            from cointoss.compare.shares.show import markdown
+
+            return markdown(self._dataset)
         frame = in_words(self._dataset).to_dataframe().reset_index()
         frame.attrs["units"] = {
             str(name): one.attrs["units"]
@@ -177,9 +117,7 @@ class Tosses:
         The face at touch n + 1 can be trusted where n + 1 impacts can, but no outcome of a toss that ended
         before. A final outcome can be trusted where it is certain.
         """
-        from cointoss.compare.sweep.tossed_map import map_of
-
-        return map_of(self._dataset).untrusted
+        return untrusted_in(self._dataset)
 
     def plot(
         self,
@@ -207,18 +145,18 @@ class Tosses:
         Raises:
             SweepError: for a map that is not finished, and for a layer that it has not.
         """
+        from cointoss.compare.shares.picture import plot_shares  # loads matplotlib
         from cointoss.compare.sweep import show
-        from cointoss.compare.sweep.tossed_map import field_along, map_of
 
         if self._is_of_shares:
-            return _front("shares.picture").plot_shares(self._dataset, ax)
+            return plot_shares(self._dataset, ax)
         dims = self._dataset["outcome"].dims
         along = {dim: field_along(self._dataset, str(dim)) for dim in dims if self._dataset.sizes[dim] > 1}
         fields = {dim: field for dim, field in along.items() if field}
         if len(dims) == len(fields) == 2:
-            return show.plot_map(map_of(self._dataset), ax, layer, palette, boundaries=boundaries)
+            return show.plot_map(self._dataset, ax, layer, palette, boundaries=boundaries)
         if len(fields) == 1 < len(dims):
-            return _front("shares.picture").plot_shares(self.shares(*fields).swap_dims(fields), ax)
+            return plot_shares(self.shares(*fields).swap_dims(fields), ax)
         return show.plot_counts(self.counts, ax)
 
     def page(self) -> "Frame":
@@ -233,9 +171,9 @@ class Tosses:
         Raises:
             SweepError: for tosses that are not over two fields.
         """
-        from cointoss.compare.sweep.tossed_map import map_of
+        from cointoss.compare.explorer.static import explore  # loads the film's
 
-        return _front("explorer.static").explore(map_of(self._dataset))
+        return explore(self._dataset)
 
     def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> Path:
         """Write a map as `cointoss basin` does: `read_map`, `cointoss explore` and `--resume` take it.
@@ -251,20 +189,10 @@ class Tosses:
             OSError: naming the path and why.
             SweepError: for a map of which only every n-th pixel was read, and for what is no map.
         """
-        from cointoss.compare.sweep import store
-        from cointoss.compare.sweep.layout import layout_of_map
-        from cointoss.compare.sweep.tossed_map import map_of
+        from cointoss.compare.sweep.run import save_map  # loads zarr
 
-        made, folder = map_of(self._dataset), Path(path)
-        if made.stride > 1:
-            raise SweepError(f"{made.name}: one pixel of every {made.stride} is here; accepted: a whole map")
-        store.require_place(folder, resume=False, overwrite=overwrite)
-        layout = layout_of_map(made.sweep, made.sweep.scenario.to_toml())
-        with store.opened(folder, layout, overwrite=overwrite) as kept:
-            for tile in kept.tiles:
-                numbers = numbers_in(tile, made.sweep.shape).ravel()
-                kept.write(numbers, {name: array[tile].ravel() for name, array in made.layers.items()})
-        return folder
+        save_map(self._dataset, Path(path), overwrite=overwrite)
+        return Path(path)
 
     def __repr__(self) -> str:
         """Return how many tosses there are, and how many of each outcome."""
@@ -272,30 +200,3 @@ class Tosses:
             return f"<shares of {int(self._dataset['count'].sum()):,d} tosses>"
         told = ", ".join(f"{count:,d} {name}" for name, count in self.counts.items())
         return f"<{self._dataset['outcome'].size:,d} tosses: {told}>"
-
-
-def shares_of(
-    counts: NDArray[np.int64], dims: tuple[Hashable, ...], coordinates: Any, attributes: Any
-) -> xr.Dataset:
-    """Return a dataset of shares and their 99 % intervals.
-
-    Args:
-        counts: of each outcome, (..., 6).
-        dims: of the counts.
-        coordinates: of these.
-        attributes: of the dataset.
-    """
-    values, low, high = wilson(counts, counts.sum(axis=-1, keepdims=True))
-    about = {
-        "count": (counts, "number of tosses"),
-        "share": (values, "share of the tosses"),
-        "low": (low, "low end of its 99 % interval"),
-        "high": (high, "high end of its 99 % interval"),
-    }
-    variables = {name: (dims, array, {"long_name": text}) for name, (array, text) in about.items()}
-    return xr.Dataset(variables, coordinates, attributes)
-
-
-def _front(name: str) -> Any:
-    """Return a module of what stands above the maps and shows their datasets."""
-    return import_module(f"cointoss.compare.{name}")

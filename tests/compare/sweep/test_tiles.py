@@ -4,20 +4,20 @@ import numpy as np
 import pytest
 
 from cointoss.compare.engines import Engine
-from cointoss.compare.sweep import grid
-from cointoss.compare.sweep.grid import numbers_in, tile_shape, tiles
-from tests.helpers.basin_runs import sweep_of
+from cointoss.compare.sweep import tiles as module
+from cointoss.compare.sweep.tiles import numbers_in, tile_shape, tiles
+from tests.helpers.basin_runs import map_asked
 
 
 @pytest.mark.parametrize("shape", [(2, 2), (300, 500), (2, 100_000), (100_000, 3), (129, 127)])
 @pytest.mark.parametrize("x", ["release.position.z=1:2:{}", "gravity=9:10:{}"])
 @pytest.mark.parametrize("y", ["release.velocity.z=1:2:{}", "floor.friction=1:2:{}"])
 def test_tiles_cover_the_map_once_and_are_of_the_size_agreed(shape, x, y):
-    sweep = sweep_of(x.format(shape[1]), y.format(shape[0]))
-    tile = tile_shape(sweep.engine, sweep.batch)
-    assert tile[0] * tile[1] <= grid.TILE_TOSSES[Engine.ANALYTIC]
+    batch, how = map_asked(x.format(shape[1]), y.format(shape[0]))
+    tile = tile_shape(how.engine, batch)
+    assert tile[0] * tile[1] <= module.TILE_TOSSES[Engine.ANALYTIC]
     # No smaller than it must be: whole rows and columns that would fit aside, half of what is allowed.
-    assert tile[0] * tile[1] >= min(shape[0] * shape[1], grid.TILE_TOSSES[Engine.ANALYTIC]) / 2
+    assert tile[0] * tile[1] >= min(shape[0] * shape[1], module.TILE_TOSSES[Engine.ANALYTIC]) / 2
     covered = np.zeros(shape, dtype=int)
     for part in tiles(shape, tile):
         covered[part] += 1
@@ -27,7 +27,6 @@ def test_tiles_cover_the_map_once_and_are_of_the_size_agreed(shape, x, y):
 
 
 def test_a_large_map_has_no_more_tiles_than_a_folder_holds():
-    slow = sweep_of("release.position.z=1:2:1000", "air.exponent=1:2:1000")
-    assert len(list(tiles(slow.shape, tile_shape(slow.engine, slow.batch)))) <= 2 * grid.MOST_TILES
-    small = sweep_of("release.position.z=1:2:100", "air.exponent=1:2:100")
-    assert np.prod(tile_shape(small.engine, small.batch)) <= 64
+    slow, small = (map_asked(f"release.position.z=1:2:{n}", f"air.exponent=1:2:{n}")[0] for n in (1000, 100))
+    assert len(list(tiles(slow.shape, tile_shape(Engine.ANALYTIC, slow)))) <= 2 * module.MOST_TILES
+    assert np.prod(tile_shape(Engine.ANALYTIC, small)) <= 64
