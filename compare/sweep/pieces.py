@@ -89,9 +89,10 @@ def check_map(batch: Batch, how: How) -> None:
         SweepError: for a pixel that is no scenario, naming field, value, and what is accepted.
     """
     try:
-        check(batch, how)
+        require_scenarios(batch)
     except ScenarioError as error:
         raise SweepError(str(error)) from None
+    require_supported(batch, how)
 
 
 def require_scenarios(batch: Batch) -> None:
