@@ -67,3 +67,8 @@ class Job(PictureStyle):
     """Folder of a report as by `cointoss compare`, with both maps; requires --compare."""
     no_video: bool = False
     """Draw no video, which takes longest."""
+
+    @property
+    def is_drawn(self) -> bool:
+        """Whether whole maps are compared or drawn."""
+        return self.compare or self.png is not None

@@ -1,5 +1,6 @@
 """Maps in a few lines of text, and how far two agree."""
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -7,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.compare.basins.agreement import Agreement, Share, agreement
-from cointoss.compare.sweep.layers import is_untrusted
+from cointoss.compare.sweep.layers import is_untrusted, trust_layer
 from cointoss.compare.sweep.layout import Layout
+from cointoss.compare.sweep.store import Store
 from cointoss.models.records import Array, Outcome
 
 if TYPE_CHECKING:
@@ -18,19 +20,30 @@ AWAY = 2.0
 """A pixel is away from the boundaries where all within this distance have its outcome [pixels]."""
 
 
-def describe_map(path: Path, layout: Layout, fractions: dict[Outcome, float]) -> str:
-    """Return a map as text: where it is, what it is of, and the share of each outcome."""
-    (ny, nx), after = layout.batch.shape, layout.attributes["after"]
+def described(path: Path, layout: Layout, kept: Store) -> Iterator[str]:
+    """Yield what a whole map has, as text: shares of outcomes, margins, and how much can be trusted."""
+    how = layout.how
+    yield describe_map(path, layout, kept.counts("outcome", len(Outcome)))
+    if how.margin is not None:
+        yield describe_margins(how.quantity, kept.whole("margin"))
+    if how.trust:
+        most = 1 if how.after is None else how.after + 1
+        yield describe_trust(how.after, kept.counts(trust_layer(how.after), most + 1))
+
+
+def describe_map(path: Path, layout: Layout, counts: NDArray[np.int64]) -> str:
+    """Return a map as text: where it is, what it is of, and the share of each outcome, by their counts."""
+    (ny, nx), after = layout.batch.shape, layout.how.after
     shown = "" if after is None else f"face at touch {after + 1}, or "
     lines = [
         f"map        {path}",
-        f"engine     {layout.attributes['engine']}",
+        f"engine     {layout.how.engine}",
         f"tosses     {nx} by {ny}: {shown}final outcome",
         "shares     of these tosses:",
         *(
-            f"{outcome:11}{100 * share:.3f} %"
-            for outcome, share in fractions.items()
-            if share > 0 or outcome in (Outcome.HEADS, Outcome.TAILS)
+            f"{outcome:11}{100 * counts[outcome] / counts.sum():.3f} %"
+            for outcome in Outcome
+            if counts[outcome] or outcome in (Outcome.HEADS, Outcome.TAILS)
         ),
     ]
     return "\n".join(lines)

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,7 +17,7 @@ from cointoss.compare.sweep.axes import Axis, parse_axis
 from cointoss.compare.sweep.cluster import Workers, cluster
 from cointoss.compare.sweep.layout import Layout, layout_of
 from cointoss.compare.sweep.maps import asked, outcomes_in
-from cointoss.compare.sweep.pieces import How, check_map, pieces, toss_part
+from cointoss.compare.sweep.pieces import check_map, pieces, toss_part
 from cointoss.compare.sweep.reading import map_in
 from cointoss.models.devices import Device
 from cointoss.models.stages import stage
@@ -27,15 +27,6 @@ if TYPE_CHECKING:
 
 Say = Callable[[str], None]
 """Called with a message on what the command waits for."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Planned:
-    """A map that is asked for."""
-
-    path: Path
-    how: How
-    layout: Layout
 
 
 def make(job: Job, source: Source, command: str, say: Say) -> Iterator[str]:
@@ -54,23 +45,22 @@ def make(job: Job, source: Source, command: str, say: Say) -> Iterator[str]:
         UnwritableError: for what can't be written.
         BackEndError: where MuJoCo can't be used.
     """
-    plans, no_video = _planned(job, source)
-    made = list["xr.Dataset"]()
+    layouts, made = _layouts(job, source), list["xr.Dataset"]()
     with cluster(job.scheduler, say, "`resume` goes on") as workers:
-        for plan in plans:
-            with store.opened(plan.path, plan.layout, overwrite=job.overwrite) as kept:
-                run.fill(kept, _tosser(plan, workers))
+        for path, layout in layouts.items():
+            with store.opened(path, layout, overwrite=job.overwrite) as kept:
+                run.fill(kept, _tosser(layout, workers))
                 if job.device != Device.CPU:
-                    say(f"{plan.path}: tossed by {plan.how.processor.in_words}")
-                yield from _described(plan, kept)
-                if _is_drawn(job):
+                    say(f"{path}: tossed by {layout.how.processor.in_words}")
+                yield from describe.described(path, layout, kept)
+                if job.is_drawn:
                     made.append(map_in(kept))
     if made:
-        yield from _shown(job, source, made, no_video, command)
+        yield from _shown(job, source, made, command)
 
 
-def _planned(job: Job, source: Source) -> tuple[list[Planned], str | None]:
-    """Return the maps that are asked for, and why there is no video; all is checked."""
+def _layouts(job: Job, source: Source) -> dict[Path, Layout]:
+    """Return the layout of each map that is asked for, all checked."""
     x, y = parse_axis(job.x, source.scenario), parse_axis(job.y, source.scenario)
     engines = {job.out: Engine(job.engine)}
     if job.compare:
@@ -78,32 +68,34 @@ def _planned(job: Job, source: Source) -> tuple[list[Planned], str | None]:
         engines = {job.out: Engine.ANALYTIC, other: Engine.MUJOCO}
     for path in engines:
         store.require_place(path, resume=job.resume, overwrite=job.overwrite)
-    no_video = None if job.report is None else _require_report(job, job.report, source.name, engines)
+    if job.report is not None:
+        _require_report(job, job.report, source.name, engines)
     # From here on MuJoCo is imported: its back end is chosen.
     require_mujoco(*engines.values())
-    plans = [_plan(job, source, path, engine, x, y) for path, engine in engines.items()]
-    kept = [store.there(plan.path, plan.layout) for plan in plans if job.resume]
-    new = len(plans) - sum(one is not None and one.is_whole for one in kept)
-    for plan in plans:
-        check_map(plan.layout.batch, plan.how)
-        run.require_room(plan.layout, job.out.parent, maps=new, drawn=_is_drawn(job))
-    return plans, no_video
+    layouts = {path: _layout(job, source, engine, x, y) for path, engine in engines.items()}
+    kept = [store.there(path, layout) for path, layout in layouts.items() if job.resume]
+    new = len(layouts) - sum(one is not None and one.is_whole for one in kept)
+    for layout in layouts.values():
+        check_map(layout.batch, layout.how)
+        run.require_room(layout, job.out.parent, maps=new, drawn=job.is_drawn)
+    return layouts
 
 
-def _is_drawn(job: Job) -> bool:
-    return job.compare or job.png is not None
-
-
-def _require_report(job: Job, report: Path, name: str, maps: Iterable[Path]) -> str | None:
-    """Refuse a folder that can't be a report's; return why the report has no video."""
+def _require_report(job: Job, report: Path, name: str, maps: Iterable[Path]) -> None:
+    """Refuse a folder that can't be a report's."""
     require_folder(report, name)
     for path in maps:
         if Path(os.path.realpath(report)).is_relative_to(os.path.realpath(path)):
             raise UnwritableError(f"{report}: lies in the map {path}; accepted: a folder outside of it")
+    _no_video(job)
+
+
+def _no_video(job: Job) -> str | None:
+    """Return why the report has no video; the first call chooses MuJoCo's back end."""
     return NOT_ASKED if job.no_video else drawing_problem()
 
 
-def _plan(job: Job, source: Source, path: Path, engine: Engine, x: Axis, y: Axis) -> Planned:
+def _layout(job: Job, source: Source, engine: Engine, x: Axis, y: Axis) -> Layout:
     chosen = {"contact": job.contact} if engine == Engine.MUJOCO else {}
     batch, how = asked(
         source.scenario,
@@ -116,31 +108,18 @@ def _plan(job: Job, source: Source, path: Path, engine: Engine, x: Axis, y: Axis
         trust=job.trust and engine == Engine.ANALYTIC,
         device=job.device,
     )
-    layout = layout_of(batch, how, name=source.stem, scenario_text=source.text)
-    return Planned(path=path, how=how, layout=layout)
+    return layout_of(batch, how, name=source.stem, scenario_text=source.text)
 
 
-def _tosser(plan: Planned, workers: Workers | None) -> run.Tosser:
+def _tosser(layout: Layout, workers: Workers | None) -> run.Tosser:
     """Return what tosses the pixels of a map: this machine, or the workers of a cluster."""
-    batch, how = plan.layout.batch, plan.how
+    batch, how = layout.batch, layout.how
     if workers is None:
         return partial(pieces, batch, how)
     return lambda parts: workers(partial(toss_part, batch, how), parts, how.engine)
 
 
-def _described(plan: Planned, kept: store.Store) -> Iterator[str]:
-    """Yield what a whole map has, as text."""
-    how = plan.how
-    yield describe.describe_map(plan.path, plan.layout, run.fractions_of(kept))
-    if how.margin is not None:
-        yield describe.describe_margins(how.quantity, kept.whole("margin"))
-    if how.trust:
-        yield describe.describe_trust(how.after, run.trust_counts(kept, how.after))
-
-
-def _shown(
-    job: Job, source: Source, made: "list[xr.Dataset]", no_video: str | None, command: str
-) -> Iterator[str]:
+def _shown(job: Job, source: Source, made: "list[xr.Dataset]", command: str) -> Iterator[str]:
     """Draw the maps and write their report, where asked for; yield what is said of them."""
     from cointoss.compare.sweep import show
 
@@ -156,5 +135,5 @@ def _shown(
 
         fine = replace(Engine.MUJOCO.package.FINE, contact=job.contact)
         both = compared(source.scenario, source.text, source.stem, settings={"mujoco": fine})
-        page = write_report(both, job.report, no_video, maps=show.section(made, job, command))
+        page = write_report(both, job.report, _no_video(job), maps=show.section(made, job, command))
         yield f"report     {page}"

@@ -22,6 +22,7 @@ class Layout:
     """What a store is made of: a batch, with its dimensions and coordinates, arrays, and what made them."""
 
     batch: Batch
+    how: How
     tile: tuple[int, ...]
     """The lengths of a tile along the dimensions; a tile is one file of each array."""
     layers: dict[str, AnswerColumn]
@@ -45,6 +46,7 @@ def layout_of(batch: Batch, how: How, *, name: str | None = None, scenario_text:
         layers, trust = map_layers(how), {TRUST: True} if how.trust else {}
     return Layout(
         batch=batch,
+        how=how,
         tile=tile_shape(how.engine, batch, 1 if how.margin is None else MARGIN_TOSSES),
         layers=layers,
         attributes={

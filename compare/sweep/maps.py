@@ -104,22 +104,17 @@ def asked_of(dataset: "xr.Dataset") -> tuple[Batch, How]:
     )
 
 
-def map_of(batch: Batch, how: How, arrays: Columns, name: str, stride: int = 1) -> "xr.Dataset":
+def map_of(batch: Batch, how: How, arrays: Columns, name: str) -> "xr.Dataset":
     """Return a map, its words as codes.
 
     Args:
         batch: of all its tosses.
         how: they were tossed.
-        arrays: by name, over y and x, of every n-th pixel along both.
+        arrays: by name, over y and x.
         name: of the scenario; empty where it has none.
-        stride: n.
     """
     import xarray
 
-    layers = map_layers(how)
-    coordinates = {
-        field: one._replace(values=one.values[::stride]) for field, one in batch.coordinates.items()
-    }
     about = {
         "name": name,
         "scenario": batch.scenario.to_toml(),
@@ -128,11 +123,11 @@ def map_of(batch: Batch, how: How, arrays: Columns, name: str, stride: int = 1) 
         "after": "" if how.after is None else how.after,
         "margin_along": how.margin or "",
         "trust": how.trust or "",
-        "stride": stride,
+        "stride": 1,
         "axes": json.dumps([[one.values[0], one.values[-1], len(one.values)] for one in batch.varied]),
     }
-    kept = {layer: (("y", "x"), arrays[layer], one.attributes) for layer, one in layers.items()}
-    return xarray.Dataset(kept, coordinates, about)
+    layers = {one: (("y", "x"), arrays[one], layer.attributes) for one, layer in map_layers(how).items()}
+    return xarray.Dataset(layers, batch.coordinates, about)
 
 
 def layers_in(dataset: "xr.Dataset") -> Columns:
@@ -188,7 +183,8 @@ def thinned(dataset: "xr.Dataset", most: int) -> "xr.Dataset":
     ends = [[axis.start, axis.stop, axis.count] for axis in axes_of(dataset)]
     step = stride_of(dataset["outcome"].shape, most)
     kept = dataset.isel({dim: slice(None, None, step) for dim in dataset["outcome"].dims})
-    return kept.assign_attrs(stride=step * dataset.attrs.get("stride", 1), axes=json.dumps(ends))
+    # A copy lets go of the whole.
+    return kept.copy(deep=True).assign_attrs(stride=step * dataset.attrs.get("stride", 1), axes=json.dumps(ends))
 
 
 def stride_of(shape: tuple[int, ...], most: int) -> int:

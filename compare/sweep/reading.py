@@ -5,15 +5,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.film.back_end import BackEndError, require_mujoco
 from cointoss.compare.sweep.axes import NUMBERS
 from cointoss.compare.sweep.chunks import FORMAT, DamagedError
 from cointoss.compare.sweep.errors import MapError, SweepError, is_whole
-from cointoss.compare.sweep.layers import LAYERS, map_layers
-from cointoss.compare.sweep.maps import asked_of, map_of, stride_of
+from cointoss.compare.sweep.layers import map_layers
+from cointoss.compare.sweep.maps import asked_of, map_of, thinned
 from cointoss.compare.sweep.store import Store
 from cointoss.compare.sweep.words import in_words
 from cointoss.models.errors import ScenarioError, shown
@@ -70,7 +69,7 @@ def map_at(path: str | Path, *, most: int = MOST_READ) -> "xr.Dataset":
         store = Store.at(path, "r")
         _require_map(store.attributes)
         _require_size(path, store)
-        return map_in(store, stride_of(store.shape, most))
+        return thinned(map_in(store), most)
     except (MapError, BackEndError):
         raise
     except ScenarioError as error:
@@ -102,8 +101,8 @@ def _require_size(path: Path, store: Store) -> None:
         raise MapError(f"{path}: has tiles of {tile[1]} by {tile[0]} pixels; {few}")
 
 
-def map_in(store: Store, stride: int = 1) -> "xr.Dataset":
-    """Return every n-th pixel of the map in a store along both axes, its words as codes."""
+def map_in(store: Store) -> "xr.Dataset":
+    """Return the map in a store, its words as codes, as far as its tiles are tossed and whole."""
     import xarray
 
     given = {
@@ -113,29 +112,21 @@ def map_in(store: Store, stride: int = 1) -> "xr.Dataset":
     axes = {name: (given[name][0], store.whole(name)) for name in given if name in NUMBERS}
     layers = {name: given[name] for name in store.layers}
     batch, how = asked_of(xarray.Dataset(layers, axes, store.attributes))
-    if lacking := map_layers(how).keys() - layers.keys():
+    arrays = {name: np.full(batch.shape, one.missing, one.kind) for name, one in map_layers(how).items()}
+    if lacking := arrays.keys() - layers.keys():
         raise DamagedError(f"array {min(lacking)} missing")
-    return map_of(batch, how, _layers(store, stride), store.attributes.get("name", ""), stride)
-
-
-def _layers(store: Store, stride: int) -> dict[str, NDArray[Any]]:
-    shape = [-(-count // stride) for count in store.shape]
-    arrays = {name: np.full(shape, LAYERS[name].missing, LAYERS[name].kind) for name in store.layers}
     for tile in store.tiles:
         try:
             if not (tossed := store.tossed(tile)).any():
                 continue
-            found = {name: store.read(tile, name) for name in arrays}
+            for name, array in arrays.items():
+                np.copyto(array[tile], store.read(tile, name), where=tossed)
         except DamagedError as error:
             raise MapError(
                 f"{store.path}: a file is damaged ({_line(error)}); accepted: a whole map "
                 "(cointoss basin --resume tosses again what is damaged)"
             ) from None
-        kept = tuple(slice(-(-part.start // stride), -(-part.stop // stride)) for part in tile)
-        first = tuple(slice(-part.start % stride, None, stride) for part in tile)
-        for name, array in arrays.items():
-            array[kept] = np.where(tossed, found[name], LAYERS[name].missing)[first]
-    return arrays
+    return map_of(batch, how, arrays, store.attributes.get("name", ""))
 
 
 def _line(error: Exception) -> str:

@@ -1,4 +1,4 @@
-"""Fill a store with the tosses that it lacks, or with a map from memory; and count what it has."""
+"""Fill a store with the tosses that it lacks, or with a map from memory."""
 
 import math
 import os
@@ -13,14 +13,11 @@ from numpy.typing import NDArray
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.output.interruption import saying
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.layers import trust_layer
 from cointoss.compare.sweep.layout import Layout, layout_of
 from cointoss.compare.sweep.maps import asked_of, layers_in, name_of
 from cointoss.compare.sweep.pieces import Columns
 from cointoss.compare.sweep.store import Store, opened, require_place
 from cointoss.compare.sweep.tiles import numbers_in
-from cointoss.models.answers import tally
-from cointoss.models.records import Outcome
 from cointoss.models.stages import stage
 
 if TYPE_CHECKING:
@@ -65,25 +62,6 @@ def save_map(dataset: "xr.Dataset", path: Path, *, overwrite: bool) -> None:
         for tile in kept.tiles:
             parts = {layer: array[tile].ravel() for layer, array in layers.items()}
             kept.write(numbers_in(tile, kept.shape).ravel(), parts)
-
-
-def fractions_of(store: Store) -> dict[Outcome, float]:
-    """Return the share of a map's pixels that each outcome fills, without the whole map in memory."""
-    counts = np.zeros(len(Outcome), dtype=np.int64)
-    for tile in store.tiles:
-        counts += tally(store.read(tile))
-    return {outcome: float(counts[outcome] / counts.sum()) for outcome in Outcome}
-
-
-def trust_counts(store: Store, after: int | None) -> NDArray[np.int64]:
-    """Return how many pixels have 0, 1, ... in the `trust_layer`, without the whole map in memory, (n,)."""
-    most = 1 if after is None else after + 1
-    counts = np.zeros(most + 1, dtype=np.int64)
-    for tile in store.tiles:
-        # A number that a stranger made larger takes no more room.
-        found = np.minimum(store.read(tile, trust_layer(after)).ravel(), most)
-        counts += np.bincount(found, minlength=len(counts))
-    return counts
 
 
 def require_room(layout: Layout, folder: Path, *, maps: int, drawn: bool) -> None:

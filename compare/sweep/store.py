@@ -145,6 +145,16 @@ class Store:
         """Return all values of an array, or of a coordinate by its field."""
         return self.read(tuple(slice(0, count) for count in self.arrays[name].shape), name)
 
+    def counts(self, name: str, most: int) -> NDArray[np.int64]:
+        """Return how often an array has 0, 1, ..., without the whole array in memory, (most,).
+
+        Args:
+            name: of an array of whole numbers.
+            most: different numbers; a larger one, as a stranger may have made, counts as the last.
+        """
+        parts = (np.minimum(self.read(tile, name).ravel(), most - 1) for tile in self.tiles)
+        return sum((np.bincount(part, minlength=most) for part in parts), np.zeros(most, dtype=np.int64))
+
     def write(self, numbers: NDArray[np.intp], layers: Columns) -> None:
         """Keep what is known of a tile, or of a part of one.
 
