@@ -1,7 +1,7 @@
 """The explorer as one file: the page, its map, and the tosses of some pixels; it needs no server."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from cointoss.compare.explorer.page_files import page_files
 from cointoss.compare.explorer.page_map import page_map
 from cointoss.compare.explorer.tosses import MOST_IMPACTS, toss_pixel
 from cointoss.compare.output.files import write_text
-from cointoss.compare.sweep.maps import asked_of, name_of, thinned, title_of
+from cointoss.compare.sweep.maps import asked_of, axes_of, name_of, thinned, title_of
 from cointoss.compare.sweep.reading import map_at
 from cointoss.compare.web.scripts import ENGINE_POLICY, POLICY, one_file
 from cointoss.compare.web.wasm.carried import engine_data
@@ -57,18 +57,17 @@ def explore(found: "xr.Dataset") -> Frame:
 
 def _page(shown: "xr.Dataset", name: str, tossed: tuple[int, int]) -> str:
     """Return the page of a map, with at most `most` columns and rows of its pixels tossed."""
-    batch, _ = asked_of(shown)
-    y, x = (one.values for one in batch.varied)
+    held: dict[str, Any] = {"map": page_map(shown, name), "engine": _engine(shown), "tosses": {}}
+    y, x = (axis.values for axis in axes_of(shown))
     columns, rows = (_spread(len(one), most) for one, most in zip((x, y), tossed, strict=True))
-    pixels, tosses = [(column, row) for row in rows for column in columns], {}
+    pixels = [(column, row) for row in rows for column in columns]
     for column, row in counted("tossing by both engines", "pixels", pixels):
         at = float(x[column]), float(y[row])
-        tosses[f"{column},{row}"] = [
+        held["tosses"][f"{column},{row}"] = [
             toss_pixel(shown, *at, engine, samples=SAMPLES, most_symbols=SAMPLES // 4) for engine in Engine
         ]
-    held = {"columns": columns, "rows": rows, "tosses": tosses, "engine": _engine(shown)}
     policy = ENGINE_POLICY if held["engine"] else POLICY
-    return one_file(page_files(), {"map": page_map(shown, name), **held}, policy)
+    return one_file(page_files(), {**held, "columns": columns, "rows": rows}, policy)
 
 
 def _engine(found: "xr.Dataset") -> dict[str, object] | None:

@@ -184,7 +184,9 @@ def thinned(dataset: "xr.Dataset", most: int) -> "xr.Dataset":
     step = stride_of(dataset["outcome"].shape, most)
     kept = dataset.isel({dim: slice(None, None, step) for dim in dataset["outcome"].dims})
     # A copy lets go of the whole.
-    return kept.copy(deep=True).assign_attrs(stride=step * dataset.attrs.get("stride", 1), axes=json.dumps(ends))
+    return kept.copy(deep=True).assign_attrs(
+        stride=step * dataset.attrs.get("stride", 1), axes=json.dumps(ends)
+    )
 
 
 def stride_of(shape: tuple[int, ...], most: int) -> int:

@@ -23,16 +23,6 @@ X, Y = f"{ETA}=20:60:7", f"{Z}=20 cm:60 cm:5"
 ASKED = ("basin", "fig24a", "--x", X, "--y", Y)
 
 
-def tosses_of(found):
-    """Yield each pixel of a map of fig24a, and its toss."""
-    for row, height in enumerate(found[Z].values):
-        for column, spin in enumerate(found[ETA].values):
-            yield (
-                found.isel(y=row, x=column),
-                cointoss.toss(cointoss.load("fig24a").replace(ETA, spin, Z, height)),
-            )
-
-
 @pytest.fixture(scope="module")
 def found():
     return cointoss.basin("fig24a", x=X, y=Y)
@@ -48,74 +38,43 @@ def trusted():
     return cointoss.basin("fig24a", x=X, y=Y, after=8, trust=True)
 
 
-@pytest.fixture(scope="module")
-def certain():
-    return cointoss.basin("fig24a", x=X, y=Y, trust=True)
-
-
-def test_a_map_has_the_tosses_of_its_pixels_in_words(found):
-    assert found.outcome.dims == ("y", "x")
-    assert found[ETA].values[[0, -1]].tolist() == [20, 60]
-    assert found[Z].attrs == {"long_name": "height", "units": "m"}
-    for pixel, toss in tosses_of(found):
-        assert (pixel.outcome, pixel.impacts) == (str(toss.outcome), len(toss.impacts))
-    touch = cointoss.basin("fig24a", x=X, y=Y, after=np.int64(0))  # pyright: ignore[reportArgumentType]
-    assert touch.attrs["after"] == 0
-
-
-def test_a_map_is_two_axes_of_the_verb(found):
-    assert cointoss.basin("fig24a", x=(ETA, 20, 60, 7), y={Z: np.linspace(0.2, 0.6, 5)}).equals(found)
-    same = cointoss.toss_many("fig24a", {"height": ("20 cm", "60 cm", 5), ETA: "20:60:7"})
-    assert np.array_equal(same.outcome.values, found.outcome.values)
-    assert np.array_equal(same.impacts.values, found.impacts.values)
-    assert axes_of(same) == axes_of(found)
-
-
-def test_a_map_counts_the_trusted_impacts_of_each_pixel(trusted):
-    untrusted, covered = trusted.cointoss.untrusted, 0
-    for (pixel, toss), is_open in zip(tosses_of(trusted), untrusted.ravel(), strict=True):
-        assert pixel.trusted_impacts == min(toss.trusted_impacts, 9)
-        assert is_open == (toss.trusted_impacts < 9)
-        if not is_open:
-            assert pixel.outcome == {1: "heads", 2: "tails"}[toss.impacts.face[8]]
-        covered += not is_open
-    assert 0 < covered < untrusted.size
-    about = trusted["trusted_impacts"].attrs["long_name"]
-    assert about == "number of leading impacts up to touch 9 that the engine's own errors cannot have changed"
-
-
-def test_of_a_map_of_a_touch_no_outcome_of_a_toss_that_ended_is_trusted():
-    """At restitution 0.1 all impacts of some tosses are trusted; the horizon does not cover what follows."""
-    softer = cointoss.load("fig24a").replace("floor.restitution", 0.1)
-    found = cointoss.basin(softer, x=X, y=Y, after=8, trust=True)
-    ended = found.impacts.values <= 8
-    assert np.any(ended & (found.trusted_impacts == found.impacts).values)
-    assert np.all(found.cointoss.untrusted[ended])
-
-
-def test_a_final_outcome_is_trusted_where_it_is_certain(certain):
-    for pixel, toss in tosses_of(certain):
-        assert (pixel.outcome, pixel.outcome_certain) == (str(toss.outcome), toss.outcome_certain)
-    assert np.array_equal(certain.cointoss.untrusted, ~certain.outcome_certain)
-    assert 0 < certain.cointoss.untrusted.sum() < certain.outcome.size
-    assert "trusted_impacts" not in certain
+@pytest.mark.parametrize("chi", [0.8, 0.1])
+@pytest.mark.parametrize(("trust", "after"), [(None, None), ("certain", None), ("impacts", 8), (None, 0)])
+def test_a_map_is_two_axes_of_the_verb(trust, after, chi):
+    """At restitution 0.1 some tosses end in trusted impacts; the horizon does not cover what follows."""
+    case = cointoss.load("fig24a").replace("floor.restitution", chi)
+    vary = {"height": ("20 cm", "60 cm", 5), ETA: "20:60:7"}
+    found = cointoss.basin(
+        case, x=(ETA, 20, 60, 7), y={Z: np.linspace(0.2, 0.6, 5)}, after=after, trust=bool(trust)
+    )
+    short = case if after is None else case.replace("ending.max_impacts", after + 1)
+    due = cointoss.toss_many(short, vary, trust=trust)
+    reached = True if after is None else due.impacts.values == after + 1
+    shown = due.outcome if after is None else due.last_face
+    assert np.array_equal(found.outcome.values, np.where(reached, shown, due.outcome))
+    known = [name for name in ("impacts", "trusted_impacts", "outcome_certain") if name in found]
+    assert len(known) == 1 + bool(trust)
+    assert all(np.array_equal(found[name].values, due[name].values) for name in known)
+    assert axes_of(due) == axes_of(found)
+    if trust:
+        trusted = due.outcome_certain if after is None else (due.trusted_impacts > after) & reached
+        assert np.array_equal(found.cointoss.untrusted, ~trusted.values)
+        assert chi == 0.1 or 0 < found.cointoss.untrusted.sum() < 35
 
 
 def test_a_plot_shows_the_map_or_its_margins(found, margins):
     panel = found.cointoss.plot(given := Figure().add_subplot(), boundaries=True)
     assert panel is given
-    assert (panel.get_xlabel(), panel.get_ylabel()) == ("spin about η [rad/s]", "height [m]")
     assert panel.get_title() == "fig24a: 2 g, 25 mm"
-    assert panel.get_images()[0].get_array().shape[:2] == found.outcome.shape
-    hostile = found.assign_attrs(name=r"$\frac$ 硬\n貨")
-    hostile.cointoss.plot(Figure().add_subplot()).figure.savefig(BytesIO())  # warnings are errors
     legend = [text.get_text() for text in panel.get_legend().get_texts()]
     assert legend == [*found.cointoss.counts, "boundary"]
-    assert margins["margin"].attrs["units"] == "mm"
-    panel = margins.cointoss.plot(Figure().add_subplot(), layer="margin")
-    assert panel.get_images()[0].get_array().shape[:2] == margins.outcome.shape
-    assert (panel.get_xlabel(), panel.get_ylabel()) == ("spin about η [rad/s]", "height [m]")
-    assert panel.figure.axes[1].get_ylabel() == "smallest change of height [mm]"
+    hostile = found.assign_attrs(name=r"$\frac$ 硬\n貨")
+    hostile.cointoss.plot(Figure().add_subplot()).figure.savefig(BytesIO())  # warnings are errors
+    sizes = margins.cointoss.plot(Figure().add_subplot(), layer="margin")
+    assert sizes.figure.axes[1].get_ylabel() == "smallest change of height [mm]"
+    for axes, made in ((panel, found), (sizes, margins)):
+        assert axes.get_images()[0].get_array().shape[:2] == made.outcome.shape
+        assert (axes.get_xlabel(), axes.get_ylabel()) == ("spin about η [rad/s]", "height [m]")
     own = found.cointoss.plot(palette="paper").figure
     assert own.number in pyplot.get_fignums()
     pyplot.close(own)

@@ -14,14 +14,10 @@ import zarr
 from zarr.codecs import BytesCodec, ZstdCodec
 
 import cointoss
-from cointoss.compare.engines import Engine
-from cointoss.compare.sweep import chunks, tiles
-from cointoss.compare.sweep.store import opened
-from tests.helpers.basin_runs import map_layout
+from cointoss.compare.sweep import chunks
 from tests.helpers.command_line import refused
 from tests.helpers.pickles import Runs
 from tests.helpers.strange_maps import (
-    AXES,
     CHUNKS,
     GIGABYTES,
     X,
@@ -301,16 +297,3 @@ def test_values_that_are_lost_are_no_zeros(path, name):
         assert set(cointoss.read_map(path).cointoss.counts) == {"not_tossed"}
     else:
         not_read(path, f"({name}/{CHUNKS[name]}: lost)")
-
-
-@pytest.mark.parametrize("tile", [25, 1 << 14])
-def test_maps_of_all_tiles_are_read(tmp_path, monkeypatch, tile):
-    monkeypatch.setitem(tiles.TILE_TOSSES, Engine.ANALYTIC, tile)
-    with opened(tmp_path / "map.zarr", map_layout(*AXES, after=3), overwrite=False) as map_:
-        for number, part in enumerate(map_.tiles):
-            numbers = map_.missing(part)
-            filled = np.full(len(numbers), number % 5)
-            map_.write(numbers, {"outcome": filled.astype(np.int8), "impacts": filled.astype(np.int32)})
-    read = cointoss.read_map(tmp_path / "map.zarr")
-    assert read.attrs["after"] == 3
-    assert "not_tossed" not in read.cointoss.counts
