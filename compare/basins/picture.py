@@ -132,16 +132,23 @@ def draw_panel(
     codes = outcome_map(outcomes)
     _show(axes, _colored(codes, style), x, y)
     axes.set_ylabel(_label(y))
-    patches = _outcome_patches([codes], style)
+    return [*_outcome_patches([codes], style), *_hatched(axes, untrusted, x, y, codes.shape, style)]
+
+
+def _hatched(
+    axes: Axes,
+    untrusted: NDArray[np.bool_] | None,
+    x: MapAxis,
+    y: MapAxis,
+    shape: tuple[int, ...],
+    style: PictureStyle,
+) -> list[Patch]:
+    """Hatch the untrusted pixels of a map of this shape; return what the legend has of them."""
     if untrusted is None:
-        return patches
-    _show(axes, _hatch(untrusted, _HATCH[style.palette]), x, y, shape=codes.shape)
-    return [*patches, _hatch_patch(untrusted, style)]
-
-
-def _hatch_patch(untrusted: NDArray[np.bool_], style: PictureStyle) -> Patch:
+        return []
     color, label = _HATCH[style.palette], f"untrusted: {100 * untrusted.mean():.3g} %"
-    return Patch(facecolor=PALE, edgecolor=color, hatch="/////", linewidth=0.6, label=label)
+    _show(axes, _hatch(untrusted, color), x, y, shape=shape)
+    return [Patch(facecolor=PALE, edgecolor=color, hatch="/////", linewidth=0.6, label=label)]
 
 
 def _hatch(mask: NDArray[np.bool_], color: str) -> NDArray[np.uint8]:
@@ -217,11 +224,8 @@ def draw_comparison(
         _show(axes, colors, x, y)
         axes.set_title(title)
     panels[0].set_ylabel(_label(y))
-    patches = [_patch(_SAME, "both alike"), _patch(_DIFFERENT, "different")]
-    if untrusted is not None:
-        _show(panels[0], _hatch(untrusted, _HATCH[style.palette]), x, y, shape=a.shape)
-        patches.append(_hatch_patch(untrusted, style))
-    _legend(figure, [*_outcome_patches([a, b], style), *patches])
+    patches = [*_outcome_patches([a, b], style), _patch(_SAME, "both alike"), _patch(_DIFFERENT, "different")]
+    _legend(figure, [*patches, *_hatched(panels[0], untrusted, x, y, a.shape, style)])
     return figure
 
 

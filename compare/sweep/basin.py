@@ -4,14 +4,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.axes import FORM, Axis, axis_given, parse_axis
 from cointoss.compare.sweep.errors import SweepError, require_whole
 from cointoss.compare.sweep.layers import map_layers
 from cointoss.compare.sweep.maps import asked, map_of
-from cointoss.compare.sweep.pieces import check_map, gather, pieces
+from cointoss.compare.sweep.pieces import check_map, gathered
 from cointoss.compare.sweep.reading import MOST_READ
 from cointoss.compare.sweep.words import in_words
 from cointoss.models.devices import Device
@@ -91,11 +89,8 @@ def basin(
             "cointoss basin makes larger maps on disk"
         )
     check_map(batch, how)
-    layers = {name: np.full(len(batch), one.missing, one.kind) for name, one in map_layers(how).items()}
-    is_named = not isinstance(scenario, Scenario)
-    gather(layers, pieces(batch, how), f"map of {scenario}" if is_named else "map")
-    arrays = {name: array.reshape(batch.shape) for name, array in layers.items()}
-    made = map_of(batch, how, arrays, Path(scenario).stem if is_named else "")
+    job, name = ("map", "") if isinstance(scenario, Scenario) else (f"map of {scenario}", Path(scenario).stem)
+    made = map_of(batch, how, gathered(batch, how, map_layers(how), job), name)
     return in_words(made).assign_attrs(how.processor.attributes)
 
 

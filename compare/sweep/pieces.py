@@ -2,7 +2,7 @@
 
 import time
 import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.batch import Batch
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.models.answers import ANSWER, NOT_TOSSED, REFUSED, Answers, Trust, names_of
+from cointoss.models.answers import ANSWER, NOT_TOSSED, REFUSED, AnswerColumn, Answers, Trust, names_of
 from cointoss.models.batch import PLACE, refused
 from cointoss.models.devices import Device
 from cointoss.models.errors import ScenarioError
@@ -52,7 +52,6 @@ class How:
     """Whether a row that is no scenario gets the answer "refused"; else the rows are not checked again."""
     processor: Processor = field(default_factory=Processor, compare=False)
     """What tosses, and counts what a card tossed."""
-
     after: int | None = None
     """Each toss stops at the touch after this number of impacts, and the face there is its outcome; None for
     the final outcome."""
@@ -125,31 +124,28 @@ def require_supported(batch: Batch, how: How) -> None:
         )
 
 
-def gather(
-    arrays: Columns,
-    tossed: Iterator[tuple[NDArray[np.intp], Columns]],
-    name: str,
-    *,
-    shown: bool | None = None,
-) -> None:
-    """Fill flat arrays with tosses, by their numbers; Ctrl-C leaves the rest as it is, with a warning.
+def gathered(
+    batch: Batch, how: How, columns: Mapping[str, AnswerColumn], name: str, *, shown: bool | None = None
+) -> Columns:
+    """Return some answers of a batch, by name, over its dimensions; Ctrl-C leaves the rest out, with a warning.
 
     Args:
-        arrays: by name, (n,), `outcome` among them, which holds `NOT_TOSSED`.
-        tossed: the numbers of the tosses of each part, and what the arrays have of them.
+        batch: checked.
+        how: it is tossed.
+        columns: that are kept, `outcome` among them.
         name: of the job, for who waits.
         shown: whether to show progress; None shows it in a terminal or a notebook.
     """
-    count, done = len(arrays["outcome"]), 0
-    with stage(name, "tosses", total=count, shown=shown) as progress:
+    arrays = {one: np.full(len(batch), column.missing, column.kind) for one, column in columns.items()}
+    with stage(name, "tosses", total=len(batch), shown=shown) as progress:
         try:
-            for tosses, found in tossed:
+            for tosses, found in pieces(batch, how):
                 for one, array in arrays.items():
                     array[tosses] = found[one]
-                done += len(tosses)
-                progress(done, count)
+                progress(int(tosses[-1]) + 1, len(batch))
         except KeyboardInterrupt:
-            warn_of_interruption(int(np.sum(arrays["outcome"] != NOT_TOSSED)), count)
+            warn_of_interruption(int(np.sum(arrays["outcome"] != NOT_TOSSED)), len(batch))
+    return {one: array.reshape(batch.shape) for one, array in arrays.items()}
 
 
 def pieces(

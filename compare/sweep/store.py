@@ -259,26 +259,16 @@ def opened(path: Path, layout: Layout, *, overwrite: bool) -> Iterator[Store]:
         return
     with ExitStack() as kept:
         with naming(path):
-            if overwrite and is_map(target):
-                with _locked(path, target):
-                    _remove(target)
-            if not is_map(target):
-                _create(target, layout)
             kept.enter_context(_locked(path, target))
+            if overwrite and is_map(target):
+                _remove(target)
+            if not is_map(target):
+                with written_whole(target) as aside:
+                    _write_empty(aside, layout)
             store = _same(path, target, "r+", layout)
             for left in target.rglob("*.partial"):  # by a process that was killed
                 left.unlink()
         yield store
-
-
-def _create(target: Path, layout: Layout) -> None:
-    """Make an empty store, whole or not at all; where one has come up meanwhile, leave it."""
-    try:
-        with written_whole(target) as aside:
-            _write_empty(aside, layout)
-    except UnwritableError:
-        if not is_map(target):
-            raise
 
 
 def _write_empty(folder: Path, layout: Layout) -> None:
@@ -316,9 +306,13 @@ def _same(path: Path, target: Path, mode: Literal["r", "r+"], layout: Layout) ->
 
     A store of another layout or of other versions raises an error: its tosses would be of two kinds.
     """
-    with _readable(path):
+    try:
         found = Store.at(target, mode)
         unlike = _unlike(found, layout, path)
+    except Exception as error:  # zarr raises errors of any kind
+        if isinstance(error, OSError) and error.errno is not None:  # of the system; zarr's own have no number
+            raise
+        raise UnwritableError(f"{path}: is no map of cointoss ({error}); {_WAYS_OUT}") from None
     if unlike is None:
         return replace(found, path=path)
     kind = "map" if "cointoss_map" in layout.attributes else "store of tosses"
@@ -362,17 +356,6 @@ def _unlike(found: Store, layout: Layout, path: Path) -> str | None:
 def _shape_of(array: Any) -> tuple[tuple[int, ...], np.dtype[Any], tuple[str, ...] | None]:
     """Return the shape, the type and the dimensions of an array of Zarr."""
     return array.shape, array.dtype, array.metadata.dimension_names
-
-
-@contextmanager
-def _readable(path: Path) -> Iterator[None]:
-    """Name a map in what goes wrong in reading it; zarr raises errors of any kind."""
-    try:
-        yield
-    except Exception as error:
-        if isinstance(error, OSError) and error.errno is not None:  # of the system; zarr's own have no number
-            raise
-        raise UnwritableError(f"{path}: is no map of cointoss ({error}); {_WAYS_OUT}") from None
 
 
 @contextmanager

@@ -6,13 +6,11 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-import numpy as np
-
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.batch import Batch, batch_of
 from cointoss.compare.sweep.dataset import dataset_of
 from cointoss.compare.sweep.errors import SweepError, require_whole
-from cointoss.compare.sweep.pieces import How, check, gather, pieces, warn_of_interruption
+from cointoss.compare.sweep.pieces import How, check, gathered, pieces, warn_of_interruption
 from cointoss.models.answers import COLUMNS, Trust
 from cointoss.models.devices import Device
 from cointoss.models.errors import require_type
@@ -117,9 +115,9 @@ def toss_many(
             "takes more"
         )
     check(batch, how)
-    answers = {name: np.full(len(batch), COLUMNS[name].missing, COLUMNS[name].kind) for name in how.names}
-    gather(answers, pieces(batch, how), f"tossing by {how.engine}", shown=progress)
-    return dataset_of(batch, how, {name: array.reshape(batch.shape) for name, array in answers.items()})
+    columns = {name: COLUMNS[name] for name in how.names}
+    answers = gathered(batch, how, columns, f"tossing by {how.engine}", shown=progress)
+    return dataset_of(batch, how, answers)
 
 
 def _into_store(
