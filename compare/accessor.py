@@ -189,7 +189,7 @@ class Tosses:
             OSError: naming the path and why.
             SweepError: for a map of which only every n-th pixel was read, and for what is no map.
         """
-        from cointoss.compare.sweep.run import save_map  # loads zarr
+        from cointoss.compare.sweep.reading import save_map  # loads zarr
 
         save_map(self._dataset, Path(path), overwrite=overwrite)
         return Path(path)

@@ -12,7 +12,7 @@ from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.basin import MOST_AFTER
 from cointoss.compare.sweep.batch import Batch
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.layers import trust_layer
+from cointoss.compare.sweep.layout import trust_layer
 from cointoss.compare.sweep.maps import asked
 from cointoss.compare.sweep.pieces import How, pieces
 from cointoss.compare.web.query import COUNT, Query, query_of, texts_in

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.axes import FORM, Axis, axis_given, parse_axis
 from cointoss.compare.sweep.errors import SweepError, require_whole
-from cointoss.compare.sweep.layers import map_layers
+from cointoss.compare.sweep.layout import map_layers
 from cointoss.compare.sweep.maps import asked, map_of
 from cointoss.compare.sweep.pieces import check_map, gathered
 from cointoss.compare.sweep.reading import MOST_READ

@@ -12,14 +12,10 @@ from typing import Any
 
 from zarr.codecs import BytesCodec, ZstdCodec
 
+from cointoss.compare.sweep.layout import FORMAT, TOSSES_FORMAT
 from cointoss.models.bounded import read_bounded
 from cointoss.models.errors import shown
 
-FORMAT = 1
-"""The version of the form of a map, under the attribute `cointoss_map`."""
-TOSSES_FORMAT = 2
-"""The version of the form of a store of tosses, under the attribute `cointoss_tosses`; version 1 had bools
-for certainties."""
 DESCRIPTION = "zarr.json"
 """Name of the file that describes a store."""
 MOST_DESCRIBED = 1 << 20

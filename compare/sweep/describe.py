@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.compare.basins.agreement import Agreement, Share, agreement
-from cointoss.compare.sweep.layers import is_untrusted, trust_layer
-from cointoss.compare.sweep.layout import Layout
+from cointoss.compare.sweep.layout import Layout, is_untrusted, trust_layer
 from cointoss.compare.sweep.store import Store
 from cointoss.models.records import Array, Outcome
 

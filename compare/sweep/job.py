@@ -11,7 +11,7 @@ from cointoss.compare.engines import Engine
 from cointoss.compare.film.back_end import drawing_problem, require_mujoco
 from cointoss.compare.output.files import UnwritableError, write_bytes
 from cointoss.compare.report.contents import NOT_ASKED, require_folder
-from cointoss.compare.sweep import describe, run, store
+from cointoss.compare.sweep import describe, store
 from cointoss.compare.sweep.asked import Job, Source
 from cointoss.compare.sweep.axes import Axis, parse_axis
 from cointoss.compare.sweep.cluster import Workers, cluster
@@ -19,6 +19,7 @@ from cointoss.compare.sweep.layout import Layout, layout_of
 from cointoss.compare.sweep.maps import asked, outcomes_in
 from cointoss.compare.sweep.pieces import check_map, pieces, toss_part
 from cointoss.compare.sweep.reading import map_in
+from cointoss.compare.sweep.room import require_room
 from cointoss.models.devices import Device
 from cointoss.models.stages import stage
 
@@ -49,7 +50,7 @@ def make(job: Job, source: Source, command: str, say: Say) -> Iterator[str]:
     with cluster(job.scheduler, say, "`resume` goes on") as workers:
         for path, layout in layouts.items():
             with store.opened(path, layout, overwrite=job.overwrite) as kept:
-                run.fill(kept, _tosser(layout, workers))
+                store.fill(kept, _tosser(layout, workers))
                 if job.device != Device.CPU:
                     say(f"{path}: tossed by {layout.how.processor.in_words}")
                 yield from describe.described(path, layout, kept)
@@ -77,7 +78,7 @@ def _layouts(job: Job, source: Source) -> dict[Path, Layout]:
     new = len(layouts) - sum(one is not None and one.is_whole for one in kept)
     for layout in layouts.values():
         check_map(layout.batch, layout.how)
-        run.require_room(layout, job.out.parent, maps=new, drawn=job.is_drawn)
+        require_room(layout, job.out.parent, maps=new, drawn=job.is_drawn)
     return layouts
 
 
@@ -111,7 +112,7 @@ def _layout(job: Job, source: Source, engine: Engine, x: Axis, y: Axis) -> Layou
     return layout_of(batch, how, name=source.stem, scenario_text=source.text)
 
 
-def _tosser(layout: Layout, workers: Workers | None) -> run.Tosser:
+def _tosser(layout: Layout, workers: Workers | None) -> store.Tosser:
     """Return what tosses the pixels of a map: this machine, or the workers of a cluster."""
     batch, how = layout.batch, layout.how
     if workers is None:

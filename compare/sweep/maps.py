@@ -15,7 +15,7 @@ from cointoss.compare.engines import Engine, EngineSettings
 from cointoss.compare.sweep.axes import NUMBERS, Axis, unit_of
 from cointoss.compare.sweep.batch import Batch, Varied
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.layers import is_untrusted, map_layers, trust_layer
+from cointoss.compare.sweep.layout import is_untrusted, map_layers, trust_layer
 from cointoss.compare.sweep.pieces import Columns, How
 from cointoss.compare.sweep.words import codes_of
 from cointoss.models.answers import NOT_TOSSED, REFUSED

@@ -127,7 +127,7 @@ def require_supported(batch: Batch, how: How) -> None:
 def gathered(
     batch: Batch, how: How, columns: Mapping[str, AnswerColumn], name: str, *, shown: bool | None = None
 ) -> Columns:
-    """Return some answers of a batch, by name, over its dimensions; Ctrl-C leaves the rest out, with a warning.
+    """Return some answers of a batch, by name, over its dimensions; Ctrl-C leaves out the rest, and warns.
 
     Args:
         batch: checked.

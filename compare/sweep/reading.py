@@ -1,4 +1,4 @@
-"""Read a map from disk: what it is of, and the pixels that are tossed."""
+"""A map on disk: read as far as it is tossed, or written from memory."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -11,9 +11,9 @@ from cointoss.compare.film.back_end import BackEndError, require_mujoco
 from cointoss.compare.sweep.axes import NUMBERS
 from cointoss.compare.sweep.chunks import FORMAT, DamagedError
 from cointoss.compare.sweep.errors import MapError, SweepError, is_whole
-from cointoss.compare.sweep.layers import map_layers
-from cointoss.compare.sweep.maps import asked_of, map_of, thinned
-from cointoss.compare.sweep.store import Store
+from cointoss.compare.sweep.layout import layout_of, map_layers, numbers_in
+from cointoss.compare.sweep.maps import asked_of, layers_in, map_of, name_of, thinned
+from cointoss.compare.sweep.store import Store, opened, require_place
 from cointoss.compare.sweep.words import in_words
 from cointoss.models.errors import ScenarioError, shown
 
@@ -127,6 +127,19 @@ def map_in(store: Store) -> "xr.Dataset":
                 "(cointoss basin --resume tosses again what is damaged)"
             ) from None
     return map_of(batch, how, arrays, store.attributes.get("name", ""))
+
+
+def save_map(dataset: "xr.Dataset", path: Path, *, overwrite: bool) -> None:
+    """Write a map from memory into a store; see `cointoss.compare.accessor.Tosses.save`."""
+    (batch, how), name = asked_of(dataset), dataset.attrs.get("name", "")
+    if (stride := dataset.attrs.get("stride", 1)) > 1:
+        raise SweepError(f"{name_of(dataset)}: one pixel of every {stride} is here; accepted: a whole map")
+    require_place(path, resume=False, overwrite=overwrite)
+    layers = layers_in(dataset)
+    with opened(path, layout_of(batch, how, name=name), overwrite=overwrite) as kept:
+        for tile in kept.tiles:
+            parts = {layer: array[tile].ravel() for layer, array in layers.items()}
+            kept.write(numbers_in(tile, kept.shape).ravel(), parts)
 
 
 def _line(error: Exception) -> str:

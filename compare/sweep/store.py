@@ -4,7 +4,7 @@ import json
 import math
 import os
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
 from itertools import product
@@ -19,6 +19,7 @@ from zarr.codecs import ZstdCodec
 from zarr.errors import ZarrUserWarning
 
 from cointoss.compare.output.files import UnwritableError, aside_in, naming, written_whole
+from cointoss.compare.output.interruption import saying
 from cointoss.compare.sweep.axes import NUMBERS
 from cointoss.compare.sweep.chunks import (
     DESCRIPTION,
@@ -28,14 +29,25 @@ from cointoss.compare.sweep.chunks import (
     require_chunk,
     require_plain,
 )
-from cointoss.compare.sweep.layers import LAYERS, holds_tosses
-from cointoss.compare.sweep.layout import MARGIN_ALONG, TRUST, Layout
+from cointoss.compare.sweep.layout import (
+    LAYERS,
+    MARGIN_ALONG,
+    TRUST,
+    Layout,
+    holds_tosses,
+    numbers_in,
+    tiles,
+)
 from cointoss.compare.sweep.pieces import Columns
-from cointoss.compare.sweep.tiles import numbers_in, tiles
 from cointoss.models.errors import ScenarioError
 from cointoss.models.fields import FIELDS
 from cointoss.models.reading import parse
+from cointoss.models.stages import stage
 
+Numbers = NDArray[np.intp]
+Tosser = Callable[[Iterable[Numbers]], Iterator[tuple[Numbers, Columns]]]
+"""Makes the tosses with these numbers, each part within a tile, and yields the parts, whole or cut, in any
+order."""
 _WAYS_OUT = "accepted: a new name, or `overwrite`"
 _READERS = ("zarr", "xarray")
 """Versions on which no toss depends."""
@@ -269,6 +281,26 @@ def opened(path: Path, layout: Layout, *, overwrite: bool) -> Iterator[Store]:
             for left in target.rglob("*.partial"):  # by a process that was killed
                 left.unlink()
         yield store
+
+
+def fill(store: Store, tosser: Tosser, *, shown: bool | None = None) -> None:
+    """Toss what a store lacks and keep each part as soon as it is tossed; an interruption says what is kept.
+
+    Raises:
+        UnwritableError: naming the store and why.
+        ScenarioError, UnsupportedError: for what can't be tossed.
+    """
+    whole, name = math.prod(store.shape), store.path.name
+    left = [tile for tile in store.tiles if store.missing(tile).size]
+    kept = whole - sum(int(store.missing(tile).size) for tile in left)
+    with (
+        saying(lambda _: f"{name}: {kept} of {whole} tosses are saved; `resume` continues"),
+        stage(name, "tosses", total=whole, done=kept, shown=shown) as progress,
+    ):
+        for numbers, layers in tosser(map(store.missing, left)):
+            store.write(numbers, layers)
+            kept += len(numbers)
+            progress(kept, whole)
 
 
 def _write_empty(folder: Path, layout: Layout) -> None:

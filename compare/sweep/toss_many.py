@@ -128,7 +128,6 @@ def _into_store(
 
     from cointoss.compare.sweep import store
     from cointoss.compare.sweep.layout import layout_of
-    from cointoss.compare.sweep.run import fill
 
     if how.law is not None:
         raise UnsupportedError("law: given, accepted: none in a store, whose scenario would not name it")
@@ -138,7 +137,7 @@ def _into_store(
     check(batch, how)
     with store.opened(path, layout_of(batch, how), overwrite=overwrite) as kept:
         try:
-            fill(kept, partial(pieces, batch, how), shown=progress)
+            store.fill(kept, partial(pieces, batch, how), shown=progress)
         except KeyboardInterrupt:
             left = sum(kept.missing(tile).size for tile in kept.tiles)
             warn_of_interruption(len(batch) - left, len(batch))

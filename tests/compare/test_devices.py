@@ -9,7 +9,7 @@ import pytest
 
 import cointoss
 from cointoss.compare.engines import Engine
-from cointoss.compare.sweep import pieces, tiles
+from cointoss.compare.sweep import layout, pieces
 from cointoss.models.devices import DeviceError, DeviceWarning
 from cointoss.models.processor import LEAST_TOSSES
 from cointoss.models.records import UnsupportedError
@@ -165,7 +165,7 @@ def test_auto_is_the_cpu_for_few_tosses_by_mujoco_and_without_a_card(monkeypatch
 
 
 def test_a_map_whose_card_is_lost_keeps_its_tiles_and_goes_on_by_the_cpu(monkeypatch, coin, tmp_path):
-    monkeypatch.setitem(tiles.TILE_TOSSES, Engine.ANALYTIC, SMALL)
+    monkeypatch.setitem(layout.TILE_TOSSES, Engine.ANALYTIC, SMALL)
     basin(coin, *AXES, "--out", tmp_path / "cpu.zarr")
     due, out = pixels(tmp_path / "cpu.zarr"), tmp_path / "card.zarr"
     with_card(monkeypatch, calls=3)

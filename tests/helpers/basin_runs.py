@@ -76,8 +76,8 @@ def begun(coin, out, *extra, most=TILES):
     """Start a process, for a `with` statement, that makes the map in small tiles until `most` are there."""
     script = (
         "import threading, time; from pathlib import Path; from cointoss.compare.engines import Engine\n"
-        "from cointoss.compare.sweep import pieces, tiles\n"
-        f"tiles.TILE_TOSSES[Engine.ANALYTIC], known = {SMALL}, pieces.columns_of\n"
+        "from cointoss.compare.sweep import layout, pieces\n"
+        f"layout.TILE_TOSSES[Engine.ANALYTIC], known = {SMALL}, pieces.columns_of\n"
         "def columns_of(*tossed):\n"
         f"    made = [entry for entry in Path({str(out)!r}).glob('outcome/c/*/*') if not entry.suffix]\n"
         f"    threading.Event().wait(None if len(made) >= {most} else 0.05)\n"

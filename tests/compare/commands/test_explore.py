@@ -59,7 +59,7 @@ def test_a_map_of_too_many_pixels_is_refused(map_path, monkeypatch):
 def test_of_a_large_map_every_so_many_th_pixel_is_shown(map_path, tmp_path, monkeypatch, tile):
     full, path = read_map(map_path), map_path
     if tile is not None:  # whose sides the stride crosses
-        monkeypatch.setattr("cointoss.compare.sweep.tiles.TILE_TOSSES", dict.fromkeys(Engine, tile))
+        monkeypatch.setattr("cointoss.compare.sweep.layout.TILE_TOSSES", dict.fromkeys(Engine, tile))
         path = small_map(tmp_path)
         cut = Store.at(path, "r").tiles
         for sides in zip(*cut, strict=True):
@@ -70,7 +70,7 @@ def test_of_a_large_map_every_so_many_th_pixel_is_shown(map_path, tmp_path, monk
 
 
 def test_an_unfinished_map_is_shown_as_far_as_it_is(tmp_path, monkeypatch):
-    monkeypatch.setattr("cointoss.compare.sweep.tiles.TILE_TOSSES", dict.fromkeys(Engine, 64))
+    monkeypatch.setattr("cointoss.compare.sweep.layout.TILE_TOSSES", dict.fromkeys(Engine, 64))
     path = small_map(tmp_path)
     before = read_map(path).cointoss.codes
     chunks = sorted(part for part in (path / "outcome" / "c").rglob("*") if part.is_file())

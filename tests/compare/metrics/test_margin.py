@@ -17,7 +17,7 @@ from cointoss.compare.metrics.margin import (
     smallest_changes,
     with_quaternions,
 )
-from cointoss.compare.sweep import tiles
+from cointoss.compare.sweep import layout
 from cointoss.models.batch import PLACE, STATE_PLACES, refused, rows_of
 from cointoss.models.reading import load
 from tests.helpers.command_line import cointoss, printed
@@ -73,7 +73,7 @@ SIDES = ("--x", "release.angular_velocity.xi=20:60:8", "--y", "release.position.
 
 @pytest.fixture
 def small_tiles(monkeypatch):
-    monkeypatch.setitem(tiles.TILE_TOSSES, Engine.ANALYTIC, 16 * tiles.MARGIN_TOSSES)
+    monkeypatch.setitem(layout.TILE_TOSSES, Engine.ANALYTIC, 16 * layout.MARGIN_TOSSES)
 
 
 def margins_in(path):

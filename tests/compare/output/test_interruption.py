@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from cointoss.compare.engines import Engine
-from cointoss.compare.sweep import tiles
+from cointoss.compare.sweep import layout
 from tests.helpers.basin_runs import AXES, SCENARIO, SMALL, assert_same, basin, pixels
 from tests.helpers.command_line import python
 from tests.helpers.processes import HANGS, answered, ask, started, wait_until
@@ -75,13 +75,13 @@ def test_the_toss_of_a_report_or_a_film_is_interrupted(tmp_path, command):
 @pytest.mark.slow
 @pytest.mark.parametrize("engine", Engine)
 def test_a_map_is_interrupted_in_a_tile_and_resumed_to_the_same_pixels(tmp_path, monkeypatch, engine):
-    monkeypatch.setitem(tiles.TILE_TOSSES, engine, SMALL)
+    monkeypatch.setitem(layout.TILE_TOSSES, engine, SMALL)
     (tmp_path / "coin.toml").write_text(SCENARIO + "[ending]\nmax_impacts = 1\n")
     asked = ("coin.toml", "--x", f"{AXES[1][:-2]}20", "--y", f"{AXES[3][:-2]}20", "--engine", engine)
     script = (
         f"{ENDLESS}\nfrom cointoss.compare.cli import main; from cointoss.compare.engines import Engine\n"
-        "from cointoss.compare.sweep import tiles\n"
-        f"tiles.TILE_TOSSES[Engine('{engine}')] = {SMALL}\n"
+        "from cointoss.compare.sweep import layout\n"
+        f"layout.TILE_TOSSES[Engine('{engine}')] = {SMALL}\n"
         f"import {engine.package.__name__}.many as of_many\n"
         "in_tiles, left = of_many.in_tiles, [5]\n"
         "def some(n, most, work, workers):\n"

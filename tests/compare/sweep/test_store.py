@@ -18,10 +18,10 @@ from cointoss import analytic, coin_mj, read_map
 from cointoss.coin_mj import Realisation
 from cointoss.compare.engines import Engine
 from cointoss.compare.output.files import UnwritableError
-from cointoss.compare.sweep import pieces, store, tiles
-from cointoss.compare.sweep.layers import holds_tosses
+from cointoss.compare.sweep import layout as module
+from cointoss.compare.sweep import pieces, store
+from cointoss.compare.sweep.layout import holds_tosses, numbers_in
 from cointoss.compare.sweep.store import Store, opened, require_place
-from cointoss.compare.sweep.tiles import numbers_in
 from tests.helpers.basin_runs import (
     AXES,
     SCENARIO,
@@ -42,7 +42,7 @@ from tests.helpers.command_line import refused
 @pytest.fixture
 def coin(coin, monkeypatch):
     """A scenario's file; the tiles of its maps are small."""
-    monkeypatch.setitem(tiles.TILE_TOSSES, Engine.ANALYTIC, SMALL)
+    monkeypatch.setitem(module.TILE_TOSSES, Engine.ANALYTIC, SMALL)
     return coin
 
 
@@ -66,7 +66,7 @@ def in_tiles(tmp_path_factory):
     folder = tmp_path_factory.mktemp("in_tiles")
     (folder / "coin.toml").write_text(SCENARIO)
     with pytest.MonkeyPatch.context() as patched:
-        patched.setitem(tiles.TILE_TOSSES, Engine.ANALYTIC, SMALL)
+        patched.setitem(module.TILE_TOSSES, Engine.ANALYTIC, SMALL)
         assert basin(folder / "coin.toml", *AXES, "--out", folder / "map.zarr").exit_code == 0
     assert whole_tiles(folder / "map.zarr") == TILES
     return folder / "map.zarr"
@@ -116,7 +116,7 @@ def test_a_killed_map_is_resumed_to_the_same_pixels(undisturbed, coin, tmp_path,
 
 
 def test_a_new_map_is_known_to_be_empty_without_reading_its_tiles(tmp_path, monkeypatch):
-    monkeypatch.setitem(tiles.TILE_TOSSES, Engine.ANALYTIC, SMALL)
+    monkeypatch.setitem(module.TILE_TOSSES, Engine.ANALYTIC, SMALL)
     read, reads = Store.read, []
     monkeypatch.setattr(Store, "read", lambda kept, *asked: reads.append(asked) or read(kept, *asked))
     batch, how = map_asked(AXES[1], AXES[3])

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from cointoss.compare.engines import Engine
-from cointoss.compare.sweep import tiles as module
-from cointoss.compare.sweep.tiles import numbers_in, tile_shape, tiles
+from cointoss.compare.sweep import layout as module
+from cointoss.compare.sweep.layout import numbers_in, tile_shape, tiles
 from tests.helpers.basin_runs import map_asked
 
 

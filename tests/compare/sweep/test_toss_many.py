@@ -10,7 +10,7 @@ from cointoss import SweepError, analytic, coin_mj, load, toss_many
 from cointoss.compare.engines import Engine
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.sweep.batch import batch_of
-from cointoss.compare.sweep.tiles import TILE_TOSSES
+from cointoss.compare.sweep.layout import TILE_TOSSES
 from cointoss.models.records import UnsupportedError
 from cointoss.models.unlikely import UnitWarning
 from cointoss.models.unused import UnusedFieldWarning
