@@ -48,16 +48,25 @@ def _started(part, *arguments):
 
 
 @pytest.mark.long
-def test_a_worker_lost_on_the_way_changes_no_pixel(cluster, coin, tmp_path):
-    (address, workers, _), out = cluster, tmp_path / "map.zarr"
+@pytest.mark.parametrize("lost", ["worker", "scheduler"])
+def test_what_is_lost_on_the_way_changes_no_pixel(cluster, coin, tmp_path, lost):
+    (address, workers, scheduler), out = cluster, tmp_path / "map.zarr"
     with begun(coin, out, "--scheduler", address) as process:
         wait_for(process, out, 4)
-        workers[0].kill()
+        (workers[0] if lost == "worker" else scheduler).kill()
         at_the_loss = whole_tiles(out)
         _, said = answered(process)
-    assert process.returncode == 0, said
-    assert at_the_loss < whole_tiles(out)
-    assert workers[1].poll() is None
+    if lost == "worker":
+        assert process.returncode == 0, said
+        assert at_the_loss < whole_tiles(out)
+        assert workers[1].poll() is None
+    else:
+        _, last = said.splitlines()
+        assert process.returncode == 2, said
+        assert f"cointoss: {coin}: --scheduler {address}: the cluster was lost, or a part there (" in last
+        assert last.endswith("); --resume goes on")
+        assert 4 <= whole_tiles(out) < TILES
+        assert basin(coin, *AXES, "--out", out, "--resume").exit_code == 0
     assert basin(coin, *AXES, "--out", tmp_path / "here.zarr").exit_code == 0
     assert_same(out, pixels(tmp_path / "here.zarr"))
 
@@ -109,17 +118,3 @@ def test_a_connection_that_is_lost_is_named_with_the_way_on(lost):
     assert str(raised.value) == (
         f"`scheduler` tcp://h:1: the cluster was lost, or a part there ({why}); `resume` goes on"
     )
-
-
-@pytest.mark.long
-def test_a_scheduler_lost_on_the_way_is_one_line_and_the_map_is_gone_on_with(cluster, coin, tmp_path):
-    (address, _, scheduler), out = cluster, tmp_path / "map.zarr"
-    with begun(coin, out, "--scheduler", address) as process:
-        wait_for(process, out, 4)
-        scheduler.kill()
-        _, said = answered(process)
-    assert process.returncode == 2, said
-    assert f"cointoss: {coin}: --scheduler {address}: the cluster was lost, or a part there (" in said
-    assert said.endswith("); --resume goes on\n")
-    assert len(said.splitlines()) == 2
-    assert 4 <= whole_tiles(out) < TILES

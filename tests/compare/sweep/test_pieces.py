@@ -10,7 +10,7 @@ from cointoss.compare.engines import Engine
 from cointoss.compare.sweep import pieces as module
 from cointoss.compare.sweep.batch import batch_of
 from cointoss.compare.sweep.pieces import FIRST, MOST, SECOND, How, pieces, whole
-from cointoss.models.answers import NOT_TOSSED, Answers
+from cointoss.models.answers import Answers
 
 HOW = How(engine=Engine.ANALYTIC, settings=analytic.MANY)
 
@@ -40,20 +40,3 @@ def test_the_numbers_of_a_large_batch_are_never_all_in_memory():
     parts = whole(10**12)
     assert next(parts)[-1] == MOST - 1
     assert next(parts)[0] == MOST
-
-
-def test_what_is_tossed_when_it_is_interrupted_comes_before_the_interruption():
-    def interrupted(rows, *, answers, **_):
-        answers[:] = NOT_TOSSED
-        analytic.toss_rows(rows[:3], answers=answers[:3])
-        raise KeyboardInterrupt
-
-    engine = SimpleNamespace(package=SimpleNamespace(toss_rows=interrupted))
-    batch = batch_of("fig24a", {"height": "0.2:0.6:10", "ending.max_impacts": 2})
-    made = pieces(batch, How(engine=engine, settings=None))  # pyright: ignore[reportArgumentType]
-    tosses, answers = next(made)
-    with pytest.raises(KeyboardInterrupt):
-        next(made)
-    assert tosses.tolist() == list(range(10))
-    assert (answers["outcome"] != NOT_TOSSED).tolist() == [True] * 3 + [False] * 7
-    assert np.isnan(answers["end_time"]).tolist() == [False] * 3 + [True] * 7
