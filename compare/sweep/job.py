@@ -114,10 +114,10 @@ def _layout(job: Job, source: Source, engine: Engine, x: Axis, y: Axis) -> Layou
 
 def _tosser(layout: Layout, workers: Workers | None) -> store.Tosser:
     """Return what tosses the pixels of a map: this machine, or the workers of a cluster."""
-    batch, how = layout.batch, layout.how
+    what = layout.batch, layout.how
     if workers is None:
-        return partial(pieces, batch, how)
-    return lambda parts: workers(partial(toss_part, batch, how), parts, how.engine)
+        return partial(pieces, *what)
+    return lambda parts: workers(partial(toss_part, *what), parts, layout.how.engine)
 
 
 def _shown(job: Job, source: Source, made: "list[xr.Dataset]", command: str) -> Iterator[str]:

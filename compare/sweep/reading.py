@@ -11,7 +11,7 @@ from cointoss.compare.film.back_end import BackEndError, require_mujoco
 from cointoss.compare.sweep.axes import NUMBERS
 from cointoss.compare.sweep.chunks import FORMAT, DamagedError
 from cointoss.compare.sweep.errors import MapError, SweepError, is_whole
-from cointoss.compare.sweep.layout import layout_of, map_layers, numbers_in
+from cointoss.compare.sweep.layout import layout_of, map_layers
 from cointoss.compare.sweep.maps import asked_of, layers_in, map_of, name_of, thinned
 from cointoss.compare.sweep.store import Store, opened, require_place
 from cointoss.compare.sweep.words import in_words
@@ -135,11 +135,10 @@ def save_map(dataset: "xr.Dataset", path: Path, *, overwrite: bool) -> None:
     if (stride := dataset.attrs.get("stride", 1)) > 1:
         raise SweepError(f"{name_of(dataset)}: one pixel of every {stride} is here; accepted: a whole map")
     require_place(path, resume=False, overwrite=overwrite)
-    layers = layers_in(dataset)
+    layers = {layer: array.ravel() for layer, array in layers_in(dataset).items()}
     with opened(path, layout_of(batch, how, name=name), overwrite=overwrite) as kept:
-        for tile in kept.tiles:
-            parts = {layer: array[tile].ravel() for layer, array in layers.items()}
-            kept.write(numbers_in(tile, kept.shape).ravel(), parts)
+        for part in map(kept.missing, kept.tiles):
+            kept.write(part, {layer: array[part] for layer, array in layers.items()})
 
 
 def _line(error: Exception) -> str:

@@ -366,10 +366,9 @@ def _unlike(found: Store, layout: Layout, path: Path) -> str | None:
             value = f", {json.dumps(stored.get(name))}" if name == "engine_settings" else ""
             return f"{_CALLED.get(name, name)}{value}"
     for field, one in reversed(layout.batch.coordinates.items()):
-        array = found.arrays.get(field)
-        if array is None or _shape_of(array) != (one.values.shape, one.values.dtype, one.dims):
-            return f"grid in {one.dims[0]}"
-        if not np.array_equal(found.whole(field), one.values, equal_nan=one.values.dtype.kind == "f"):
+        array, values = found.arrays.get(field), one.values
+        is_same = array is not None and _shape_of(array) == (values.shape, values.dtype, one.dims)
+        if not (is_same and np.array_equal(found.whole(field), values, equal_nan=values.dtype.kind == "f")):
             return f"grid in {one.dims[0]}"
     shape, dims = layout.batch.shape, tuple(layout.batch.sizes)
     arrays = {name: (shape, np.dtype(layer.kind), dims) for name, layer in layout.layers.items()}
