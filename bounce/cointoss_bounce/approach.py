@@ -123,11 +123,9 @@ class Pair:
 
     def has_passed(self) -> bool:
         """Return whether the geoms, which do not touch, are on the wrong sides of each other."""
-        if self.field is None:
-            return float(self._nearest()[1] @ self.normal) < 0
-        other = self.two if self.field == self.one else self.one
-        up = self.data.geom_xmat[self.field].reshape(3, 3)[:, 2]
-        return float(up @ (self.data.geom_xpos[other] - self.data.geom_xpos[self.field])) < 0
+        return (
+            float(self._nearest()[1] @ self.normal) < 0 if self.field is None else self._over_field()[2] < 0
+        )
 
     def push(self, touches: dict[int, Any]) -> float:
         """Return the normal force of some contacts [N]."""
@@ -203,13 +201,17 @@ class Pair:
         sign = -1.0 if distance >= 0 else 1.0
         return float(distance), sign * way / length, (ends[:3] + ends[3:]) / 2
 
-    def _above_field(self) -> tuple[float, Array, Array]:
-        """Return the same above a height field, along its z, to which MuJoCo measures no distance."""
+    def _over_field(self) -> tuple[int, Array, float]:
+        """Return the geom over the height field, the field's z, and how high the geom's middle is [m]."""
         other = self.two if self.field == self.one else self.one
         up = self.data.geom_xmat[self.field].reshape(3, 3)[:, 2].copy()
+        return other, up, float(up @ (self.data.geom_xpos[other] - self.data.geom_xpos[self.field]))
+
+    def _above_field(self) -> tuple[float, Array, Array]:
+        """Return the same above a height field, along its z, to which MuJoCo measures no distance."""
+        other, up, height = self._over_field()
         place = self.data.geom_xpos[other].copy()
         size = self.model.hfield_size[self.model.geom_dataid[self.field]]
-        height = float(up @ (place - self.data.geom_xpos[self.field]))
         reach = float(self.model.geom_rbound[other])
 
         def overlaps(lowered: float) -> bool:

@@ -116,10 +116,10 @@ class _Touch(NamedTuple):
     """What came of one touch."""
 
     outcome: PairOutcome
-    restitution: float
-    kept: float
-    duration: float
-    depth: float
+    restitution: float = math.nan
+    kept: float = math.nan
+    duration: float = math.nan
+    depth: float = math.nan
 
 
 def bounce(
@@ -219,12 +219,7 @@ def _touch(pair: Pair, speed: float, phase: float) -> _Touch:
     """Return what comes of one touch."""
     pair.set_apart(speed, AHEAD + phase)
     came = _come(pair, speed)
-    return _nothing(came) if isinstance(came, PairOutcome) else _part(pair, *came)
-
-
-def _nothing(outcome: PairOutcome) -> _Touch:
-    """Return a touch without measurements."""
-    return _Touch(outcome, math.nan, math.nan, math.nan, math.nan)
+    return _Touch(came) if isinstance(came, PairOutcome) else _part(pair, *came)
 
 
 def _come(pair: Pair, speed: float) -> tuple[Points, Instant] | PairOutcome:
@@ -270,7 +265,7 @@ def _part(pair: Pair, points: Points, met: Instant) -> _Touch:
 
     def ended(outcome: PairOutcome, restitution: float = math.nan, kept: float = math.nan) -> _Touch:
         if _is_unstable(pair):
-            return _nothing(PairOutcome.UNSTABLE)
+            return _Touch(PairOutcome.UNSTABLE)
         return _Touch(outcome, restitution, kept, pushing * dt, depth)
 
     for step in range(LONGEST):
@@ -288,8 +283,7 @@ def _part(pair: Pair, points: Points, met: Instant) -> _Touch:
         if parted is None and pushing and gap > 0:
             parted = points.at_touch(data, rate)
         if parted is not None and not pushes:
-            is_coarse = met.is_coarse or parted.is_coarse
-            outcome = PairOutcome.CHANGES if is_coarse else PairOutcome.REBOUNDS
+            outcome = PairOutcome.CHANGES if met.is_coarse or parted.is_coarse else PairOutcome.REBOUNDS
             return ended(outcome, -parted.speed / met.speed, parted.energy / met.energy)
         if not touches and gap < last:
             return ended(_if_deep(pair, depth, PairOutcome.PASSES))
