@@ -39,13 +39,13 @@ Rule = Callable[[Typed], str | None]
 """Returns what is wrong with the options that were typed, and what is accepted."""
 
 
-def one_of(*names: str, needed: bool = False) -> Rule:
-    """Return the rule that at most one of some options is given, or exactly one where one is needed."""
+def one_of(*names: str) -> Rule:
+    """Return the rule that at most one of some options is given."""
 
     def rule(given: Typed) -> str | None:
         found = [name for name in names if name in given]
-        if len(found) > 1 or (needed and not found):
-            return f"{' and '.join(map(option_of, found or names))}: accepted: one of them"
+        if len(found) > 1:
+            return f"{' and '.join(map(option_of, found))}: accepted: one of them"
         return None
 
     return rule

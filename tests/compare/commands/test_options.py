@@ -126,11 +126,6 @@ def test_what_excludes_or_lacks_another_is_refused(typed, said):
     assert said in answered.output
 
 
-def test_one_of_some_may_be_needed():
-    assert one_of("of", "restitution", needed=True)({}) == "--of and --restitution: accepted: one of them"
-    assert one_of("of", "restitution", needed=True)({"of": 0}) is None
-
-
 def test_a_record_goes_back_to_the_words_that_fill_it():
     words = ["--to-do", "a b", "--out", "a", "--out", "b", "--no-video", "--colour", "dark-blue"]
     assert words_of(given(*words)) == words
