@@ -3,6 +3,7 @@
 import errno
 import itertools
 import re
+import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
@@ -17,10 +18,11 @@ from cointoss.compare.film.encodings import ENCODINGS, Format
 from cointoss.compare.film.filmed import Filmed
 from cointoss.compare.film.play import play_of
 from cointoss.compare.film.slow_motion import film_times
-from cointoss.compare.output.interruption import raise_interruption_behind
 
 HELD = 1.0
 """How long the last picture stays [s]."""
+SOON = 0.1
+"""How long after ffmpeg stopped the signal may be heeded here that stopped it, as Ctrl-C does [s]."""
 
 
 def frame_count(shown: Sequence[Filmed], form: Format) -> int:
@@ -97,7 +99,12 @@ def _encoding(writer: mediapy.VideoWriter) -> Iterator[None]:
             yield
     except (RuntimeError, BrokenPipeError) as error:
         told = (_last_words(writer) or str(error).partition("': ")[2]).strip()
-        raise_interruption_behind(error)
+        behind: BaseException | None = error
+        while behind is not None and not isinstance(behind, KeyboardInterrupt | SystemExit):
+            behind = behind.__context__
+        if behind is not None:
+            raise behind from None
+        time.sleep(SOON)
         reason = told.splitlines()[-1] if told else "stopped, or the disk is full"
         reason = re.sub(r" @ 0x[0-9a-f]+", "", reason)  # where in memory a part of ffmpeg lies
         raise OSError(errno.EIO, f"ffmpeg: {reason}", str(writer.path)) from error

@@ -3,10 +3,10 @@
 import mediapy
 import pytest
 
+from cointoss.compare.film import video
 from cointoss.compare.film.drawing import Camera
 from cointoss.compare.film.encodings import ENCODINGS, Format
 from cointoss.compare.film.video import frame_count, write_video
-from cointoss.compare.output import interruption
 from tests.helpers.films import MadePath, Written, film_written, made, shown
 
 TINY = Format(64, 48, 4, longest=2.0)
@@ -91,7 +91,7 @@ def test_an_encoder_that_complains_before_the_signal_is_heeded_is_no_error(tmp_p
         raise KeyboardInterrupt
 
     def broken(*_):
-        monkeypatch.setattr(interruption.time, "sleep", interrupt)
+        monkeypatch.setattr(video.time, "sleep", interrupt)
         raise BrokenPipeError
 
     monkeypatch.setattr(mediapy.VideoWriter, "add_image", broken)
