@@ -1,9 +1,9 @@
 """An engine run through the cases, each with several steps where it has one."""
 
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from queue import SimpleQueue
 
 import numpy as np
 
@@ -101,17 +101,15 @@ def run_cases(
     if own is not None:
         wanted += [(case, own * part) for case in cases if case.is_short for part in STEPS if part != 1]
     wanted.sort(key=lambda each: each[0].is_short)  # what takes longest first
-    free: SimpleQueue[Simulator] = SimpleQueue()
-    for engine in engines:
-        free.put(engine)
+    free = deque(engines)
     made: dict[tuple[str, float | None], Run] = {}
 
     def run(part: slice) -> None:
-        engine = free.get()
+        engine = free.pop()
         try:
             made.update({(case.name, dt): run_case(engine, case, dt) for case, dt in wanted[part]})
         finally:
-            free.put(engine)
+            free.append(engine)
         progress(len(made), len(wanted))
 
     in_tiles(len(wanted), 1, run, len(engines))
