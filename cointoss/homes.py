@@ -37,11 +37,12 @@ def brought(homes: dict[str, tuple[str, str]], name: str, module: str) -> Any:
     """Return what a name of a module stands for.
 
     Raises:
-        AttributeError: for a name that it does not offer; one that has moved is told its new place.
+        AttributeError: for a name that it does not offer.
+        ImportError: for one that has moved, with its new place, which `from ... import` then says too.
     """
     if name not in homes:
         if name in MOVED:
-            raise AttributeError(f"{module}.{name} is {MOVED[name]}", obj=None)
+            raise ImportError(f"{module}.{name} is {MOVED[name]}")
         from cointoss.models.errors import meant
 
         told = meant(name, homes).strip() or f"accepted: {', '.join(sorted(homes))}"

@@ -104,8 +104,9 @@ SAID = {
     ("-c", "import cointoss; cointoss.Coins"): r"^AttributeError: cointoss has no Coins; did you mean Coin\?",
     (
         "-c",
-        "import cointoss; cointoss.conform",
-    ): "AttributeError: cointoss.conform is cointoss_yardstick.*",
+        "import cointoss; cointoss.Card",
+    ): "^ImportError: cointoss.Card is cointoss_yardstick.Card now; .*",
+    ("-c", "from cointoss import conform"): "^ImportError: cointoss.conform is cointoss_yardstick.conform.*",
     ("-c", "import cointoss.testing"): "^ImportError: cointoss.testing is cointoss_yardstick.testing now; .*",
     (
         "-c",
