@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from dataclasses import dataclass
 from importlib.metadata import entry_points
 from typing import Any, Protocol
@@ -48,8 +48,8 @@ class Simulates(Protocol):
 
 
 @dataclass(frozen=True)
-class Simulator:
-    """An engine, and who answers for it."""
+class Simulator(AbstractContextManager["Simulator"]):
+    """An engine, and who answers for it; it ends with the block."""
 
     answering: Answering
 
@@ -89,11 +89,12 @@ class Simulator:
             states = checked_states(scenario, times, step, answer)
         except ValueError as error:
             raise UnusableEngineError(f"{self.name}: {error}") from None
-        given = "impact_time" in answer
         return ObservedToss(
             scenario=scenario,
             states=states,
-            told=(np.asarray(answer["impact_time"]), np.asarray(answer["impact_impulse"])) if given else None,
+            told=(np.asarray(answer["impact_time"]), np.asarray(answer["impact_impulse"]))
+            if "impact_time" in answer
+            else None,
             stiffness=float(answer.get("stiffness", np.inf)),
             processor_time=float(answer["processor_time"]),
         )
@@ -105,10 +106,6 @@ class Simulator:
         return self.observe(scenario, until).toss(
             self.name, settings | ({"dt [s]": self.dt} if self.dt else {})
         )
-
-    def __enter__(self) -> "Simulator":
-        """Return the engine, which ends with the block."""
-        return self
 
     def __exit__(self, *_: object) -> None:
         """End what was started for the engine."""
