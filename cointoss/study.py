@@ -40,7 +40,6 @@ if TYPE_CHECKING:
     from cointoss.compare.commands.common import refuse as refuse
     from cointoss.compare.commands.names import completing as completing
     from cointoss.compare.commands.options import options_of as options_of
-    from cointoss.compare.engines import fingerprints as fingerprints
     from cointoss.compare.film.back_end import drawing_problem as drawing_problem
     from cointoss.compare.film.back_end import require_mujoco as require_mujoco
     from cointoss.compare.film.shadow import add_shadow as add_shadow

@@ -1,28 +1,18 @@
 """The engines by their names, imported only when they are used."""
 
-import hashlib
-from contextlib import suppress
 from enum import StrEnum
-from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol, cast
-from warnings import catch_warnings, simplefilter
 
 from cointoss.models.answers import Answers
-from cointoss.models.batch import rows_of
-from cointoss.models.devices import Device
 from cointoss.models.distribution import versions_of
 from cointoss.models.kernel.arrays import Array
-from cointoss.models.reading import ScenarioSource, load
+from cointoss.models.reading import ScenarioSource
 from cointoss.models.records import Toss, UnsupportedError
 from cointoss.models.scenario import Scenario
-from cointoss.models.sources import named_scenarios
 
 if TYPE_CHECKING:
     from cointoss.analytic import OwnLaw
-
-FIRST_IMPACTS = 20
-"""The largest number of impacts of the tosses from which `fingerprints` makes its digests."""
 
 
 class EngineSettings(Protocol):
@@ -123,26 +113,3 @@ def toss(
             f'law: given, accepted: none with the engine {name}; engine = "analytic" takes one'
         )
     return package.toss(scenario, settings=package.FINE if settings is None else settings, **more)
-
-
-@cache
-def fingerprints() -> dict[str, str]:
-    """Return a digest of how each engine tosses the named scenarios, to the bit, by its name.
-
-    Engines with the same fingerprint make the same tosses, on whatever system.
-
-    Raises:
-        EngineMissingError: where an engine's library is missing, and can't be built.
-    """
-    return {str(engine): _fingerprint(engine) for engine in Engine}
-
-
-def _fingerprint(engine: Engine) -> str:
-    digest = hashlib.sha256()
-    for name in named_scenarios():
-        scenario = load(name).replace("ending.max_impacts", FIRST_IMPACTS)
-        with suppress(UnsupportedError), catch_warnings():
-            simplefilter("ignore")
-            found = engine.package.toss_rows(rows_of(scenario, 1), workers=1, device=Device.CPU)
-            digest.update(found.outcome.tobytes() + found.impacts.tobytes() + found.end_time.tobytes())
-    return digest.hexdigest()[:16]

@@ -6,7 +6,6 @@ import sys
 
 import pytest
 
-from cointoss.study import fingerprints
 from cointoss_reproduction.frame import provenance, runner
 from saved import fake
 from tests.helpers.cards import with_card, without_card
@@ -204,7 +203,7 @@ def test_a_study_is_tossed_on_the_device_that_is_asked_for(tmp_path, monkeypatch
     fake(monkeypatch, tmp_path / "studies", "fake_tossed", code, SAID)
     asked = ("reproduce", "fake-tossed", "--out", tmp_path / "out")
     due = cointoss(*asked)
-    fingerprints.cache_clear()  # the tosses by which a run knows its engines are the CPU's
+    provenance.fingerprints.cache_clear()  # the tosses by which a run knows its engines are the CPU's
     found = cointoss(*asked, "--device", "cuda")
     assert (found.exit_code, found.stdout) == (due.exit_code, due.stdout)
     assert card.given == [9]

@@ -5,16 +5,21 @@ import json
 import platform
 import sys
 from collections.abc import Mapping
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
+from warnings import catch_warnings, simplefilter
 
-from cointoss.study import code_digest, fingerprints, read_bounded, versions_of
+from cointoss import Engine, UnsupportedError, load, named_scenarios
+from cointoss.study import code_digest, read_bounded, rows_of, versions_of
 from cointoss_reproduction.frame.files import CLAIMS, MOST_BYTES, PROVENANCE, TABLE
 
 PACKAGES = ("mujoco", "numpy", "scipy")
 """The packages from whose numbers a result is made."""
+FIRST_IMPACTS = 20
+"""The largest number of impacts of the tosses from which `fingerprints` makes its digests."""
 _OUTPUTS = (CLAIMS, TABLE)
 _BOOK = Path(__file__).parents[1]
 
@@ -53,6 +58,26 @@ def sources() -> str:
     digest = hashlib.sha256(code_digest().encode())
     for file in sorted(path for path in _BOOK.rglob("*") if path.suffix in (".py", ".toml")):
         digest.update(f"{file.relative_to(_BOOK)} ".encode() + file.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+@cache
+def fingerprints() -> dict[str, str]:
+    """Return a digest of how each engine tosses the named scenarios, to the bit, by its name.
+
+    Engines with the same fingerprint make the same tosses, on whatever system.
+    """
+    return {str(engine): _fingerprint(engine) for engine in Engine}
+
+
+def _fingerprint(engine: Engine) -> str:
+    digest = hashlib.sha256()
+    for name in named_scenarios():
+        scenario = load(name).replace("ending.max_impacts", FIRST_IMPACTS)
+        with suppress(UnsupportedError), catch_warnings():
+            simplefilter("ignore")
+            found = engine.package.toss_rows(rows_of(scenario, 1), workers=1, device="cpu")
+            digest.update(found.outcome.tobytes() + found.impacts.tobytes() + found.end_time.tobytes())
     return digest.hexdigest()[:16]
 
 
