@@ -268,12 +268,3 @@ device_option = click.option(
     show_default=True,
     help="Device that computes the tosses: the CPU, an NVIDIA card, or the card where it is faster.",
 )
-
-
-engine_option = click.option(
-    "--engine",
-    type=ChoiceType(["analytic", "mujoco"]),
-    default="analytic",
-    show_default=True,
-    help="Engine that computes the tosses.",
-)

@@ -1,19 +1,16 @@
 """`cointoss hands`: a coin tossed many times as a hand does."""
 
-from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import click
 
-from cointoss.compare.commands.common import (
-    SCENARIO_HELP,
-    CountType,
-    engine_option,
-    print_json,
-)
-from cointoss.compare.commands.hand_options import chosen_hand, hand_options
+from cointoss.compare.commands.common import SCENARIO_HELP, print_json
+from cointoss.compare.commands.hand_options import ByHand, chosen_hand
 from cointoss.compare.commands.names import scenario_argument
+from cointoss.compare.commands.options import options_of
 from cointoss.compare.commands.settings import set_option, with_scenario
+from cointoss.compare.output.accepted import Within
 from cointoss.compare.sweep.asked import Source
 
 if TYPE_CHECKING:
@@ -29,24 +26,24 @@ Counts = dict[str, tuple[int, int]]
 """For each of what is counted, how often it was so, of how many tosses."""
 
 
+@dataclass(frozen=True, kw_only=True)
+class TossedCoins(ByHand):
+    """How many coins are tossed, and how."""
+
+    tosses: Annotated[int, Within(1, 10_000_000)] = 1000
+    """Number of tosses."""
+    engine: Literal["analytic", "mujoco"] = "analytic"
+    """Engine that computes the tosses."""
+    json: bool = False
+    """Print JSON, in full precision."""
+
+
 @click.command(epilog=SCENARIO_HELP)
 @scenario_argument
 @set_option
-@hand_options
-@click.option(
-    "--tosses", type=CountType(1, 10_000_000), default=1000, show_default=True, help="Number of tosses."
-)
-@engine_option
-@click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
+@options_of(TossedCoins)
 @with_scenario
-def hands(
-    source: Source,
-    tosses: int,
-    seed: int,
-    engine: str,
-    as_json: bool,
-    **given: Any,
-) -> None:
+def hands(source: Source, asked: TossedCoins) -> None:
     """Toss a scenario's coin many times as a hand does, and count how often its first side is up again.
 
     The first side is the one that is up at the release. The command counts how often this side is up at each
@@ -60,9 +57,10 @@ def hands(
     from cointoss.compare.output.interruption import saying
     from cointoss.compare.shares.plan import Plan, check
 
-    hand, coin = chosen_hand(given, source.scenario)
+    hand, coin = chosen_hand(asked, source.scenario)
+    engine, seed = asked.engine, asked.seed
     require_mujoco(engine)
-    plan = Plan(scenario=coin, name="", hand=hand, engines=(Engine(engine),), seed=seed, tosses=tosses)
+    plan = Plan(scenario=coin, name="", hand=hand, engines=(Engine(engine),), seed=seed, tosses=asked.tosses)
     check(plan)
     counted, counts = 0, Counts()
     told = {"hand": asdict(hand), "caught": coin.ending.caught, "seed": seed, "engine": engine}
@@ -72,7 +70,7 @@ def hands(
                 counted, counts = so_far
     finally:
         if counted:
-            _answer(counted, counts, told, None if as_json else hand_lines(hand, coin, engine, seed))
+            _answer(counted, counts, told, None if asked.json else hand_lines(hand, coin, engine, seed))
 
 
 def spins(plan: "Plan") -> "Iterator[tuple[int, Counts]]":

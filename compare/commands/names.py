@@ -38,7 +38,8 @@ def axes() -> list[str]:
     return [f"{field}=" for field in UNITS]
 
 
-def _ranging() -> list[str]:
+def ranging() -> list[str]:
+    """Return what an axis of a count begins with."""
     from cointoss.compare.shares.plan import FIELDS
 
     return [f"{field}=" for field in FIELDS]
@@ -61,15 +62,6 @@ scenario_argument = click.argument("scenario", **_named)
 named_scenario_argument = click.argument("name", required=False, metavar="[NAME]", **completing(_scenarios))
 optional_scenario_argument = click.argument("scenario", default=None, **_named)
 spared_scenario_argument = click.argument("scenario", default="fig24a", **_named)
-
-
-ranges_option = click.option(
-    "--vary",
-    multiple=True,
-    metavar="FIELD=START:STOP:N",
-    help="Field that varies, and its N values; give it twice to vary two fields.",
-    **completing(_ranging),
-)
 
 
 def varied(texts: Iterable[str]) -> dict[str, str]:

@@ -3,28 +3,26 @@
 import shutil
 import sys
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import click
 
 from cointoss.compare.commands.common import (
     SCENARIO_HELP,
-    CountType,
     Given,
-    WrittenPlace,
-    device_option,
-    engine_option,
     naming_options,
     print_json,
     quantity,
     say,
 )
-from cointoss.compare.commands.hand_options import chosen_hand, hand_options
-from cointoss.compare.commands.names import ranges_option, scenario_argument, varied
+from cointoss.compare.commands.hand_options import ByHand, chosen_hand
+from cointoss.compare.commands.names import ranging, scenario_argument, varied
+from cointoss.compare.commands.options import one_of, options_of, without
 from cointoss.compare.commands.settings import set_option, with_scenario
-from cointoss.compare.output.accepted import Written
+from cointoss.compare.output.accepted import Form, Within, Written
 from cointoss.compare.sweep.asked import Source
 from cointoss.models.devices import Device
 
@@ -39,53 +37,41 @@ WHOLE = 1000
 """Columns in which every table has room."""
 
 
+@dataclass(frozen=True, kw_only=True)
+class CountedTosses(ByHand):
+    """What is counted, until when, and where the table goes."""
+
+    vary: Annotated[tuple[str, ...], Form("FIELD=START:STOP:N")] = ()
+    """Field that varies, and its N values; give it twice to vary two fields."""
+    tosses: Annotated[int | None, Within(1, 10_000_000)] = None
+    """Tosses for each value; by default 1000, or at most ten million with --to."""
+    to: Annotated[Given | None, quantity(""), Form("PART")] = None
+    """Toss for each value until the widest interval is at most this to either side, such as 0.5%."""
+    engine: Literal["analytic", "mujoco"] = "analytic"
+    """Engine that computes the tosses."""
+    compare: bool = False
+    """Count by both engines, and test how far their counts agree."""
+    device: Device = Device.CPU
+    """Device that computes the tosses: the CPU, an NVIDIA card, or the card where it is faster."""
+    scheduler: Annotated[str | None, Form("ADDRESS")] = None
+    """Address of a Dask scheduler on whose workers to toss."""
+    out: Annotated[tuple[Path, ...], Written((".csv", *PICTURES)), Form("FILE")] = ()
+    """Write the table (.csv) or the picture (.png, .svg, .pdf); may be given again."""
+    json: bool = False
+    """Print JSON, in full precision."""
+
+
 @click.command(epilog=SCENARIO_HELP)
 @scenario_argument
 @set_option
-@ranges_option
-@hand_options
-@click.option(
-    "--tosses",
-    type=CountType(1, 10_000_000),
-    help="Tosses for each value; by default 1000, or at most ten million with --to.",
+@options_of(
+    CountedTosses,
+    one_of("engine", "compare"),
+    without("device", "scheduler"),
+    completed={"vary": ranging},
 )
-@click.option(
-    "--to",
-    type=quantity(""),
-    metavar="PART",
-    help="Toss for each value until the widest interval is at most this to either side, such as 0.5%.",
-)
-@engine_option
-@click.option(
-    "--compare", "both", is_flag=True, help="Count by both engines, and test how far their counts agree."
-)
-@device_option
-@click.option("--scheduler", metavar="ADDRESS", help="Address of a Dask scheduler on whose workers to toss.")
-@click.option(
-    "--out",
-    type=WrittenPlace(Written((".csv", *PICTURES))),
-    multiple=True,
-    metavar="FILE",
-    help="Write the table (.csv) or the picture (.png, .svg, .pdf); may be given again.",
-)
-@click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
-@click.pass_context
 @with_scenario
-def shares(
-    ctx: click.Context,
-    source: Source,
-    vary: tuple[str, ...],
-    seed: int,
-    tosses: int | None,
-    to: Given | None,
-    engine: str,
-    both: bool,
-    device: str,
-    scheduler: str | None,
-    out: tuple[Path, ...],
-    as_json: bool,
-    **given: Any,
-) -> None:
+def shares(source: Source, asked: CountedTosses) -> None:
     """Count how often a coin tossed by hand shows heads, tails or its edge, along a field.
 
     FIELD is a dotted path into the scenario, such as floor.restitution, coin.thickness or
@@ -102,11 +88,6 @@ def shares(
     probability that counts of one distribution differ as much by chance (a chi-square test). Ctrl-C prints
     what is counted until then. Numbers depend on the seed, not on how many cores toss.
     """
-    explicit = ctx.get_parameter_source("engine") == click.core.ParameterSource.COMMANDLINE
-    if both and explicit:
-        raise click.UsageError("--engine and --compare: accepted: one of them")
-    if scheduler and device != Device.CPU:
-        raise click.UsageError(f"--device {device}: accepted: only without --scheduler")
     from cointoss.models.stages import stage
 
     with stage("getting ready"):
@@ -115,27 +96,27 @@ def shares(
         from cointoss.compare.shares import plan as plans
         from cointoss.models.processor import Processor
 
-    hand, _ = chosen_hand(given, source.scenario)
-    engines = tuple(Engine) if both else (Engine(engine),)
-    with naming_options({"to": ("--to", to)}):
+    hand, _ = chosen_hand(asked, source.scenario)
+    engines = tuple(Engine) if asked.compare else (Engine(asked.engine),)
+    with naming_options({"to": ("--to", asked.to)}):
         plan = plans.plan_of(
-            varied(vary),
+            varied(asked.vary),
             source.scenario,
             name=source.stem,
             hand=hand,
             engines=engines,
-            seed=seed,
-            tosses=tosses,
-            to=to and to.value,
-            processor=Processor(device),
+            seed=asked.seed,
+            tosses=asked.tosses,
+            to=asked.to and asked.to.value,
+            processor=Processor(asked.device),
         )
-    if any(path.suffix.lower() in PICTURES for path in out):
+    if any(path.suffix.lower() in PICTURES for path in asked.out):
         from cointoss.compare.shares.picture import require_drawable
 
         require_drawable(plan.shape)
     require_mujoco(*engines)
     plans.check(plan)
-    _count(plan, source.name, scheduler, out, as_json)
+    _count(plan, source.name, asked.scheduler, asked.out, asked.json)
 
 
 def _count(plan: "Plan", scenario: str, scheduler: str | None, out: Sequence[Path], as_json: bool) -> None:
