@@ -113,13 +113,6 @@ def test_engines_that_toss_nothing_are_absent():
     )
 
 
-def test_the_analytic_engine_may_stand_alone():
-    assert (
-        repr(compare(SHORT, ["analytic"]))
-        == "<Comparison of scenario: Undecided by the analytic engine alone.>"
-    )
-
-
 @pytest.mark.parametrize(
     ("engines", "settings", "says"),
     [

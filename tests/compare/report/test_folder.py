@@ -59,12 +59,6 @@ def test_the_numbers_are_those_of_the_tosses(found, folder):
     assert numbers["absent"] == {}
 
 
-def test_the_film_has_its_frames(found, folder):
-    written = film_written(folder / "toss.mp4")
-    assert written.frames == frame_count(found.filmed, SMALL)
-    assert written.rate == SMALL.frames_per_second
-
-
 @pytest.mark.parametrize("name", ["zloty", "contact_knurled"])
 def test_the_page_stands_before_the_film_is_drawn_and_after_it_was_interrupted(tmp_path, name):
     """It says which command draws the film, of the engines that toss the coin."""

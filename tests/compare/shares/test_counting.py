@@ -137,14 +137,6 @@ def test_an_interrupt_returns_what_is_counted(monkeypatch):
         shares(DISC)
 
 
-def test_blocks_come_in_their_order_and_those_beyond_what_is_needed_are_left_out():
-    one, block = Count(plan(tosses=500), Engine.ANALYTIC), np.array([0, 100, 150, 0, 0, 0])
-    for number, tosses in ((1, 0), (0, 500), (2, 500)):
-        one.add(number, block)
-        assert one.tosses == tosses
-    assert one.counts.tolist() == [0, 200, 300, 0, 0, 0]
-
-
 def test_an_interval_has_the_width_asked_for_after_the_tosses_that_are_needed():
     one = Count(plan(to=0.02, tosses=100_000), Engine.ANALYTIC)
     one.counts[[Outcome.HEADS, Outcome.TAILS]] = 125
