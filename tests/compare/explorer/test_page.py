@@ -219,7 +219,7 @@ def test_untrusted_pixels_are_hatched(page, tmp_path):
             around = shown[y - round(top) - 9 : y - round(top) + 9, x - round(left) - 9 : x - round(left) + 9]
             assert (np.unique(around.reshape(-1, 3), axis=0).shape[0] > 1) == untrusted[row, column]
         page.mouse("mouseMoved", *place_of(page, 2, 1, (6, 4)))
-        count = found.layers["trusted_impacts"][1, 2]
+        count = found["trusted_impacts"].values[1, 2]
         page.wait_for(f"document.getElementById('readout').textContent.includes(', {count} of them trusted')")
 
 

@@ -132,16 +132,13 @@ def missing_at(dataset, place, name="outcome", value: str | int = "not_tossed"):
     return made
 
 
-def test_a_part_of_a_map_is_saved_and_gone_on_with(found, tmp_path):
-    path = missing_at(found, ...).cointoss.save(tmp_path / "m.zarr")
-    assert cointoss.read_map(path).cointoss.counts == {"not_tossed": 35}
-    command(*ASKED, "--out", path, "--resume")
-    assert cointoss.read_map(path).equals(found)
-
-
-def test_a_pixel_without_its_trusted_impacts_is_tossed_again(trusted, tmp_path):
-    path = missing_at(trusted, (2, 3), "trusted_impacts", -1).cointoss.save(tmp_path / "m.zarr")
-    assert cointoss.read_map(path).cointoss.counts["not_tossed"] == 1
+@pytest.mark.parametrize(
+    ("place", "name", "value", "left"),
+    [(..., "outcome", "not_tossed", 35), ((2, 3), "trusted_impacts", -1, 1)],
+)
+def test_what_of_a_map_is_not_tossed_is_saved_and_gone_on_with(trusted, tmp_path, place, name, value, left):
+    path = missing_at(trusted, place, name, value).cointoss.save(tmp_path / "m.zarr")
+    assert cointoss.read_map(path).cointoss.counts["not_tossed"] == left
     asked = (*ASKED, "--after", 8, "--out", path, "--resume")
     assert "another set of arrays (--trust)" in command(*asked).stderr
     assert command(*asked, "--trust").exit_code == 0
