@@ -162,6 +162,12 @@ def test_a_store_has_what_memory_has_and_goes_on(vary, tmp_path, monkeypatch):
     assert toss_many(CASE, {"height": [0.2]}, out=path, overwrite=True).sizes == {"toss": 1}
 
 
+def test_what_is_no_scenario_is_not_tossed_in_a_map(tmp_path):
+    ds = toss_many(CASE, {"restitution": "0.5:1.5:3", "height": "0.2:0.6:2"}, errors="keep")
+    path = ds.cointoss.save(tmp_path / "a.zarr")
+    assert cointoss.read_map(path).cointoss.counts["not_tossed"] == ds.cointoss.counts["refused"] == 2
+
+
 @pytest.mark.parametrize("trust", [None, "impacts", "certain"])
 def test_two_fields_are_a_map_in_memory_and_in_a_store(trust, tmp_path):
     vary = {"height": "0.2:0.6:3", "release.angular_velocity.eta": "20:60:4"}
