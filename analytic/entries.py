@@ -5,7 +5,8 @@ from cointoss.analytic.air import force
 from cointoss.analytic.horizon import certainty, horizon
 from cointoss.analytic.horizon import event_tangent as tangent
 from cointoss.models import rows
-from cointoss.models.kernel.library import BROWSER, CUDA, Library
+from cointoss.models.kernel.library import Library
+from cointoss.models.kernel.manifest import BROWSER, CUDA
 
 engine = Library(__name__)
 

@@ -7,8 +7,10 @@ from cointoss.analytic.entries import toss_apart
 from cointoss.analytic.settings import ContactLimits
 from cointoss.models.answers import NOT_TOSSED
 from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.base_folder import EngineMissingError
+from cointoss.models.kernel.building import library_file
 from cointoss.models.kernel.cuda import CardError, GraphicsCard
-from cointoss.models.kernel.library import CUDA, EngineMissingError, library_file
+from cointoss.models.kernel.manifest import CUDA
 
 SPACE, SPACE_OF_TRUST = 64 << 10, 1 << 20
 """Bytes of a thread's work space, without trust and with it; a toss that needs more is handed over."""

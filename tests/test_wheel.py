@@ -17,7 +17,8 @@ import pytest
 from cointoss.compare.web.wasm import carried
 from cointoss.models.kernel.build import wheel as hooks
 from cointoss.models.kernel.build.wheel import BROWSER, MODULES, Engines
-from cointoss.models.kernel.library import SYSTEM, library_file
+from cointoss.models.kernel.building import library_file
+from cointoss.models.kernel.manifest import SYSTEM
 from tests.helpers.command_line import python
 
 TOP = Path(__file__).parents[1]
@@ -165,8 +166,8 @@ def test_a_toss_needs_nothing_that_compiles(installed, foreign):
 
 def test_a_system_without_a_library_says_so_in_a_line(installed, foreign):
     program = (
-        "from cointoss.models.kernel import library\n"
-        "library.SYSTEM = 'plan9-mips'\n"
+        "from cointoss.models.kernel import building\n"
+        "building.SYSTEM = 'plan9-mips'\n"
         "from cointoss.__main__ import main\n"
         "import sys; sys.argv[1:] = ['toss', 'fig24a']; main()"
     )

@@ -194,7 +194,7 @@ def plain_errors(source: str) -> Iterator[None]:
     from cointoss.compare.sweep.errors import MapError, SweepError
     from cointoss.models.cores import CoresError, cores_used
     from cointoss.models.errors import ScenarioError
-    from cointoss.models.kernel.library import EngineMissingError
+    from cointoss.models.kernel.base_folder import EngineMissingError
     from cointoss.models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
     from cointoss.models.stages import progress_shown
     from cointoss.models.unlikely import UnitWarning

@@ -1,29 +1,65 @@
-"""Builds an engine's library where a checkout has none for its sources: once, whoever asks.
+"""Finds an engine's library, or builds it where a checkout has none for its sources: once, whoever asks.
 
 `python -m cointoss.models.kernel.building MODULE ...` has libraries ready.
 """
 
 import hashlib
 import os
-import subprocess
 import sys
-import tempfile
 import time
 from collections.abc import Sequence
 from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
 
-from cointoss.models.kernel.base_folder import EngineMissingError
-from cointoss.models.kernel.digests import HOME
-from cointoss.models.kernel.library import BROWSER, CUDA, MANIFEST, SYSTEM, current
+from cointoss.models.kernel.base_folder import EngineMissingError, base_folder
+from cointoss.models.kernel.digests import HOME, digest_of
+from cointoss.models.kernel.manifest import BROWSER, CUDA, MANIFEST, SYSTEM, Made, current
 from cointoss.models.stages import stage
 
+CARRIED = Path(__file__).with_name("engines")
+"""The folder in which a wheel carries the libraries."""
 NEEDED = ("numba", "llvmlite", "ziglang")
 UNUSED = 3 * 24 * 3600.0
 """Libraries that were not used for so long are removed when another is built [s]."""
 REFUSED = 2
 """Exit status of a build that says in one line why it can't be."""
+
+
+def library_file(module: str, system: str | None = None) -> Path:
+    """Return the file of an engine's library: that which a wheel carries, or the one of the sources here.
+
+    The library of sources that have none yet is built.
+
+    Args:
+        module: the full name of the engine's table of entries.
+        system: for which it is; by default this one.
+
+    Raises:
+        EngineMissingError: in one line.
+    """
+    system = system or SYSTEM
+    name = module.split(".")[-2]
+    if CARRIED.is_dir():
+        manifest = CARRIED / f"{name}-{system}{MANIFEST}"
+        made = Made.read(manifest, is_carried=True)
+        if made is None and not manifest.exists():
+            others = CARRIED.glob(f"{name}-*{MANIFEST}")
+            there = sorted(each.name.removesuffix(MANIFEST).partition("-")[2] for each in others)
+            raise EngineMissingError(
+                f"{CARRIED}: no {name} engine for {system}; there is: {', '.join(there) or 'none'}"
+            )
+        file = manifest.with_suffix("")
+        if made is None or digest_of(file) != made.digest:
+            raise EngineMissingError(f"{file}: is damaged; install cointoss-dynamics again")
+        return file
+    folder = base_folder() / "engines"
+    if (found := current(folder, name, system)) is not None:
+        return found
+    build_once(module, folder, [system])
+    if (found := current(folder, name, system)) is not None:
+        return found
+    raise EngineMissingError(f"{folder}: the {name} engine was built, but of other sources; start again")
 
 
 def build_once(module: str, folder: Path, systems: Sequence[str] = (SYSTEM,)) -> None:
@@ -57,6 +93,8 @@ def build_once(module: str, folder: Path, systems: Sequence[str] = (SYSTEM,)) ->
 
 
 def _build(module: str, name: str, folder: Path, systems: Sequence[str]) -> None:
+    import subprocess
+
     if missing := [each for each in NEEDED if find_spec(each) is None]:
         raise EngineMissingError(
             f"no {name} engine for {' and '.join(systems)}, and no {', '.join(missing)} to build it; "
@@ -71,33 +109,17 @@ def _build(module: str, name: str, folder: Path, systems: Sequence[str]) -> None
         "--out",
         str(folder),
         *(word for system in systems for word in ("--system", system)),
-        "--of-parent",
     ]
     paths = filter(None, (str(HOME.parent), os.environ.get("PYTHONPATH")))
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
-    given, parts = subprocess.PIPE, [""]
     shown = "" if systems[0] == SYSTEM else f" for {_WORDS.get(systems[0], systems[0])}"
-    with (
-        tempfile.TemporaryFile("w+") as errors,
-        stage(f"building the {name} engine{shown}, once", detail=lambda: "".join(parts), shown=True),
-        subprocess.Popen(
-            command, env=environment, text=True, stdin=given, stdout=given, stderr=errors
-        ) as process,
-    ):
-        try:
-            for line in process.stdout or ():
-                parts[:] = [line.strip()]
-            process.wait()
-        except BaseException:
-            process.kill()  # LLVM would keep it from heeding less
-            raise
-        errors.seek(0)
-        problem = errors.read()
-    if process.returncode == REFUSED:
-        raise EngineMissingError(f"the {name} engine could not be built: {problem.strip()}")
-    if process.returncode:
-        print(problem, end="", file=sys.stderr)  # numba's own words on a function, for whoever has edited it
-        raise EngineMissingError(f"the {name} engine could not be built: exit status {process.returncode}")
+    with stage(f"building the {name} engine{shown}, once", shown=True):
+        done = subprocess.run(command, env=environment, text=True, capture_output=True, check=False)
+    if done.returncode == REFUSED:
+        raise EngineMissingError(f"the {name} engine could not be built: {done.stderr.strip()}")
+    if done.returncode:
+        print(done.stderr, end="", file=sys.stderr)  # numba's own words, for whoever has edited a function
+        raise EngineMissingError(f"the {name} engine could not be built: exit status {done.returncode}")
 
 
 _WORDS = {CUDA: "NVIDIA's cards", BROWSER: "a browser"}
@@ -114,8 +136,6 @@ def remove_unused(folder: Path) -> None:
 
 def main() -> int:
     """Have the libraries of the tables that the arguments name ready, and return the exit status."""
-    from cointoss.models.kernel.library import library_file
-
     try:
         for module in sys.argv[1:]:
             library_file(module)

@@ -2,40 +2,23 @@
 
 import ctypes
 import json
-import os
-import platform
-import stat
 import struct
-import sys
 import threading
 from collections.abc import Callable
 from functools import cached_property, update_wrapper
 from inspect import Signature, signature
 from pathlib import Path
-from typing import Any, Generic, NamedTuple, ParamSpec, TypeVar
+from typing import Any, Generic, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.models.kernel.base_folder import EngineMissingError, base_folder, is_private
-from cointoss.models.kernel.digests import HOME, digest_of
+from cointoss.models.kernel.base_folder import EngineMissingError
 from cointoss.models.kernel.kinds import ValueKind, kinds_of, may_lack, read, write
 
 P = ParamSpec("P")
 R = TypeVar("R")
 
-CARRIED = Path(__file__).with_name("engines")
-"""The folder in which a wheel carries the libraries."""
-SYSTEM = f"{sys.platform}-{platform.machine()}".lower()
-"""This system and processor."""
-CUDA = "cuda"
-"""In its place, NVIDIA's cards: their library is one file of code in PTX and for some of their kinds."""
-BROWSER = "wasm32"
-"""Or a browser: its library has the entries that a page calls alone, and gets what a page has to know."""
-SUFFIX = ".so"
-"""The suffix of a library, on every system."""
-MANIFEST = f"{SUFFIX}.json"
-"""Suffix of the file beside a library that says what it was made of."""
 LACKS = ".lacks"
 """Ends the symbol of an entry for arguments of which a number is None."""
 AVX2 = ".avx2"
@@ -86,6 +69,8 @@ class Library:
 
     @cached_property
     def _file(self) -> Path:
+        from cointoss.models.kernel.building import library_file  # a wheel's library, too, is found there
+
         return library_file(self.module)
 
     @cached_property
@@ -204,88 +189,3 @@ def _raised(address: ctypes.c_void_p) -> Exception:
     error = ctypes.cast(address, ctypes.POINTER(_Error)).contents
     kind, arguments, _ = pickle.loads(ctypes.string_at(error.pickled, error.size))
     return kind(*arguments)
-
-
-class Made(NamedTuple):
-    """What a library was made of, as its manifest says."""
-
-    module: str
-    system: str
-    digest: str
-    """The digest of the library."""
-    sources: dict[str, str]
-    """The digests of the project's files that the build has read, by their paths."""
-    forms: dict[str, str]
-    """The form of each symbol, see `Entry.form`."""
-
-    @classmethod
-    def read(cls, file: Path, *, is_carried: bool = False) -> "Made | None":
-        """Return what a manifest says, or None where it is none, or another user could have written it.
-
-        Args:
-            file: the manifest.
-            is_carried: whether it is a wheel's, which whoever installs it may write.
-        """
-        try:
-            described = file.stat()
-            if not stat.S_ISREG(described.st_mode) or not (is_carried or is_private(described)):
-                return None
-            made = cls(**json.loads(file.read_bytes()))
-        except (OSError, ValueError, TypeError, RecursionError):
-            return None
-        is_known = isinstance(made.sources, dict) and isinstance(made.forms, dict)
-        return made if is_known and (is_carried or made.sources) else None
-
-    def is_current(self, home: Path = HOME) -> bool:
-        """Return whether the sources are those that lie here."""
-        return all(digest_of(home / name) == digest for name, digest in self.sources.items())
-
-
-def library_file(module: str, system: str | None = None) -> Path:
-    """Return the file of an engine's library: that which a wheel carries, or the one of the sources here.
-
-    The library of sources that have none yet is built.
-
-    Args:
-        module: the full name of the engine's table of entries.
-        system: for which it is; by default this one.
-
-    Raises:
-        EngineMissingError: in one line.
-    """
-    system = system or SYSTEM
-    name = module.split(".")[-2]
-    if CARRIED.is_dir():
-        manifest = CARRIED / f"{name}-{system}{MANIFEST}"
-        made = Made.read(manifest, is_carried=True)
-        if made is None and not manifest.exists():
-            others = CARRIED.glob(f"{name}-*{MANIFEST}")
-            there = sorted(each.name.removesuffix(MANIFEST).partition("-")[2] for each in others)
-            raise EngineMissingError(
-                f"{CARRIED}: no {name} engine for {system}; there is: {', '.join(there) or 'none'}"
-            )
-        file = manifest.with_suffix("")
-        if made is None or digest_of(file) != made.digest:
-            raise EngineMissingError(f"{file}: is damaged; install cointoss-dynamics again")
-        return file
-    folder = base_folder() / "engines"
-    if (found := current(folder, name, system)) is not None:
-        return found
-    from cointoss.models.kernel.building import build_once
-
-    build_once(module, folder, [system])
-    if (found := current(folder, name, system)) is not None:
-        return found
-    raise EngineMissingError(f"{folder}: the {name} engine was built, but of other sources; start again")
-
-
-def current(folder: Path, name: str, system: str = SYSTEM) -> Path | None:
-    """Return a library in a folder that is whole, this user's, and made of the sources that lie here."""
-    for manifest in folder.glob(f"{name}-{system}-*{MANIFEST}"):
-        made, library = Made.read(manifest), manifest.with_suffix("")
-        if made is None or not made.is_current() or digest_of(library) != made.digest:
-            continue
-        if is_private(library.stat()):
-            os.utime(manifest)  # what is used is kept
-            return library
-    return None

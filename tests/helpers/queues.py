@@ -80,7 +80,7 @@ def main(module: str, out: str) -> None:
     from cointoss.models.kernel.build.__main__ import alone, asked_of
     from cointoss.models.kernel.build.linking import SYSTEMS, link
     from cointoss.models.kernel.build.lowering import lowered, prepared
-    from cointoss.models.kernel.library import CUDA, SYSTEM
+    from cointoss.models.kernel.manifest import CUDA, SYSTEM
 
     asked, system, folder = asked_of(alone(module), CUDA), SYSTEMS[SYSTEM], Path(out)
     (entry,), target = (each.symbol for each in asked), system.targets[""]

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from cointoss.compare.web.wasm.carried import SECTION, made_of, sources
 from cointoss.models.kernel.base_folder import EngineMissingError, base_folder
-from cointoss.models.kernel.building import build_once
-from cointoss.models.kernel.library import BROWSER, SYSTEM, library_file
+from cointoss.models.kernel.building import build_once, library_file
+from cointoss.models.kernel.manifest import BROWSER, SYSTEM
 
 MODULE = "cointoss.analytic.entries"
 """The engine."""

@@ -3,13 +3,9 @@
 import argparse
 import hashlib
 import json
-import os
-import signal
 import sys
 import tempfile
-import threading
 from collections.abc import Callable, Iterator, Sequence
-from functools import partial
 from importlib import import_module
 from importlib.util import find_spec, module_from_spec
 from pathlib import Path
@@ -18,15 +14,14 @@ from typing import TYPE_CHECKING, Any
 
 from cointoss.models.kernel.base_folder import write_whole
 from cointoss.models.kernel.digests import ENGINES, HOME, digest_of
-from cointoss.models.kernel.library import AVX2, BROWSER, CUDA, MANIFEST, RELEASE, SUFFIX, SYSTEM, Entry, Made
+from cointoss.models.kernel.library import AVX2, RELEASE, Entry
+from cointoss.models.kernel.manifest import BROWSER, CUDA, MANIFEST, SUFFIX, SYSTEM, Made
 
 if TYPE_CHECKING:
     from cointoss.models.kernel.build.linking import System
 
 
-def build(
-    module: str, out: Path, systems: Sequence[str], *, carried: bool, say: Callable[[str], object]
-) -> None:
+def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> None:
     """Build the library of an engine for each system.
 
     Args:
@@ -34,7 +29,6 @@ def build(
         out: the folder that gets each library, and a manifest beside it.
         systems: by their names.
         carried: whether a wheel is to carry the libraries: their names then have no digest.
-        say: is told what is done now.
 
     Raises:
         RuntimeError: where it can't be done, in one line.
@@ -49,13 +43,12 @@ def build(
     if unknown := [name for name in systems if name not in known]:
         raise RuntimeError(f"{', '.join(unknown)}: accepted: {', '.join(known)}")
     symbols, ready = symbols_of(table, *systems), dict[str, bytes]()
-    code = lowering.lowered(asked_of(table, *systems), lambda count: say(f"lowering function {count}"))
+    code = lowering.lowered(asked_of(table, *systems))
     if any(digest_of(HOME / name) != digest for name, digest in sources.items()):
         raise RuntimeError("its sources have changed while they were compiled: build it again")
     forms = {each.symbol_of(lacks): each.form for each in entries_of(table) for lacks in each.variants}
     with tempfile.TemporaryDirectory() as folder:
         for name in systems:
-            say(f"optimising the code for {name}")
             like, kept = (
                 (BROWSER, symbols_of(table, BROWSER)) if name == BROWSER else ("linux-x86_64", symbols)
             )
@@ -153,11 +146,6 @@ def read_sources() -> Iterator[str]:
             ).as_posix()
 
 
-def _end_with_input() -> None:
-    sys.stdin.read()
-    os.kill(os.getpid(), signal.SIGTERM)
-
-
 def main() -> int:
     """Build what the arguments name, and return the exit status."""
     parser = argparse.ArgumentParser(prog="python -m cointoss.models.kernel.build", description=__doc__)
@@ -165,16 +153,9 @@ def main() -> int:
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--system", action="append")
     parser.add_argument("--carried", action="store_true")
-    parser.add_argument(
-        "--of-parent", action="store_true", help="say what is done, end where standard input ends"
-    )
     given = parser.parse_args()
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # what was written aside is removed
-    if given.of_parent:
-        threading.Thread(target=_end_with_input, daemon=True).start()
-    say = partial(print, flush=True) if given.of_parent else str
     try:
-        build(given.module, given.out, given.system or [SYSTEM], carried=given.carried, say=say)
+        build(given.module, given.out, given.system or [SYSTEM], carried=given.carried)
     except (RuntimeError, OSError, ImportError) as problem:
         print(problem, file=sys.stderr)
         return 2

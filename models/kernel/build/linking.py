@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 from cointoss.models.kernel.build.lowering import LlvmTarget
 from cointoss.models.kernel.build.zig import run_zig
-from cointoss.models.kernel.library import AVX2, BROWSER, HAS_AVX2, RELEASE
+from cointoss.models.kernel.library import AVX2, HAS_AVX2, RELEASE
+from cointoss.models.kernel.manifest import BROWSER
 
 STACK = 1 << 20
 """Bytes of the stack in a page."""
@@ -42,7 +43,7 @@ SYSTEMS = {
     "win32-amd64": System("x86_64-pc-windows-gnu", "x86_64-windows-gnu"),
     BROWSER: System("wasm32-unknown-unknown", "wasm32-freestanding"),
 }
-"""The systems by their names, see `cointoss.models.kernel.library.SYSTEM`."""
+"""The systems by their names, see `cointoss.models.kernel.manifest.SYSTEM`."""
 _HAS_AVX2 = """
 #include <cpuid.h>
 

@@ -11,14 +11,12 @@ optimised as a whole.
 # pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
 # pyright: reportIncompatibleMethodOverride=false
 
-import gc
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from enum import IntEnum
 from typing import Any, NamedTuple
 
 from llvmlite import binding, ir
 from numba import _dynfunc, from_dtype, njit, types
-from numba.core import event
 from numba.core.callconv import excinfo_ptr_t
 from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
 from numba.core.compiler import Compiler
@@ -45,8 +43,6 @@ from cointoss.models.kernel.kinds import ValueKind
 
 C_LIBRARY = {"malloc", "free", "memcpy", "memset", "memmove", "__heap_base"}
 """What the code may use of a system's C library, or of a page's linker."""
-_OBJECTS = 200_000
-"""So many new objects call Python's garbage collector: numba makes few circles, and millions of objects."""
 _WORD = ir.IntType(64)
 _OPTIONS = {
     "nopython": True,
@@ -92,7 +88,7 @@ class EntryRequest(NamedTuple):
     """Whether the number that may be None is None."""
 
 
-def lowered(asked: Sequence[EntryRequest], done: Callable[[int], object] = lambda _: None) -> bytes:
+def lowered(asked: Sequence[EntryRequest]) -> bytes:
     """Return LLVM's bitcode of one module, an entry for each function asked for and all that they call.
 
     An entry takes the addresses of its numbers, of room for what it returns, and of room for an error's
@@ -100,13 +96,11 @@ def lowered(asked: Sequence[EntryRequest], done: Callable[[int], object] = lambd
 
     Args:
         asked: the functions.
-        done: is told the number of functions lowered so far.
 
     Raises:
         RuntimeError: for a function that returns another kind than its annotation says.
     """
-    gc.set_threshold(_OBJECTS)
-    _change_numba(done)
+    _change_numba()
     whole = _Code(cpu_target.target_context.codegen(), "engine")
     kept = []
     for each in asked:
@@ -204,8 +198,6 @@ class _Code(JITCodeLibrary):
 
     def _optimize_functions(self, ll_module: binding.ModuleRef) -> None:
         call_musl(ll_module)
-        self._codegen.count += 1
-        self._codegen.done(self._codegen.count)
 
     def add_to(self, module: binding.ModuleRef, kept: "list[_Code]") -> None:
         """Add this code and that of all it calls to a module, but for what is `kept` there."""
@@ -219,13 +211,13 @@ class _Code(JITCodeLibrary):
 
 
 class _Codegen(JITCPUCodegen):
-    """Makes code of which none is run, and tells how many functions it has."""
+    """Makes code of which none is run."""
 
     _library_class = _Code
 
-    def __init__(self, own: Any, done: Callable[[int], object]) -> None:
+    def __init__(self, own: Any) -> None:
         vars(self).update(vars(own))
-        self._engine, self.count, self.done = _Nothing(), 0, done
+        self._engine = _Nothing()
 
 
 class _Nothing:
@@ -287,18 +279,17 @@ class _Dispatcher(CPUDispatcher):
         )
 
 
-def _change_numba(done: Callable[[int], object]) -> None:
-    """Let numba make no machine code from here on, and tell `done` of each function."""
+def _change_numba() -> None:
+    """Let numba make no machine code from here on."""
     njit(lambda: None)()  # numba makes its own runtime for this machine when it first compiles
     context, typing = cpu_target.target_context, cpu_target.typing_context
     rtsys.initialize(context)
     own = context.codegen()
     _kept.append(own._engine)
-    context._internal_codegen = _Codegen(own, done)
+    context._internal_codegen = _Codegen(own)
     context.cached_internal_func.clear()
     context.nrt = _References(context, True)
     typing.resolve_function_type = _remembered(typing.resolve_function_type)
-    event.broadcast = lambda _: None  # numba's clocks
     CPUContext.get_executable = lambda _, *described: _not_run(*described)
     _Compiled.dispatched = lambda function: _Dispatcher(
         function.py_func,

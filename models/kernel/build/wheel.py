@@ -27,7 +27,7 @@ PLATFORMS = {
 }
 """The platforms in a wheel's name, by the name of the system."""
 SYSTEM = f"{sys.platform}-{platform.machine()}".lower()
-"""This system, as `cointoss.models.kernel.library` names it, which can't be imported here."""
+"""This system, as `cointoss.models.kernel.manifest` names it, which can't be imported here."""
 
 
 class Engines(BuildHookInterface[Any]):

@@ -8,7 +8,8 @@ import numpy as np
 
 from cointoss.models.kernel.arrays import Flags, Row, Table
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.library import CUDA, Library
+from cointoss.models.kernel.library import Library
+from cointoss.models.kernel.manifest import CUDA
 from cointoss.models.kernel.vectors import Vector, add
 
 engine = Library(__name__)

@@ -12,10 +12,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from cointoss.models.kernel import base_folder, building, library
-from cointoss.models.kernel.building import build_once
+from cointoss.models.kernel import base_folder, building
+from cointoss.models.kernel.base_folder import EngineMissingError
+from cointoss.models.kernel.building import build_once, library_file
 from cointoss.models.kernel.digests import digest_of
-from cointoss.models.kernel.library import MANIFEST, SYSTEM, EngineMissingError, library_file
+from cointoss.models.kernel.manifest import MANIFEST, SYSTEM
 from tests.helpers.command_line import HERE
 from tests.helpers.processes import started, wait_until
 from tests.helpers.small import entries
@@ -36,7 +37,7 @@ def folder(tmp_path_factory):
 def cached(monkeypatch, tmp_path, folder):
     """The manifest and the library, in a copy of that folder as a user's own."""
     shutil.copytree(folder, tmp_path / "engines")
-    monkeypatch.setattr(library, "base_folder", lambda: tmp_path)
+    monkeypatch.setattr(building, "base_folder", lambda: tmp_path)
     (manifest,) = (tmp_path / "engines").glob(f"*{MANIFEST}")
     return manifest, manifest.with_suffix("")
 
@@ -139,7 +140,7 @@ def test_a_library_that_is_damaged_is_built_again_as_it_was(cached):
 
 def test_a_wheel_carries_a_library_for_its_system(cached, monkeypatch, tmp_path):
     there = tmp_path / f"small-{SYSTEM}.so"
-    monkeypatch.setattr(library, "CARRIED", tmp_path)
+    monkeypatch.setattr(building, "CARRIED", tmp_path)
     shutil.copy(cached[0], f"{there}.json")
     shutil.copy(cached[1], there)
     there.chmod(0o666)  # pip has installed it, and whoever may write there could change Python's code as well
