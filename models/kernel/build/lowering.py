@@ -19,22 +19,10 @@ from llvmlite import binding, ir
 from numba import _dynfunc, from_dtype, njit, types
 from numba.core.callconv import excinfo_ptr_t
 from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
-from numba.core.compiler import Compiler
-from numba.core.compiler_machinery import PassManager
 from numba.core.cpu import CPUContext
 from numba.core.registry import CPUDispatcher, cpu_target
 from numba.core.runtime import rtsys
 from numba.core.runtime.context import NRTContext
-from numba.core.typed_passes import AnnotateTypes, DumpParforDiagnostics, InlineOverloads, NopythonRewrites
-from numba.core.untyped_passes import (
-    FindLiterallyCalls,
-    InlineClosureLikes,
-    InlineInlinables,
-    LiteralPropagationSubPipelinePass,
-    LiteralUnroll,
-    MakeFunctionToJitFunction,
-    WithLifting,
-)
 
 from cointoss.models.kernel.build.musl import call_musl, musl_code
 from cointoss.models.kernel.build.runtime import OF_RUNTIME, of_runtime
@@ -227,34 +215,6 @@ class _Nothing:
         return lambda *_, **__: 0
 
 
-class _Compiler(Compiler):
-    """numba's, without those passes for what compiled functions here do not contain."""
-
-    def define_pipelines(self) -> list[PassManager]:
-        """Return the passes."""
-        (pipeline,) = super().define_pipelines()
-        needed = PassManager(pipeline.pipeline_name)
-        needed.passes = [step for step in pipeline.passes if step[0] not in _NOT_NEEDED]
-        needed.finalize()
-        return [needed]
-
-
-# For closures, `with`, literal values, functions inlined by numba, whole arrays, listings, loops in parallel.
-_NOT_NEEDED = {
-    AnnotateTypes,
-    DumpParforDiagnostics,
-    FindLiterallyCalls,
-    InlineClosureLikes,
-    InlineInlinables,
-    InlineOverloads,
-    LiteralPropagationSubPipelinePass,
-    LiteralUnroll,
-    MakeFunctionToJitFunction,
-    NopythonRewrites,
-    WithLifting,
-}
-
-
 class _References(NRTContext):
     """numba's counting of references, but that only what holds an array is taken apart to find it."""
 
@@ -294,7 +254,6 @@ def _change_numba() -> None:
     _Compiled.dispatched = lambda function: _Dispatcher(
         function.py_func,
         targetoptions={**_OPTIONS, "forceinline": function.inlined},
-        pipeline_class=_Compiler,
     )
 
 
