@@ -3,7 +3,7 @@
 import ctypes
 import threading
 import time
-from contextlib import nullcontext
+from contextlib import ExitStack, nullcontext
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -116,15 +116,14 @@ class GraphicsCard:
         with self._lock:
             self._done("the card", self._cuda.cuCtxSetCurrent(self._context))
             queue = self._queue(file)
-            memory = _Memory(self)
-            try:
+            with ExitStack() as taken:
                 blocks = self._blocks(queue, space)
-                spaces = memory.taken(blocks * PER_BLOCK * space)
+                spaces = self._memory(blocks * PER_BLOCK * space, taken)
                 most = self._most_rows(rows.itemsize * (rows.shape[1] + answers.shape[1]))
                 there = min(most, len(rows))
-                at_rows = memory.taken(there * rows[0].nbytes)
-                at_answers = memory.taken(there * answers[0].nbytes)
-                at_job = memory.taken(8 * (len(QueueJob._fields) + len(numbers)))
+                at_rows = self._memory(there * rows[0].nbytes, taken)
+                at_answers = self._memory(there * answers[0].nbytes, taken)
+                at_job = self._memory(8 * (len(QueueJob._fields) + len(numbers)), taken)
                 for first in range(0, len(rows), there):
                     some = slice(first, min(first + there, len(rows)))
                     job = QueueJob(
@@ -141,8 +140,6 @@ class GraphicsCard:
                         given=len(numbers),
                     )
                     self._work_on(queue, blocks, at_job, job, numbers, rows[some], answers[some])
-            finally:
-                memory.give_back()
 
     def _work_on(
         self,
@@ -198,6 +195,15 @@ class GraphicsCard:
     def _most_rows(self, size: int) -> int:
         return max(1, min(MOST_ROWS, self._free() // 2 // size))
 
+    def _memory(self, size: int, taken: ExitStack) -> int:
+        """Return the address of so many bytes, given back with all that is taken.
+
+        What a card that has failed says then is not asked.
+        """
+        address = self._done("its memory", self._cuda.cuMemAlloc(size))
+        taken.callback(self._cuda.cuMemFree, address)
+        return int(address)
+
     def _free(self) -> int:
         return self._done("its memory", self._cuda.cuMemGetInfo())[0]
 
@@ -215,23 +221,6 @@ class GraphicsCard:
             text = self._cuda.cuGetErrorString(status)[1]
             raise CardError(f"{what}: {text.decode() if text else status}")
         return values[0] if len(values) == 1 else tuple(values)
-
-
-class _Memory:
-    """Memory of a card, given back together."""
-
-    def __init__(self, card: GraphicsCard) -> None:
-        self._card, self._taken = card, []
-
-    def taken(self, size: int) -> int:
-        """Return the address of so many bytes."""
-        self._taken.append(self._card._done("its memory", self._card._cuda.cuMemAlloc(size)))
-        return int(self._taken[-1])
-
-    def give_back(self) -> None:
-        """Give all back; what a card that has failed says is not asked."""
-        for address in self._taken:
-            self._card._cuda.cuMemFree(address)
 
 
 @cache

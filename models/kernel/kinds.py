@@ -93,10 +93,14 @@ def write(kind: ValueKind, value: Any, form: list[str], numbers: list[Any]) -> b
     """Append a value's numbers and their form; return whether it lacks a number that may be None.
 
     Raises:
-        TypeError: for an array of another dtype or number of axes, or one that is not contiguous.
+        TypeError: for what is no tuple where one is due, and an array of another dtype or number of axes, or
+            one that is not contiguous.
     """
     if kind.parts:
-        return _write_parts(kind, value, form, numbers)
+        if not isinstance(value, tuple):
+            raise TypeError(f"a {type(value).__name__}; accepted: a tuple")
+        lacking = [write(part, one, form, numbers) for part, one in zip(kind.parts, value, strict=True)]
+        return any(lacking)
     if kind.dimensions:
         flags = value.flags
         if not (
@@ -115,39 +119,6 @@ def write(kind: ValueKind, value: Any, form: list[str], numbers: list[Any]) -> b
         numbers.append(value)
     form.append(kind.form)
     return False
-
-
-def _write_parts(kind: ValueKind, value: Any, form: list[str], numbers: list[Any]) -> bool:
-    """Write a tuple; one without arrays can't change, and a toss passes the same coin again and again."""
-    if not isinstance(value, tuple):
-        raise TypeError(f"a {type(value).__name__}; accepted: a tuple")
-    known = _written.get(id(value))
-    if known is not None and known[0] is value and known[1] is kind:
-        form.append(known[2])
-        numbers += known[3]
-        return known[4]
-    own_form: list[str] = []
-    own: list[Any] = []
-    lacks = False
-    for part, one in zip(kind.parts, value, strict=True):
-        lacks = write(part, one, own_form, own) or lacks
-    if not _holds_array(kind):
-        if len(_written) >= _MOST_REMEMBERED:
-            _written.clear()
-        _written[id(value)] = value, kind, "".join(own_form), own, lacks
-    form += own_form
-    numbers += own
-    return lacks
-
-
-_written: dict[int, tuple[Any, ValueKind, str, list[Any], bool]] = {}
-"""The tuples that were written, by address; a tuple that is kept here keeps its address to itself."""
-_MOST_REMEMBERED = 64
-
-
-@cache
-def _holds_array(kind: ValueKind) -> bool:
-    return kind.dimensions > 0 or any(map(_holds_array, kind.parts))
 
 
 def read(kind: ValueKind, numbers: Iterator[Any], release: Callable[[int], object]) -> Any:

@@ -65,12 +65,6 @@ def test_rows_that_are_left_when_the_threads_end_are_taken_by_the_next(made, que
     assert len(asked) == 3
 
 
-def test_what_needs_more_than_its_space_has_no_answer(made, queue):
-    card, _ = made()
-    answers, _ = worked(card, queue, np.where(np.arange(90) % 9 == 4, 5000, 1))
-    assert np.flatnonzero(np.isnan(answers[:, 0])).tolist() == list(range(4, 90, 9))
-
-
 def test_the_threads_are_as_many_as_the_memory_has_room_for(made, queue):
     card, driver = made(free=2 * 128 * SPACE)
     worked(card, queue, np.full(10, 1))
