@@ -9,7 +9,7 @@ from cointoss.models.barriers import energy
 from cointoss.models.body import Body
 from cointoss.models.ending import face_up
 from cointoss.models.geometry import contact_velocity
-from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.arrays import Array, copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.kinds import Rows
 from cointoss.models.kernel.vectors import Vector
@@ -61,18 +61,16 @@ def write_impact(
     v_A_after = contact_velocity(body, after.R, v_after, w_after, point)
     E_before = energy(body, before.position[2], v, w)
     E_after = energy(body, after.position[2], v_after, w_after)
-    for i in range(3):
-        row.impulse[i] = impulse[i]
-        row.point[i] = point[i]
-        row.position[i] = before.position[i]
-        row.velocity_before[i] = v[i]
-        row.velocity_after[i] = v_after[i]
-        row.angular_velocity_before[i] = w[i]
-        row.angular_velocity_after[i] = w_after[i]
-        row.contact_velocity_before[i] = v_A[i]
-        row.contact_velocity_after[i] = v_A_after[i]
-    for i in range(4):
-        row.quaternion[i] = before.attitude[i]
+    copy_into(row.impulse, impulse)
+    copy_into(row.point, point)
+    copy_into(row.position, before.position)
+    copy_into(row.quaternion, before.attitude)
+    copy_into(row.velocity_before, v)
+    copy_into(row.velocity_after, v_after)
+    copy_into(row.angular_velocity_before, w)
+    copy_into(row.angular_velocity_after, w_after)
+    copy_into(row.contact_velocity_before, v_A)
+    copy_into(row.contact_velocity_after, v_A_after)
     row.face = face_up(before.R[2][2])
     row.energy = E_after
     row.energy_change = E_after - E_before

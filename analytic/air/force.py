@@ -6,7 +6,7 @@ from cointoss.analytic.air.pressure import pressure_change
 from cointoss.analytic.air.quadrature import CHANGE_NODES, FORCE_NODES, Nodes
 from cointoss.analytic.air.wall_friction import wall_friction_change
 from cointoss.models.body import Body
-from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.arrays import Array, copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, add, cross, scale, subtract
 
@@ -102,8 +102,7 @@ def write_jacobian(body: Body, v: Vector, w: Vector, jacobian: Array) -> None:
     for j in range(3):
         for column, dv, dw in ((j, _AXES[j], none), (3 + j, none, _AXES[j])):
             df, dm = force_and_moment_change(body, v, w, dv, dw)
-            for i in range(3):
-                jacobian[i, column], jacobian[3 + i, column] = df[i], dm[i]
+            copy_into(jacobian[:, column], df + dm)
 
 
 @compiled

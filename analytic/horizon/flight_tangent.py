@@ -19,7 +19,7 @@ import numpy as np
 from cointoss.analytic.air.force import force_and_moment, write_jacobian
 from cointoss.analytic.numerics.rotation import quaternion_rate, turn_of
 from cointoss.models.body import Body, whole_gravity
-from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.arrays import Array, copy_into, three
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import (
     Matrix,
@@ -253,12 +253,7 @@ def _air_at(body: Body, motion: Motion) -> AirDerivatives:
 @compiled
 def _block(table: Array, row: int, column: int) -> Matrix:
     """Return three by three numbers of a table, from this row and column on."""
-    return _row(table, row, column), _row(table, row + 1, column), _row(table, row + 2, column)
-
-
-@compiled
-def _row(table: Array, row: int, column: int) -> Vector:
-    return table[row, column], table[row, column + 1], table[row, column + 2]
+    return three(table[row], column), three(table[row + 1], column), three(table[row + 2], column)
 
 
 @compiled
@@ -323,25 +318,14 @@ def _write_change(state: State, seen: Array, row: Array) -> None:
     R, change = state.R, _read(seen)
     U = apply_transposed(R, state.velocity)
     x, v = apply(R, change.place), apply(R, add(change.velocity, cross(change.turn, U)))
-    e = quaternion_rate(state.attitude, change.turn)
-    for i in range(3):
-        row[i], row[3 + i], row[10 + i] = x[i], v[i], change.spin[i]
-    for i in range(4):
-        row[6 + i] = e[i]
+    copy_into(row, (*x, *v, *quaternion_rate(state.attitude, change.turn), *change.spin))
 
 
 @compiled
 def _read(seen: Array) -> Change:
-    return Change(
-        (seen[0], seen[1], seen[2]),
-        (seen[3], seen[4], seen[5]),
-        (seen[6], seen[7], seen[8]),
-        (seen[9], seen[10], seen[11]),
-    )
+    return Change(three(seen, 0), three(seen, 3), three(seen, 6), three(seen, 9))
 
 
 @compiled
 def _write(change: Change, seen: Array) -> None:
-    for i in range(3):
-        seen[i], seen[3 + i] = change.place[i], change.velocity[i]
-        seen[6 + i], seen[9 + i] = change.turn[i], change.spin[i]
+    copy_into(seen, change.place + change.velocity + change.turn + change.spin)

@@ -189,9 +189,7 @@ def touch_differences(body: Body, rules: Rules, chi: float, y: Array, part: floa
     for j in range(4):
         turn = turn_of(e, _PARAMETERS[j])
         _write_column(body, by_turn, turn, slopes[:, 6 + j])
-        turned = quaternion_rate(e, turn)
-        for i in range(4):
-            slopes[_AFTER + 6 + i, 6 + j] = turned[i]
+        copy_into(slopes[_AFTER + 6 : _AFTER + 10, 6 + j], quaternion_rate(e, turn))
     return slopes
 
 
@@ -239,12 +237,8 @@ def _write_values(body: Body, rules: Rules, chi: float, y: Array, values: Array)
     if chi > 0 and varies(rules):
         chi = elastic_restitution(rules, -evaluate_gap(body, state).speed)
     up, struck = state.R[2], impact_of(body, rules, chi, state)
-    values[0] = gap(body, y[2], up)
-    for i in range(3):
-        values[_UP + i] = up[i]
-        values[_VELOCITY + i] = struck.contact_velocity[i]
-        values[_IMPULSE + i] = struck.impulse[i]
-        values[_GAINED + i] = struck.after.spin[i] - state.spin[i]
+    gained = subtract(struck.after.spin, state.spin)
+    copy_into(values, (gap(body, y[2], up), *up, *struck.contact_velocity, *struck.impulse, *gained))
 
 
 @compiled

@@ -1,4 +1,4 @@
-"""Numbers and functions at addresses, for compiled code."""
+"""Numbers at addresses, for compiled code."""
 
 # numba describes few types.
 # pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
@@ -10,25 +10,6 @@ import numpy as np
 
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import ForCompiledCode, inlined
-
-
-def _make_call() -> Any:
-    from llvmlite import ir
-    from numba import types
-    from numba.extending import intrinsic
-
-    @intrinsic
-    def call(_context, _function, arguments):
-        def code(context: Any, builder: Any, _signature: Any, given: Any) -> Any:
-            address, packed = given
-            values = [builder.extract_value(packed, i) for i in range(len(arguments))]
-            kind = ir.FunctionType(ir.VoidType(), [value.type for value in values])
-            builder.call(builder.inttoptr(address, kind.as_pointer()), values)
-            return context.get_dummy_value()
-
-        return types.void(types.int64, arguments), code
-
-    return call
 
 
 def _make_pointer() -> Any:
@@ -45,8 +26,6 @@ def _make_pointer() -> Any:
     return pointer
 
 
-call_at: Any = ForCompiledCode(_make_call)
-"""Calls the C function at an address, which returns nothing, with a tuple of integers: also addresses."""
 _pointer_to: Any = ForCompiledCode(_make_pointer)
 _array_of: Any = ForCompiledCode(lambda: import_module("numba").carray)
 

@@ -2,10 +2,11 @@
 
 from typing import NamedTuple
 
-from cointoss.coin_mj.model.addresses import call_at, numbers_at
+from cointoss.coin_mj.model.addresses import numbers_at
 from cointoss.coin_mj.model.settings import Rebound
 from cointoss.models.body import Body
 from cointoss.models.contour import Contour
+from cointoss.models.kernel.address import call_c
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import inlined
 
@@ -138,4 +139,4 @@ def joint_of(coin: MujocoCoin) -> Joint:
 @inlined
 def run(coin: MujocoCoin, function: int) -> None:
     """Run one of the `Functions` that take nothing but model and data."""
-    call_at(function, (coin.address.model, coin.address.data))
+    call_c(function, (coin.address.model, coin.address.data))

@@ -5,6 +5,7 @@ import numpy as np
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin, joint_of, run
 from cointoss.models.body import Body
 from cointoss.models.free_joint import of_mass_center, to_mass_center
+from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, scale
 from cointoss.models.parts import Release
@@ -45,11 +46,8 @@ def put_at(coin: MujocoCoin, y: Array) -> None:
 @compiled
 def set_motion(coin: MujocoCoin, motion: Array | Motion) -> None:
     """Put MuJoCo's coin into a state: qpos and qvel, (13,)."""
-    joint = joint_of(coin)
-    for i in range(7):
-        joint.qpos[i] = motion[i]
-    for i in range(6):
-        joint.qvel[i] = motion[7 + i]
+    copy_into(joint_of(coin).qpos, motion[:7])
+    copy_into(joint_of(coin).qvel, motion[7:])
 
 
 @compiled

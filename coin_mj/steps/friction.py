@@ -5,7 +5,6 @@ Both follow from the normal force that MuJoCo measures.
 
 import numpy as np
 
-from cointoss.coin_mj.model.addresses import call_at
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin, joint_of
 from cointoss.coin_mj.model.state import Motion, momentum_of, motion_of, set_motion
 from cointoss.coin_mj.steps.constrained_step import Constraint, constrained_forward, contact_step
@@ -14,9 +13,10 @@ from cointoss.coin_mj.steps.mujoco_step import other_force
 from cointoss.coin_mj.steps.resistance import Coefficients, contour_arm, resisted_force
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.contour import leaning
-from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.address import call_c
+from cointoss.models.kernel.arrays import Array, copy_into
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import Matrix, Vector, add, apply, apply_transposed, cross
+from cointoss.models.kernel.vectors import Matrix, Vector, add, apply, apply_transposed, cross, scale
 
 
 @compiled
@@ -64,9 +64,7 @@ def apply_friction(coin: MujocoCoin, constraint: Constraint, dt: float) -> None:
         F, M = (x, y, -(K[0, 2] * x + K[1, 2] * y) / K[2, 2]), (0.0, 0.0, 0.0)
     at_start = apply_transposed(R, add(cross(point, F), M))
     at_end = apply_transposed(R_end, add(cross(point_end, F), M))
-    for i in range(3):
-        joint_of(coin).qfrc_applied[i] = F[i]
-        joint_of(coin).qfrc_applied[3 + i] = (at_start[i] + at_end[i]) / 2
+    copy_into(joint_of(coin).qfrc_applied, F + scale(0.5, add(at_start, at_end)))
     set_motion(coin, start)
     constrained_forward(coin, constraint)
 
@@ -111,7 +109,7 @@ def delassus(coin: MujocoCoin, R: Matrix, point: Vector, n: int) -> Array:
         for j in range(3):
             jacobian[i, 3 + j] = turning[j]
     at = coin.address
-    call_at(
+    call_c(
         coin.mujoco.mj_solveM,
         (at.model, at.data, gained.ctypes.data, jacobian.ctypes.data, np.int32(n)),
     )

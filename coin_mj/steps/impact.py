@@ -92,8 +92,7 @@ def _leans(coin: MujocoCoin, up: Vector) -> bool:
         return False
     half = scale(FLAT / turning, cross(rate, up))
     e = quaternion_product((qpos[3], qpos[4], qpos[5], qpos[6]), (1.0, half[0], half[1], half[2]))
-    for i in range(4):
-        qpos[3 + i] = e[i]
+    copy_into(qpos[3:], e)
     qpos[2] -= evaluate_gap(coin).gap
     return True
 
@@ -112,11 +111,9 @@ def _turn_level(coin: MujocoCoin, n_z: float) -> tuple[Quaternion, float]:
     turn = e if n_z > 0 else quaternion_product(e, (0.0, -1.0, 0.0, 0.0))
     velocity = apply_transposed(rotation_matrix(turn), (v[0], v[1], v[2]))
     spin = v[5]
-    for i in range(3):
-        v[i] = velocity[i]
-        q[4 + i] = 0.0
-    q[3], v[5] = 0.0, 0.0
-    q[3 if n_z > 0 else 4] = 1.0
+    copy_into(v[:3], velocity)
+    copy_into(q[3:], (1.0, 0.0, 0.0, 0.0) if n_z > 0 else (0.0, 1.0, 0.0, 0.0))
+    v[5] = 0.0
     return turn, spin
 
 

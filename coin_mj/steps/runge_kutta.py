@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from cointoss.coin_mj.model.state import Motion
-from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.arrays import Array, copy_into, four, three
 from cointoss.models.kernel.compiled import compiled
 
 # Row s has the weights of the rates before for the state of stage s; the last row those for the step's end.
@@ -52,16 +52,14 @@ def write_rate(motion: Motion | Array, acceleration: Array, rate: Array) -> None
         acceleration: rate of qvel there, (6,).
         rate: where it goes, (13,).
     """
-    e0, e1, e2, e3 = motion[3], motion[4], motion[5], motion[6]
-    a, b, c = motion[10], motion[11], motion[12]
-    for i in range(3):
-        rate[i] = motion[7 + i]
-    rate[3] = (-e1 * a - e2 * b - e3 * c) / 2
-    rate[4] = (e0 * a + e2 * c - e3 * b) / 2
-    rate[5] = (e0 * b + e3 * a - e1 * c) / 2
-    rate[6] = (e0 * c + e1 * b - e2 * a) / 2
-    for i in range(6):
-        rate[7 + i] = acceleration[i]
+    (e0, e1, e2, e3), (a, b, c) = four(motion, 3), three(motion, 10)
+    e_rate = (
+        (-e1 * a - e2 * b - e3 * c) / 2,
+        (e0 * a + e2 * c - e3 * b) / 2,
+        (e0 * b + e3 * a - e1 * c) / 2,
+        (e0 * c + e1 * b - e2 * a) / 2,
+    )
+    copy_into(rate, three(motion, 7) + e_rate + three(acceleration, 0) + three(acceleration, 3))
 
 
 @compiled

@@ -2,13 +2,15 @@
 
 import numpy as np
 
-from cointoss.coin_mj.model.addresses import call_at, numbers_at
+from cointoss.coin_mj.model.addresses import numbers_at
 from cointoss.coin_mj.model.air import PowerLaw, air_force
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin, joint_of, run
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import is_linear
+from cointoss.models.kernel.address import call_c
+from cointoss.models.kernel.arrays import copy_into, four, three
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import apply, apply_transposed, dot
+from cointoss.models.kernel.vectors import apply, apply_transposed, dot, scale
 
 
 @compiled
@@ -22,7 +24,7 @@ def write_smooth_forces(coin: MujocoCoin, feels_air: bool) -> None:
     """
     run(coin, coin.mujoco.mj_comVel)
     at = coin.address
-    call_at(coin.mujoco.mj_rne, (at.model, at.data, np.int32(0), coin.joint.qfrc_bias))
+    call_c(coin.mujoco.mj_rne, (at.model, at.data, np.int32(0), coin.joint.qfrc_bias))
     if is_linear(coin.body.air):
         _write_linear_drag(coin)
     elif feels_air:
@@ -36,24 +38,20 @@ def _write_linear_drag(coin: MujocoCoin) -> None:
     v = joint.qvel
     R = numbers_at(coin.address.xmat, (3, 3))
     normal = (R[0, 2], R[1, 2], R[2, 2])
-    along = (drag.force_tangential - drag.force_normal) * dot(normal, (v[0], v[1], v[2]))
-    for i in range(3):
-        joint.qfrc_actuator[i] = along * normal[i]
-        joint.qfrc_passive[i] = -drag.force_tangential * v[i]
-    joint.qfrc_passive[3] = -drag.moment_tangential * v[3]
-    joint.qfrc_passive[4] = -drag.moment_tangential * v[4]
-    joint.qfrc_passive[5] = -drag.moment_normal * v[5]
+    along = (drag.force_tangential - drag.force_normal) * dot(normal, three(v, 0))
+    copy_into(joint.qfrc_actuator[:3], scale(along, normal))
+    slowed = scale(-drag.force_tangential, three(v, 0))
+    across, about = -drag.moment_tangential, -drag.moment_normal
+    copy_into(joint.qfrc_passive, (*slowed, across * v[3], across * v[4], about * v[5]))
 
 
 @compiled
 def _write_air(coin: MujocoCoin) -> None:
     """Write the force and the moment of air with b > 0, which MuJoCo lacks."""
     body, joint = coin.body, joint_of(coin)
-    qpos, v, passive = joint.qpos, joint.qvel, joint.qfrc_passive
-    R = rotation_matrix((qpos[3], qpos[4], qpos[5], qpos[6]))
-    of_B, w = apply_transposed(R, (v[0], v[1], v[2])), (v[3], v[4], v[5])
+    qpos, v = joint.qpos, joint.qvel
+    R = rotation_matrix(four(qpos, 3))
+    of_B, w = apply_transposed(R, three(v, 0)), three(v, 3)
     law = PowerLaw(body.air.normal, body.air.tangential, body.air.exponent or 0.0)
     f, m = air_force(body.radius, body.thickness, law, of_B, w)
-    f = apply(R, f)
-    for i in range(3):
-        passive[i], passive[3 + i] = f[i], m[i]
+    copy_into(joint.qfrc_passive, apply(R, f) + m)

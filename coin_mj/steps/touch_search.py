@@ -21,6 +21,7 @@ from cointoss.coin_mj.steps.turning_frame import (
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.clearance import clear_time
 from cointoss.models.geometry import lowest_point
+from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import add, cross, dot, norm, scale, subtract
 from cointoss.models.records import Array
@@ -103,10 +104,9 @@ def _write_end(
     w_g_rate = about_axis(turn, add(cross(frame.rate, left), w_rate))
     up_rate = cross(up, w_g)
     up_acceleration = add(cross(up_rate, w_g), cross(up, w_g_rate))
-    end[0, _HEIGHT], end[1, _HEIGHT], end[2, _HEIGHT] = motion[2], rate[2], rate[9]
-    for i in range(3):
-        end[0, _UP + i], end[1, _UP + i], end[2, _UP + i] = up[i], up_rate[i], up_acceleration[i]
-        end[0, _SPIN + i], end[1, _SPIN + i], end[2, _SPIN + i] = w[i], w_rate[i], 0.0
+    copy_into(end[0], (motion[2], *up, *w))
+    copy_into(end[1], (rate[2], *up_rate, *w_rate))
+    copy_into(end[2], (rate[9], *up_acceleration, 0.0, 0.0, 0.0))
     for i in range(_ROWS):
         end[1, i] *= duration
         end[2, i] *= duration * duration

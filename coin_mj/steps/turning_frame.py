@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from cointoss.coin_mj.model.state import Motion
 from cointoss.models.attitude import Quaternion, quaternion_product
-from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.arrays import Array, copy_into, four, three
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, add, cross, norm, scale
 
@@ -72,13 +72,9 @@ def to_motion(turn: Turn, slow: Array, motion: Array) -> None:
         slow: position of B, g, velocity of B and ω_F, (13,).
         motion: where they go.
     """
-    g = (slow[3], slow[4], slow[5], slow[6])
-    e = quaternion_product(quaternion_product(g, turn.about_axis), turn.about_normal)
-    w = about_normal_back(turn, (slow[10], slow[11], slow[12]))
-    for i in range(3):
-        motion[i], motion[7 + i], motion[10 + i] = slow[i], slow[7 + i], w[i]
-    for i in range(4):
-        motion[3 + i] = e[i]
+    e = quaternion_product(quaternion_product(four(slow, 3), turn.about_axis), turn.about_normal)
+    w = about_normal_back(turn, three(slow, 10))
+    copy_into(motion, three(slow, 0) + e + three(slow, 7) + w)
 
 
 @compiled
@@ -94,15 +90,11 @@ def write_slow_rate(
         acceleration: rate of qvel there, (6,).
         rate: where it goes, (13,).
     """
-    w = (slow[10], slow[11], slow[12])
-    w_rate = spin_rate(frame, turn, w, (acceleration[3], acceleration[4], acceleration[5]))
+    w = three(slow, 10)
+    w_rate = spin_rate(frame, turn, w, three(acceleration, 3))
     w_g = about_axis(turn, left_over(frame, w))
-    g = (slow[3], slow[4], slow[5], slow[6])
-    g_rate = quaternion_product(g, (0.0, w_g[0] / 2, w_g[1] / 2, w_g[2] / 2))
-    for i in range(3):
-        rate[i], rate[7 + i], rate[10 + i] = slow[7 + i], acceleration[i], w_rate[i]
-    for i in range(4):
-        rate[3 + i] = g_rate[i]
+    g_rate = quaternion_product(four(slow, 3), (0.0, w_g[0] / 2, w_g[1] / 2, w_g[2] / 2))
+    copy_into(rate, three(slow, 7) + g_rate + three(acceleration, 0) + w_rate)
 
 
 @compiled

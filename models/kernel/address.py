@@ -11,16 +11,18 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from cointoss.models.kernel.compiled import ForCompiledCode
+import numpy as np
+
+from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.kernel.compiled import ForCompiledCode, compiled
 from cointoss.models.kernel.vectors import Matrix, Vector
 
 Function = Callable[[Matrix, Vector, Vector, float, float], Vector]
 """What can be called so: a function of a matrix, two vectors and two numbers that returns a vector."""
-_SIZE = 9 + 3 + 3 + 2
-_ENTRY = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)
-"""A function of its numbers, one after the other, and of room for its answer."""
-_placed: dict[int, tuple[Function, Any]] = {}
-"""What Python calls, and its code, by the code's address; kept for good, as a thread may still run it."""
+_GIVEN = 9 + 3 + 3 + 2
+"""How many numbers it is given."""
+_placed: dict[int, Any] = {}
+"""Code by its address; kept for good, as a thread may still run it."""
 
 
 class NotCompiledError(ValueError):
@@ -34,16 +36,7 @@ def place(function: Function) -> int:
         NotCompiledError: in one line.
     """
     code = _compiled(function)
-    entry = _ENTRY(code.address)
-
-    def from_python(*arguments: Any) -> Vector:
-        M, a, b, s, t = arguments
-        numbers = (ctypes.c_double * _SIZE)(*M[0], *M[1], *M[2], *a, *b, s, t)
-        answer = (ctypes.c_double * 3)()
-        entry(numbers, answer)
-        return answer[0], answer[1], answer[2]
-
-    _placed[code.address] = from_python, code
+    _placed[code.address] = code
     return code.address
 
 
@@ -87,38 +80,38 @@ def _reason(error: Exception) -> str:
 _NO_REASON = ("Failed in", "- Resolution", "During:", "File ", "There are")
 
 
-def _made() -> Any:
-    """Return numba's intrinsic that calls a function at its address."""
+def _make_call() -> Any:
     from llvmlite import ir
     from numba import types
     from numba.extending import intrinsic
 
-    row = types.UniTuple(types.float64, 3)
-    kinds = types.int64, types.UniTuple(row, 3), row, row, types.float64, types.float64
-
-    def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        address, *values = arguments
-        given = ir.LiteralStructType([value.type for value in values])
-        back = context.get_value_type(signature.return_type)
-        with builder.goto_entry_block():
-            numbers, answer = builder.alloca(given), builder.alloca(back)
-        for i, value in enumerate(values):
-            slot = builder.gep(numbers, [ir.IntType(32)(0), ir.IntType(32)(i)], inbounds=True)
-            builder.store(value, slot)
-        kind = ir.FunctionType(ir.VoidType(), [numbers.type, answer.type])
-        builder.call(builder.inttoptr(address, kind.as_pointer()), [numbers, answer])
-        return builder.load(answer)
-
     @intrinsic
-    def at(typingctx: Any, address: Any, M: Any, a: Any, b: Any, s: Any, t: Any) -> Any:  # noqa: ARG001
-        return row(*kinds), codegen
+    def call(_context, _function, arguments):
+        def code(context: Any, builder: Any, _signature: Any, given: Any) -> Any:
+            address, packed = given
+            values = [builder.extract_value(packed, i) for i in range(len(arguments))]
+            kind = ir.FunctionType(ir.VoidType(), [value.type for value in values])
+            builder.call(builder.inttoptr(address, kind.as_pointer()), values)
+            return context.get_dummy_value()
 
-    return at
+        return types.void(types.int64, arguments), code
+
+    return call
 
 
-def _in_python(address: int, *arguments: Any) -> Vector:
-    return _placed[address][0](*arguments)
+def _call_in_python(address: int, arguments: tuple[int, ...]) -> None:
+    ctypes.CFUNCTYPE(None, *[ctypes.c_int64] * len(arguments))(address)(*arguments)
 
 
-call_at: Callable[[int, Matrix, Vector, Vector, float, float], Vector] = ForCompiledCode(_made, _in_python)
-"""Calls the function at an address, which `place` has given, with its arguments."""
+call_c: Any = ForCompiledCode(_make_call, _call_in_python)
+"""Calls the C function at an address, which returns nothing, with a tuple of integers: also addresses."""
+
+
+@compiled
+def call_at(address: int, M: Matrix, a: Vector, b: Vector, s: float, t: float) -> Vector:
+    """Return what the function at an address, which `place` has given, returns for its arguments."""
+    numbers = np.empty(_GIVEN + 3)
+    copy_into(numbers[:_GIVEN], M[0] + M[1] + M[2] + a + b + (s, t))
+    start = numbers.ctypes.data
+    call_c(address, (start, start + _GIVEN * numbers.itemsize))
+    return numbers[_GIVEN], numbers[_GIVEN + 1], numbers[_GIVEN + 2]

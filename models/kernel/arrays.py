@@ -28,6 +28,18 @@ def copy_into(target: Array, source: Array | tuple[float, ...]) -> None:
 
 
 @compiled
+def three(row: Array | tuple[float, ...], first: int) -> tuple[float, float, float]:
+    """Return three numbers of a row."""
+    return row[first], row[first + 1], row[first + 2]
+
+
+@compiled
+def four(row: Array | tuple[float, ...], first: int) -> tuple[float, float, float, float]:
+    """Return four numbers of a row."""
+    return row[first], row[first + 1], row[first + 2], row[first + 3]
+
+
+@compiled
 def doubled(table: Array) -> Array:
     """Return the table with twice its rows."""
     larger = np.empty((2 * len(table), table.shape[1]))
