@@ -9,16 +9,11 @@ from cointoss.coin_mj.model.settings import Budgets
 from cointoss.coin_mj.model.state import set_motion, state_of
 from cointoss.coin_mj.steps.flight import FlightExit, fly
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap
+from cointoss.coin_mj.steps.held_step import slow_speed
 from cointoss.coin_mj.steps.impact import TouchResult, resolve_impact
 from cointoss.coin_mj.steps.knots import RecordedPath, StepKind, add_knot, nothing_recorded
 from cointoss.coin_mj.steps.rebound import coin_touching
-from cointoss.coin_mj.steps.sustained_contact import (
-    NO_LOSS,
-    NOT_DECIDED,
-    ContactExit,
-    follow_contact,
-    slow_speed,
-)
+from cointoss.coin_mj.steps.sustained_contact import NO_LOSS, NOT_DECIDED, ContactExit, follow_contact
 from cointoss.models.body import Body, Rules, is_linear, with_time_alone
 from cointoss.models.ending import classify_ending, face_outcome, followed_until, unless_caught
 from cointoss.models.geometry import lowest_point
@@ -88,12 +83,9 @@ def toss_coin(
                 ending = Ending.MAX_TIME if time >= rules.max_time else Ending.FLIGHT_STEPS
                 break
         start, touch = time, state_of(coin)
-        speed = -evaluate_gap(coin).speed
-        is_plastic = rules.restitution_threshold > 0 and speed <= rules.restitution_threshold
-        chi = 0.0 if is_plastic else chatter_restitution(rules, speed)
-        sustained = not lands and speed < slow_speed(coin, chi, touch.spin)
+        touched, is_slow = touch_of(coin, plastic, rules)
+        sustained = is_slow and not lands
         if not sustained:
-            touched = plastic if is_plastic else coin_touching(coin, rules, speed)
             result, time, impulse, path = resolve_impact(touched, time, path)
             sustained = result == TouchResult.SUSTAINED
             if result == TouchResult.IMPACT:
@@ -118,6 +110,21 @@ def toss_coin(
     path = add_knot(coin, time, StepKind.FLIGHT, path)
     outcome, ending = unless_caught(rules, outcome, ending)
     return n, rows, path.table[: path.size], contacts[:c], outcome, ending, time
+
+
+@compiled
+def touch_of(coin: MujocoCoin, plastic: MujocoCoin, rules: Rules) -> tuple[MujocoCoin, bool]:
+    """Return the coin with the rebound of its touch now, and whether it is so slow that the coin stays down.
+
+    Args:
+        coin: MuJoCo's, which touches.
+        plastic: the same, for touches up to the threshold of restitution.
+        rules: floor and ending.
+    """
+    speed, w = -evaluate_gap(coin).speed, state_of(coin).spin
+    if rules.restitution_threshold > 0 and speed <= rules.restitution_threshold:
+        return plastic, speed < slow_speed(coin, 0.0, w)
+    return coin_touching(coin, rules, speed), speed < slow_speed(coin, chatter_restitution(rules, speed), w)
 
 
 @compiled
@@ -167,11 +174,7 @@ def go_on(
             time, way, flight_steps_left, path = fly(coin, rules, time, flight_steps_left, path)
             if way == FlightExit.BUDGET:
                 break
-            speed = -evaluate_gap(coin).speed
-            is_plastic = rules.restitution_threshold > 0 and speed <= rules.restitution_threshold
-            touched = plastic if is_plastic else coin_touching(coin, rules, speed)
-            chi = 0.0 if is_plastic else chatter_restitution(rules, speed)
-            sustained = speed < slow_speed(coin, chi, state_of(coin).spin)
+            touched, sustained = touch_of(coin, plastic, rules)
         start, left_by = time, ContactExit.LIFT_OFF
         if not sustained:
             result, time, _, path = resolve_impact(touched, time, path)

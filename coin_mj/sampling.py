@@ -5,9 +5,9 @@ import numpy as np
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
 from cointoss.coin_mj.model.state import motion_of, set_motion
 from cointoss.coin_mj.steps.free_step import free_step
+from cointoss.coin_mj.steps.held_step import floor_force
 from cointoss.coin_mj.steps.knots import StepKind
 from cointoss.coin_mj.steps.runge_kutta import normalise, write_rate
-from cointoss.coin_mj.steps.sustained_contact import floor_force
 from cointoss.models.free_joint import states_of_joint
 from cointoss.models.kernel.arrays import Array, Counts, Row, Table, copy_into
 from cointoss.models.kernel.compiled import compiled

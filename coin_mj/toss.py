@@ -16,7 +16,7 @@ from cointoss.coin_mj.model.machine import Machine, machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import FINE, ROUGH, Friction, MujocoSettings, Realisation
 from cointoss.coin_mj.path import Knots
-from cointoss.coin_mj.steps.sustained_contact import contact_restitution
+from cointoss.coin_mj.steps.held_step import contact_restitution
 from cointoss.coin_mj.trust import lawful_impacts, shared_impacts
 from cointoss.models.body import Body, Rules
 from cointoss.models.certificate import InContact, gaps, measurements

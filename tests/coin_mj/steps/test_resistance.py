@@ -10,7 +10,7 @@ from cointoss import coin_mj
 from cointoss.coin_mj.model import state
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.settings import Friction, MujocoSettings
-from cointoss.coin_mj.steps import resistance, sustained_contact
+from cointoss.coin_mj.steps import held_step, resistance
 from cointoss.coin_mj.steps.resistance import Coefficients, PointMotion
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.kernel.compiled import by_numba
@@ -23,8 +23,8 @@ from tests.helpers.tuples import quaternion, vector
 state_of = by_numba(state.state_of)
 resisted_force = by_numba(resistance.resisted_force)
 shortest_stop = by_numba(resistance.shortest_stop)
-next_step = by_numba(sustained_contact.next_step)
-sustained_step = by_numba(sustained_contact.sustained_step)
+next_step = by_numba(held_step.next_step)
+sustained_step = by_numba(held_step.sustained_step)
 
 pytestmark = [
     pytest.mark.filterwarnings(f"ignore::{ApproximationWarning.__module__}.ApproximationWarning"),
