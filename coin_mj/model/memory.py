@@ -4,7 +4,6 @@
 # pyright: reportAttributeAccessIssue=false
 
 import ctypes
-import warnings
 from functools import cache
 from typing import Any
 
@@ -26,8 +25,6 @@ _SCALARS: dict[str, Any] = {
     "size_t": ctypes.c_size_t,
     "uintptr_t": ctypes.c_size_t,
 }
-PROVED = ("4.0.0", "4.0.1")
-"""The versions of MuJoCo in which a search of its memory found each field where it describes it."""
 OF_ROWS = ("efc_J", "efc_pos", "efc_D", "efc_R", "efc_aref")
 """Arrays of the rows of constraints, which move from step to step. Other arrays stay."""
 # A callback in Python refuses the step that MuJoCo's compiler makes, see `scene`.
@@ -38,20 +35,6 @@ _BALL = """<mujoco><option><flag spring="disable" damper="disable" actuation="di
 
 class LayoutError(UnusableEngineError):
     """MuJoCo's memory is not laid out as MuJoCo describes it."""
-
-
-def warn_of_version(version: str) -> None:
-    """Warn of a MuJoCo for which the places of its fields were not proved."""
-    if version not in PROVED:
-        warnings.warn(
-            f"MuJoCo {version}: where its fields lie was proved for {' and '.join(PROVED)}; "
-            "each is compared with MuJoCo's own description before a toss",
-            RuntimeWarning,
-            stacklevel=2,
-        )
-
-
-warn_of_version(mujoco.__version__)
 
 
 def _misplaced(struct: str, field: str) -> LayoutError:

@@ -91,13 +91,6 @@ def test_each_field_that_is_used_is_compared(machine, described, field):
         require_layout(*machine)
 
 
-def test_another_mujoco_is_told_in_one_line_and_the_proved_one_is_not():
-    with pytest.warns(RuntimeWarning, match=r"^MuJoCo 4\.0\.9: .* proved for 4\.0\.0 and 4\.0\.1; [^\n]*$"):
-        memory.warn_of_version("4.0.9")
-    for version in memory.PROVED:
-        memory.warn_of_version(version)
-
-
 def test_a_field_that_is_gone_or_of_an_unknown_type_is_named(described):
     described["mjData"].fields = [field for field in described["mjData"].fields if field.name != "efc_J"]
     with pytest.raises(LayoutError, match=r"mjData\.efc_J"):
