@@ -10,22 +10,24 @@ from cointoss.analytic.horizon.certainty import certainty_of
 from cointoss.analytic.horizon.horizon import MOST_CARRIED, STEP_ERROR, TURN_ERROR, ErrorsMade, find_horizon
 from cointoss.analytic.path import force_in, sample_piece
 from cointoss.analytic.settings import MANY, ContactLimits, contact_limits
+from cointoss.models.answers import ANSWER_AT, write_end
 from cointoss.models.barriers import energy
-from cointoss.models.body import NO_CODE, OwnCode, with_budgets, with_own_law
+from cointoss.models.body import NO_CODE, Body, OwnCode, Rules, with_budgets, with_own_law
 from cointoss.models.faults import Fault
-from cointoss.models.impact_row import FIRST_ROOM
-from cointoss.models.kernel.arrays import Row, Table
+from cointoss.models.impact_row import FIRST_ROOM, ImpactRows
+from cointoss.models.kernel.arrays import Row, Table, copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.making import MOST_LOSSLESS
 from cointoss.models.records import IMPACT_ROW
 from cointoss.models.rows import (
     AT,
+    NOT_TOSSED,
     REFUSED,
-    bodies_alike,
     body_of,
     examine_each,
     has_linear_air,
     rules_of,
+    run_end,
     write_release,
 )
 
@@ -49,40 +51,52 @@ def toss_rows(rows: Table, own: OwnCode, limits: ContactLimits, wanted: int, ans
         wanted: `NO_TRUST`, `TRUST` or `CERTAIN`.
         answers: where they go, (n, 7), see `cointoss.models.answers.ANSWER`.
     """
-    impacts, y = _work_space(wanted)
     first = 0
     while first < len(rows):
-        end = first + 1
-        while end < len(rows) and bodies_alike(rows[first], rows[end]):
-            end += 1
-        some = rows[first:end]
+        end = run_end(rows, first)
+        some, found = rows[first:end], answers[first:end]
         if has_linear_air(rows[first]):
-            _toss_run(body_of(rows[first], None), some, own, limits, wanted, impacts, y, answers[first:end])
+            _toss_run(body_of(rows[first], None), some, own, limits, wanted, found)
         else:
             body = body_of(rows[first], rows[first, AT.air_exponent])
-            _toss_run(body, some, own, limits, wanted, impacts, y, answers[first:end])
+            _toss_run(body, some, own, limits, wanted, found)
         first = end
 
 
 @compiled
-def _work_space(wanted):
-    """Return room for the rows of impacts, and for a state."""
-    return np.zeros(2 if wanted == NO_TRUST else FIRST_ROOM, IMPACT_ROW), np.empty(STATE_SIZE)
+def _toss_run(
+    body: Body, rows: Table, own: OwnCode, limits: ContactLimits, wanted: int, answers: Table
+) -> None:
+    """Toss rows with one coin, air and gravity, which are those of `body`; for the rest see `toss_rows`."""
+    keep_all, y = wanted != NO_TRUST, np.empty(STATE_SIZE)
+    impacts = np.zeros(FIRST_ROOM if keep_all else 2, IMPACT_ROW)
+    for i in range(len(rows)):
+        rules, answer = rules_of(rows[i]), answers[i]
+        _forget(answer[ANSWER_AT.ending :])
+        if own.address != 0:
+            rules = with_own_law(rules, own)
+        if keep_all:
+            rules = with_budgets(rules, min(rules.max_impacts, MOST_LOSSLESS), rules.max_time)
+        write_release(rows[i], y)
+        n, impacts, pieces, outcome, ending, end_time = toss_coin(
+            body, rules, limits, y, impacts, keep_all, np.empty(2)
+        )
+        if keep_all:
+            _write_trust(body, rules, impacts[:n], pieces, TossEnd(outcome, ending), wanted, answer)
+        write_end(outcome, ending, n, _last_face(impacts, n), end_time, answer)
 
 
 @compiled
-def _toss_run(body, rows, own, limits, wanted, impacts, y, answers):
-    """Toss rows with one coin, air and gravity."""
-    for i in range(len(rows)):
-        for k in range(1, answers.shape[1]):
-            answers[i, k] = -1.0
-        rules = rules_of(rows[i])
-        if own.address != 0:
-            rules = with_own_law(rules, own)
-        if wanted != NO_TRUST:
-            rules = with_budgets(rules, min(rules.max_impacts, MOST_LOSSLESS), rules.max_time)
-        write_release(rows[i], y)
-        impacts = _answer(body, rules, limits, wanted, impacts, y, answers[i])
+def _forget(answer: Row) -> None:
+    """Write -1, for what is not asked for, into an answer or a part of one."""
+    for k in range(len(answer)):
+        answer[k] = NOT_TOSSED
+
+
+@compiled
+def _last_face(impacts: ImpactRows, n: int) -> int:
+    """Return the face up at impact n, counted from 1, in the row that is its own; 0 for none."""
+    return impacts[(n - 1) % len(impacts)]["face"] if n > 0 else 0
 
 
 @compiled
@@ -101,9 +115,8 @@ def toss_each(rows: Table, wanted: int, answers: Table) -> None:
         if faults[0] == Fault.NONE.value:
             toss_rows(rows[i : i + 1], NO_CODE, _LIMITS, wanted, answers[i : i + 1])
         else:
-            for k in range(answers.shape[1]):
-                answers[i, k] = -1.0
-            answers[i, 0] = REFUSED
+            _forget(answers[i])
+            answers[i, ANSWER_AT.outcome] = REFUSED
 
 
 @compiled
@@ -117,40 +130,31 @@ def toss_apart(rows: Table, answers: Table, limits: ContactLimits, wanted: int) 
         wanted: `NO_TRUST`, `TRUST` or `CERTAIN`.
     """
     for i in range(len(rows)):
-        impacts, y = _work_space(wanted)
-        some = rows[i : i + 1]
-        _toss_run(body_of(rows[i], None), some, NO_CODE, limits, wanted, impacts, y, answers[i : i + 1])
+        _toss_run(body_of(rows[i], None), rows[i : i + 1], NO_CODE, limits, wanted, answers[i : i + 1])
 
 
 @compiled
-def _answer(body, rules, limits, wanted, impacts, y, answer):
-    """Toss a coin, write how it ended, and return the rows of impacts, which may have grown."""
-    keep_all = wanted != NO_TRUST
-    n, impacts, pieces, outcome, ending, end_time = toss_coin(
-        body, rules, limits, y, impacts, keep_all, np.empty(2)
-    )
-    if keep_all:
-        _write_trust(body, rules, impacts[:n], pieces, TossEnd(outcome, ending), wanted, answer)
-    # The outcome is written last: a row that has it is complete.
-    _write_end(n, impacts, TossEnd(outcome, ending), end_time, answer)
-    return impacts
+def _write_trust(
+    body: Body, rules: Rules, impacts: ImpactRows, pieces: Table, verdict: TossEnd, wanted: int, answer: Row
+) -> None:
+    """Write how many impacts can be trusted, and if it is wanted whether the outcome is certain.
 
-
-@compiled
-def _write_end(n, impacts, verdict, end_time, answer):
-    answer[1], answer[2], answer[4] = verdict.ending.value, n, end_time
-    answer[3] = impacts[(n - 1) % len(impacts)]["face"] if n > 0 else 0
-    answer[0] = verdict.outcome.value
-
-
-@compiled
-def _write_trust(body, rules, impacts, pieces, verdict, wanted, answer):
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        impacts: of the toss.
+        pieces: where its modes start, as `toss_coin` returns them.
+        verdict: how it ended.
+        wanted: `TRUST` or `CERTAIN`.
+        answer: where it goes, (7,).
+    """
     started = started_of(pieces)
     made = ErrorsMade(STEP_ERROR, TURN_ERROR, MOST_CARRIED)
     horizon = find_horizon(body, rules, impacts, started, made)
-    answer[5] = horizon.impacts
+    answer[ANSWER_AT.trusted_impacts] = horizon.impacts
     if wanted == CERTAIN:
-        answer[6] = certainty_of(body, rules, impacts, started, verdict, horizon).certain
+        certainty = certainty_of(body, rules, impacts, started, verdict, horizon)
+        answer[ANSWER_AT.outcome_certain] = certainty.certain
 
 
 @compiled
@@ -172,24 +176,22 @@ def toss_one(row: Row, answer: Row, impacts: Table, pieces: Table, sizes: Row) -
 
 
 @compiled
-def _toss_one(body, row, answer, impacts, pieces, sizes):
+def _toss_one(body: Body, row: Row, answer: Row, impacts: Table, pieces: Table, sizes: Row) -> None:
+    """Toss a scenario whose coin is `body`; for the rest see `toss_one`."""
     rules, y = rules_of(row), np.empty(STATE_SIZE)
     write_release(row, y)
-    room = np.zeros(FIRST_ROOM, IMPACT_ROW)
+    room, until = np.zeros(FIRST_ROOM, IMPACT_ROW), float(row[AT.ending_until])
     n, rows, found, outcome, ending, end_time = toss_coin(body, rules, _LIMITS, y, room, True, sizes)
-    _write_end(n, rows, TossEnd(outcome, ending), end_time, answer)
+    write_end(outcome, ending, n, _last_face(rows, n), end_time, answer)
     _write_trust(body, rules, rows[:n], found, TossEnd(outcome, ending), CERTAIN, answer)
-    if row[AT.ending_until] > end_time:
-        found = go_on(body, rules, _LIMITS, found, ending, row[AT.ending_until])
+    if until > end_time:
+        found = go_on(body, rules, _LIMITS, found, ending, until)
     sizes[0], sizes[1] = n, len(found)
     for i in range(min(n, len(impacts))):
-        row = rows[i]
-        impacts[i, 0], impacts[i, 1], impacts[i, 2] = row.time, row.face, row.energy
-        for k in range(3):
-            impacts[i, 3 + k] = row.impulse[k]
+        S = rows[i].impulse
+        copy_into(impacts[i], (rows[i].time, float(rows[i].face), rows[i].energy, S[0], S[1], S[2]))
     for i in range(min(len(found), len(pieces))):
-        for k in range(PIECE):
-            pieces[i, k] = found[i, k]
+        copy_into(pieces[i], found[i])
 
 
 @compiled
@@ -210,7 +212,8 @@ def sample_path(row: Row, pieces: Table, times: Row, states: Table, more: Table)
 
 
 @compiled
-def _sample_path(body, row, pieces, times, states, more):
+def _sample_path(body: Body, row: Row, pieces: Table, times: Row, states: Table, more: Table) -> None:
+    """Write the states of a path of the coin `body`; for the rest see `sample_path`."""
     friction, first = friction_in_contact(rules_of(row)), 0
     for number in range(len(pieces)):
         piece, last = pieces[number], len(times)
@@ -224,6 +227,6 @@ def _sample_path(body, row, pieces, times, states, more):
         sample_piece(body, friction, _LIMITS.tolerance, mode, start, piece[0], times[first:last], some)
         for i in range(first, last):
             y = states[i]
-            more[i, 0] = energy(body, position_of(y)[2], velocity_of(y), spin_of(y))
-            more[i, 1], more[i, 2], more[i, 3] = force_in(body, friction, mode, y)
+            E = energy(body, position_of(y)[2], velocity_of(y), spin_of(y))
+            copy_into(more[i], (E, *force_in(body, friction, mode, y)))
         first = last

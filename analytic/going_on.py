@@ -20,6 +20,7 @@ from cointoss.analytic.events import (
     Setup,
     Spent,
     cost_of,
+    flow_to_event,
     reset,
 )
 from cointoss.analytic.flight.flying import fly
@@ -140,8 +141,7 @@ def move_to_event(setup: Setup, mode: int, y: Array, spent: Spent, last: float) 
     if mode == Mode.RESTING:
         return Passage(Event.ENDS, Spent(last, spent.impacts, spent.steps), GOES_ON, NOT_FLOWN)
     if mode == Mode.TOUCHING:
-        contact = contact_at(setup.body, setup.friction, mode, y)
-        return Passage(margin_event(contact, y), spent, GOES_ON, NOT_FLOWN)
+        return flow_to_event(setup, mode, y, spent)
     return hold_on(setup, mode, y, spent, last)
 
 

@@ -95,7 +95,7 @@ def toss_rows(
     """Toss many scenarios by the event loop of `toss`: each toss is the same to the bit.
 
     Args:
-        rows: of the scenarios, in the order of `models.fields.FIELDS`, (n, 54). Each must be a scenario's:
+        rows: of the scenarios, in the order of `models.fields.FIELDS`, (n, m). Each must be a scenario's:
             `cointoss.models.batch.refused` finds those that are none.
         settings: of the engine.
         trust: "impacts" also counts the impacts of each toss that can be trusted, as `toss` does, in two to

@@ -29,29 +29,14 @@ class EventLog(NamedTuple):
     outcome: Outcome
     ending: Ending
     end_time: float
-    later: Started
-    """Where modes start from the end of the toss on, and the end of the path, (m,); their steps and their
-    grazes are not counted."""
+    path: Started
+    """The same; where the coin is followed with the modes from the end of the toss on, and the path's end;
+    their steps and their grazes are not counted."""
 
     @property
     def verdict(self) -> TossEnd:
         """The outcome and the ending."""
         return TossEnd(self.outcome, self.ending)
-
-    @property
-    def start_times(self) -> Array:
-        """Where modes start, and where the toss ends, (k,) [s]."""
-        return self.started.times
-
-    @property
-    def start_states(self) -> Array:
-        """States there, (k, 13)."""
-        return self.started.states
-
-    @property
-    def modes(self) -> NDArray[np.int8]:
-        """What starts there: `Mode`, (k,)."""
-        return self.started.modes
 
 
 def run(
@@ -86,7 +71,7 @@ def run(
         outcome=Outcome(outcome),
         ending=Ending(ending),
         end_time=end_time,
-        later=started_of(followed[len(pieces) - 1 :]),
+        path=started_of(followed),
     )
 
 
@@ -99,7 +84,8 @@ def contacts_of(start_times: Array, started: NDArray[np.int8]) -> Array:
 
 def later_part(toss: EventLog) -> Later:
     """Return how the coin goes on after its toss."""
-    times, modes = toss.later.times, toss.later.modes
+    end = len(toss.started.times) - 1
+    times, modes = toss.path.times[end:], toss.path.modes[end:]
     bounces = (modes[1:] == Mode.FLIGHT) & (modes[:-1] == Mode.FLIGHT)
     held = toss.ending != Ending.CAUGHT
     return Later(
@@ -161,8 +147,8 @@ def event_tangent(body: Body, rules: Rules, toss: EventLog, number: int) -> Arra
         number: of the impact, from 0; the first map starts at the release.
     """
     found, n = np.empty((2 * STATE_SIZE + 2, STATE_SIZE)), STATE_SIZE
-    left = rules.max_time - toss.start_times[number]
-    find_event_tangent(body, rules, toss.start_states[number].copy(), left, found)
+    left = rules.max_time - toss.started.times[number]
+    find_event_tangent(body, rules, toss.started.states[number].copy(), left, found)
     rate, early = found[-2], np.append(found[-1], 0)
     to_the_touch = np.eye(n + 1) + np.outer(np.append(rate, 1), -early)
     return _with_time(found[n : 2 * n]) @ to_the_touch @ _with_time(found[:n].T)

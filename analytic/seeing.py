@@ -5,12 +5,10 @@ from typing import Annotated, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.analytic.contact.automaton import Mode, contact_at
 from cointoss.analytic.contact.floor_laws import friction_in_contact
-from cointoss.analytic.contact.sampling import sample_contact
 from cointoss.analytic.events import started_of, toss_coin
-from cointoss.analytic.flight.flying import sample
 from cointoss.analytic.flight.state_vector import STATE_SIZE
+from cointoss.analytic.path import sample_piece
 from cointoss.analytic.settings import ContactLimits
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import Body, Rules
@@ -19,10 +17,10 @@ from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import IMPACT_ROW
 from cointoss.models.rows import (
     AT,
-    bodies_alike,
     body_of,
     has_linear_air,
     rules_of,
+    run_end,
     write_release,
 )
 
@@ -47,16 +45,14 @@ def see_each(rows: Table, limits: ContactLimits, times: Table, found: Sightings)
     """Toss each of many scenarios, and write what it shows into what is found.
 
     Args:
-        rows: of their fields, each a scenario's, (n, 54).
+        rows: of their fields, each a scenario's, (n, m).
         limits: of sustained contact.
         times: when states are asked for, rising, (n, m) [s]; before and after the toss its ends count.
         found: where it goes. Where no times are asked for, the scenarios end with its touches at the latest.
     """
     first = 0
     while first < len(rows):
-        end = first + 1
-        while end < len(rows) and bodies_alike(rows[first], rows[end]):
-            end += 1
+        end = run_end(rows, first)
         if has_linear_air(rows[first]):
             _see_run(body_of(rows[first], None), rows, limits, times, found, first, end)
         else:
@@ -67,8 +63,10 @@ def see_each(rows: Table, limits: ContactLimits, times: Table, found: Sightings)
 
 
 @compiled
-def _see_run(body, rows, limits, times, found, first, end):
-    """Toss rows with one coin, air and gravity."""
+def _see_run(
+    body: Body, rows: Table, limits: ContactLimits, times: Table, found: Sightings, first: int, end: int
+) -> None:
+    """Toss the rows from `first` to before `end`, whose coin is `body`; for the rest see `see_each`."""
     most, is_filmed = found.touch_times.shape[1], found.states.shape[1] > 0
     room, start = np.zeros(most + 1, IMPACT_ROW), np.empty(STATE_SIZE)  # the last is work space
     for i in range(first, end):
@@ -102,9 +100,6 @@ def _film(
         if after > first:
             mode, y, start_time = 0 + int(started.modes[k]), started.states[k], started.times[k]
             asked = np.minimum(np.maximum(times[first:after], start_time), started.times[last])
-            if mode == Mode.FLIGHT or mode == Mode.ENDED:
-                sample(body, y, start_time, asked, states[first:after])
-            else:
-                contact = contact_at(body, friction, mode, y)
-                sample_contact(contact, y, start_time, asked, limits.tolerance, states[first:after])
+            some = states[first:after]
+            sample_piece(body, friction, limits.tolerance, mode, y, start_time, asked, some)
         first = after

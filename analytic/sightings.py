@@ -19,7 +19,7 @@ def sightings(
     """Return what tosses show, each as `toss` makes it.
 
     Args:
-        rows: of the scenarios, in the order of `models.rows.FIELDS`, (n, 54).
+        rows: of the scenarios, in the order of `models.rows.FIELDS`, (n, m).
         times: when their states are asked for, rising, (n, m) [s]; before and after a toss its ends count.
         most: the number of touches to return; if no times are given, no scenario may have more impacts.
         settings: of the engine.

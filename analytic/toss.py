@@ -42,38 +42,34 @@ class Pieces:
     """The floor's friction in sustained contact."""
     contact_tolerance: float
     """Error allowed in a step of contact, relative."""
-    start_times: Array
-    """The times at which flights and contacts start, (n,) [s]."""
-    start_states: Array
-    """The states at these times, (n, 13)."""
-    modes: NDArray[np.int8]
-    """`Mode`, (n,)."""
+    started: Started
+    """Where flights and contacts start, and where the path ends."""
 
     def sample(self, times: Array) -> States:
         """Return the states at `times` [s], in the order of `times`."""
         order = np.argsort(times, kind="stable")
         rows = np.empty((len(times), STATE_SIZE))
-        piece = np.searchsorted(self.start_times, times[order], side="right") - 1
+        piece = np.searchsorted(self.started.times, times[order], side="right") - 1
         for number in sorted(set(piece.tolist())):
             chosen = order[piece == number]
             rows[chosen] = self._piece(number, times[chosen])
-        return _states(times, rows)
+        return States.from_rows(times, rows)
 
     def floor_force(self, times: Array) -> Array:
         """Return the floor's force at `times` in sustained contacts, space frame, (n, 3) [N]."""
-        piece = np.searchsorted(self.start_times, times, side="right") - 1
+        piece = np.searchsorted(self.started.times, times, side="right") - 1
         # At its very end a contact still holds the coin.
-        piece = np.where(np.isin(self.modes[piece], (Mode.FLIGHT, Mode.ENDED)), piece - 1, piece)
+        piece = np.where(np.isin(self.started.modes[piece], (Mode.FLIGHT, Mode.ENDED)), piece - 1, piece)
         states = self.sample(times)
         rows = np.hstack([states.position, states.velocity, states.quaternion, states.angular_velocity])
         forces = np.empty((len(times), 3))
-        floor_forces(self.body, self.friction, self.modes[piece], rows, forces)
+        floor_forces(self.body, self.friction, self.started.modes[piece], rows, forces)
         return forces
 
     def _piece(self, number: int, times: Array) -> Array:
         states = np.empty((len(times), STATE_SIZE))
-        start, start_time = self.start_states[number], self.start_times[number]
-        mode = int(self.modes[number])
+        start, start_time = self.started.states[number], self.started.times[number]
+        mode = int(self.started.modes[number])
         sample_piece(
             self.body, self.friction, self.contact_tolerance, mode, start, float(start_time), times, states
         )
@@ -126,7 +122,7 @@ def _toss(
 ) -> Toss:
     body, start = scenario.body, state_at_release(scenario.release)
     answer = run(body, rules, start, settings, scenario.ending.until, so_far)
-    impacts, end = Impacts.from_rows(answer.rows), answer.start_states[-1]
+    impacts, end = Impacts.from_rows(answer.rows), answer.started.states[-1]
     horizon, contacts = horizon_of(body, rules, answer), answer.contacts
     certainty = certainty_of(body, rules, answer.rows, answer.started, answer.verdict, horizon)
     before_contact = np.sum(impacts.time < contacts[0, 0]) if len(contacts) else len(impacts)
@@ -134,9 +130,7 @@ def _toss(
         body=body,
         friction=friction_in_contact(rules),
         contact_tolerance=settings.contact_tolerance,
-        start_times=answer.start_times,
-        start_states=answer.start_states,
-        modes=answer.modes,
+        started=answer.started,
     )
     return Toss(
         engine="analytic",
@@ -164,25 +158,15 @@ def _toss(
                 scenario,
                 impacts,
                 contacts,
-                _in_contact(body, answer),
+                _in_contact(body, answer.started),
                 path,
                 force_and_moment,
                 None if law is None else residuals(law, body, rules, impacts),
             ),
             *(() if law is None else _of_own_law(law, body, rules, impacts, answer)),
         ),
-        path=_with_later(path, answer.later),
+        path=replace(path, started=answer.path),
         later=later_part(answer),
-    )
-
-
-def _with_later(path: Pieces, later: Started) -> Pieces:
-    """Return a path that goes on, in place of its end."""
-    return replace(
-        path,
-        start_times=np.concatenate([path.start_times[:-1], later.times]),
-        start_states=np.concatenate([path.start_states[:-1], later.states]),
-        modes=np.concatenate([path.modes[:-1], later.modes]),
     )
 
 
@@ -195,7 +179,7 @@ def _of_own_law(
         gained = np.maximum(impacts.energy_change, 0).sum() / (body.mass * body.gravity * body.radius)
         yield Setting(name="impacts: energy that this law adds, in all", value=float(gained), unit="m g r")
     if answer.ending == Ending.NO_SOLUTION:
-        y = answer.start_states[-1]
+        y = answer.started.states[-1]
         touched = contact_in(body, rules, rotation_matrix(attitude_of(y)), y[3:6], y[10:13])
         yield Setting(name="the impulse refused", value=law.breach(touched))
 
@@ -208,33 +192,23 @@ def _flight(body: Body) -> str:
     return f"power series without spin about the normal, else {_INTEGRATED}"
 
 
-def _in_contact(body: Body, log: EventLog) -> InContact:
+def _in_contact(body: Body, started: Started) -> InContact:
     """Return states and gaps at start and end of each stretch of contact in one mode, and the landings.
 
     Where a second rim lands, on its edge, a flight that takes no time ends in contact.
     """
-    stays = (log.modes != Mode.FLIGHT) & (log.modes != Mode.ENDED)
-    n_z = 1 - 2 * (log.start_states[:, 7] ** 2 + log.start_states[:, 8] ** 2)
-    lands = ~stays[:-1] & stays[1:] & (np.diff(log.start_times) == 0) & (np.abs(n_z[:-1]) < _UPRIGHT)
+    times, states = started.times, started.states
+    stays = (started.modes != Mode.FLIGHT) & (started.modes != Mode.ENDED)
+    n_z = 1 - 2 * (states[:, 7] ** 2 + states[:, 8] ** 2)
+    lands = ~stays[:-1] & stays[1:] & (np.diff(times) == 0) & (np.abs(n_z[:-1]) < _UPRIGHT)
 
     def at_both_ends(of: NDArray[np.bool_]) -> Changes:
         first = np.flatnonzero(of)
-        return Changes(*(_states(log.start_times[i], log.start_states[i]) for i in (first, first + 1)))
+        return Changes(*(States.from_rows(times[i], states[i]) for i in (first, first + 1)))
 
     stretches = at_both_ends(stays[:-1])
-    found = np.concatenate([gaps(body, states) for states in stretches])
+    found = np.concatenate([gaps(body, each) for each in stretches])
     return InContact(stretches, at_both_ends(lands), found)
-
-
-def _states(times: Array, rows: Array) -> States:
-    """Return the states of which `rows` holds the state vectors, (n, 13)."""
-    return States(
-        time=times.copy(),
-        position=rows[:, 0:3].copy(),
-        velocity=rows[:, 3:6].copy(),
-        quaternion=rows[:, 6:10].copy(),
-        angular_velocity=rows[:, 10:13].copy(),
-    )
 
 
 def _energy(body: Body, y: Array) -> float:

@@ -6,6 +6,7 @@ from cointoss.coin_mj.events import toss_coin
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
 from cointoss.coin_mj.model.settings import Budgets
 from cointoss.coin_mj.model.state import put_at
+from cointoss.models.answers import write_end
 from cointoss.models.kernel.arrays import Table
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import IMPACT_ROW
@@ -20,7 +21,7 @@ def toss_rows(coin: MujocoCoin, plastic: MujocoCoin, budgets: Budgets, rows: Tab
         coin: of the rows, which differ in release and ending alone.
         plastic: the same, for touches up to the threshold of restitution.
         budgets: the most steps in flight and in sustained contact.
-        rows: of the scenarios, (n, 54).
+        rows: of the scenarios, (n, m).
         answers: where they go, (n, 7), see `cointoss.models.answers.ANSWER`; the last two are not written.
     """
     impacts, y = np.zeros(1, IMPACT_ROW), np.empty(13)
@@ -30,6 +31,4 @@ def toss_rows(coin: MujocoCoin, plastic: MujocoCoin, budgets: Budgets, rows: Tab
         n, _, _, _, outcome, ending, end_time = toss_coin(
             coin, plastic, rules_of(rows[i]), budgets, impacts, False, np.empty(1)
         )
-        answers[i, 1], answers[i, 2], answers[i, 4] = ending.value, n, end_time
-        answers[i, 3] = impacts[0]["face"] if n > 0 else 0
-        answers[i, 0] = outcome.value
+        write_end(outcome, ending, n, impacts[0]["face"] if n > 0 else 0, end_time, answers[i])

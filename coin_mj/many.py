@@ -70,7 +70,7 @@ def toss_rows(
     than those of `toss`: docs/MUJOCO.md states their error.
 
     Args:
-        rows: of the scenarios, in the order of `models.fields.FIELDS`, (n, 54). Each must be a scenario's:
+        rows: of the scenarios, in the order of `models.fields.FIELDS`, (n, m). Each must be a scenario's:
             `cointoss.models.batch.refused` finds those that are none.
         settings: how MuJoCo realises the floor, and how finely it steps.
         trust: None; this engine finds trust only for a single `toss`.

@@ -36,7 +36,8 @@ class Knots:
     def sample(self, times: Array) -> States:
         """Return the states at `times` [s], in the order of `times`; at an impact, that at first touch."""
         before = np.searchsorted(self.knots[:, TIME], times, side="right") - 1
-        return _states(times, sample_path(self.machine.coin, self.knots, before.astype(np.int32), times))
+        rows = sample_path(self.machine.coin, self.knots, before.astype(np.int32), times)
+        return States.from_rows(times, rows)
 
     def contact_states(self) -> tuple[States, States, States]:
         """Return the states at the start, midway and at the end of each step of the sustained contacts."""
@@ -62,7 +63,8 @@ class Knots:
     def _at(self, numbers: NDArray[np.intp]) -> States:
         """Return the states at knots, of which `numbers` are the numbers."""
         knots = self.knots[numbers]
-        return _states(knots[:, TIME], states_of_joint(self.machine.coin.body, knots[:, MOTION].copy()))
+        rows = states_of_joint(self.machine.coin.body, knots[:, MOTION].copy())
+        return States.from_rows(knots[:, TIME], rows)
 
     def floor_force(self, times: Array) -> Array:
         """Return the floor's force at `times` in sustained contacts, space frame, (n, 3) [N].
@@ -80,9 +82,3 @@ class Knots:
         start, end = self.knots[first, TIME], self.knots[first + 1, TIME]
         part = ((times - start) / (end - start))[:, None]
         return ((1 - part) * at_first + part * at_second) * self.machine.mass_unit
-
-
-def _states(times: Array, states: Array) -> States:
-    """Return states from their vectors, (n, 13)."""
-    x, v, e, w = (part.copy() for part in np.split(states, (3, 6, 10), axis=1))
-    return States(time=times.copy(), position=x, velocity=v, quaternion=e, angular_velocity=w)

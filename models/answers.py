@@ -1,12 +1,14 @@
 """The results of many tosses: how each ended, as arrays of codes and numbers."""
 
+from collections import namedtuple
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.arrays import Array, Row
+from cointoss.models.kernel.compiled import compiled
 from cointoss.models.labelled import meanings_of
 from cointoss.models.records import Ending, Face, Outcome
 from cointoss.models.rows import NOT_TOSSED as NOT_TOSSED
@@ -16,6 +18,10 @@ Trust = Literal["impacts", "certain"]
 """What `trust` asks for: the number of trusted impacts, or also whether the outcome is certain."""
 ANSWER = ("outcome", "ending", "impacts", "last_face", "end_time", "trusted_impacts", "outcome_certain")
 """The columns of the results that compiled code writes; -1 in a column that was not asked for."""
+ANSWER_AT = namedtuple("AnswerPlaces", ANSWER)(*range(len(ANSWER)))
+"""The place of each column by its name, as compiled code reads it."""
+_LAST_OF = {None: "end_time", "impacts": "trusted_impacts", "certain": "outcome_certain"}
+"""The last column that tosses with a `trust` have."""
 _MISSING = {NOT_TOSSED: "not_tossed", REFUSED: "refused"}
 
 
@@ -54,7 +60,7 @@ COLUMNS = {
 
 def names_of(trust: Trust | None) -> tuple[str, ...]:
     """Return the names of the columns that tosses with this `trust` have."""
-    return ANSWER[: {None: 5, "impacts": 6, "certain": 7}[trust]]
+    return ANSWER[: ANSWER.index(_LAST_OF[trust]) + 1]
 
 
 class Answers(NamedTuple):
@@ -118,6 +124,27 @@ def unanswered(n: int, table: Array | None = None) -> Array:
         raise ValueError(f"answers: shape {found.shape}, accepted: floats, {shape}, row by row")
     found[:] = NOT_TOSSED
     return found
+
+
+@compiled
+def write_end(
+    outcome: Outcome, ending: Ending, impacts: int, last_face: int, end_time: float, answer: Row
+) -> None:
+    """Write how a toss ended; its outcome comes last, so that a row that has one is complete.
+
+    Args:
+        outcome: of the toss.
+        ending: of the toss.
+        impacts: their number.
+        last_face: up at the last of them, 0 where there was none.
+        end_time: when the toss stopped [s].
+        answer: where it goes, (7,).
+    """
+    answer[ANSWER_AT.ending] = ending.value
+    answer[ANSWER_AT.impacts] = impacts
+    answer[ANSWER_AT.last_face] = last_face
+    answer[ANSWER_AT.end_time] = end_time
+    answer[ANSWER_AT.outcome] = outcome.value
 
 
 def tally(outcomes: NDArray[np.integer]) -> NDArray[np.int64]:

@@ -260,7 +260,7 @@ def momentum_residuals(body: Body, impacts: Impacts) -> Array:
     arm = np.where(_lands_flat(body, impacts)[:, None], 0.0, impacts.point - np.array(body.center))
     linear = body.mass * (impacts.velocity_after - impacts.velocity_before) - S
     gained = (impacts.angular_velocity_after - impacts.angular_velocity_before) @ np.array(body.inertia)
-    angular = gained - _cross(arm, turned(_conjugate(e), S))
+    angular = gained - np.cross(arm, turned(_conjugate(e), S))
     return np.maximum(
         np.linalg.norm(linear, axis=1) / size,
         np.linalg.norm(angular, axis=1) / (size * body.radius),
@@ -312,7 +312,7 @@ def air_power(body: Body, v: Array, w: Array, air: Air) -> Array:
 
 def linear_air_power(body: Body, v: Array, w: Array) -> Array:
     """Return the power of linear air drag at B and about B; see `air_power`."""
-    drag, v_B = body.drag, v - _cross(w, np.array([body.center]))
+    drag, v_B = body.drag, v - np.cross(w, np.array([body.center]))
     force = [drag.force_tangential, drag.force_tangential, drag.force_normal]
     moment = [drag.moment_tangential, drag.moment_tangential, drag.moment_normal]
     return -(v_B**2 @ force + w**2 @ moment)
@@ -321,8 +321,8 @@ def linear_air_power(body: Body, v: Array, w: Array) -> Array:
 def turned(quaternions: Array, vectors: Array) -> Array:
     """Return vectors turned by Euler parameters, x -> R(e) x, (n, 3)."""
     axis, part = quaternions[:, 1:], quaternions[:, :1]
-    across = 2 * _cross(axis, vectors)
-    return vectors + part * across + _cross(axis, across)
+    across = 2 * np.cross(axis, vectors)
+    return vectors + part * across + np.cross(axis, across)
 
 
 def _flights(
@@ -396,13 +396,6 @@ def _restitution(rules: Rules, impacts: Impacts) -> Array:
     if varies(rules):
         return np.array([restitution_at_speed(rules, float(speed)) for speed in speeds])
     return np.where(speeds > rules.restitution_threshold, rules.restitution, 0.0)
-
-
-def _cross(a: Array, b: Array) -> Array:
-    """Return a x b of rows of three, for few rows sooner than by `np.cross`."""
-    x, y, z = a.T
-    u, v, w = b.T
-    return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=1)
 
 
 def _dot(a: Array, b: Array) -> Array:

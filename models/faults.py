@@ -179,14 +179,14 @@ def fault_of_floor(
     """Return what is wrong with a floor's kind of restitution and its resistances."""
     if kind == RestitutionKind.ENERGETIC and not may_be_energetic(law):
         return FoundFault(Fault.KIND, 0.0)
-    if rolling > 0 and not is_followed(law):
-        return FoundFault(Fault.ROLLING_LAW, 0.0)
-    if pivoting > 0 and not is_followed(law):
-        return FoundFault(Fault.PIVOTING_LAW, 0.0)
-    if contour > 0 and not is_followed(law):
-        return FoundFault(Fault.CONTOUR_LAW, 0.0)
-    if viscous > 0 and not is_followed(law):
-        return FoundFault(Fault.CONTOUR_VISCOSITY_LAW, 0.0)
+    for resistance, fault in (
+        (rolling, Fault.ROLLING_LAW),
+        (pivoting, Fault.PIVOTING_LAW),
+        (contour, Fault.CONTOUR_LAW),
+        (viscous, Fault.CONTOUR_VISCOSITY_LAW),
+    ):
+        if resistance > 0 and not is_followed(law):
+            return FoundFault(fault, 0.0)
     return _NOTHING
 
 
@@ -247,9 +247,7 @@ def fault_of_toss(body: Body, rules: Rules, state: State) -> FoundFault:
 def is_finite(body: Body) -> bool:
     """Return whether inertia, its inverse and drag of a coin are finite numbers."""
     total = body.inertia_smallest + body.inertia_largest + body.sliding_share
-    for row in body.inertia:
-        total += abs(row[0]) + abs(row[1]) + abs(row[2])
-    for row in body.inertia_inverse:
+    for row in body.inertia + body.inertia_inverse:
         total += abs(row[0]) + abs(row[1]) + abs(row[2])
     for coefficient in body.drag:
         total += abs(coefficient)

@@ -256,6 +256,12 @@ class States(EqualByValue):
         """Check every array's shape and make it read-only."""
         freeze(self)
 
+    @classmethod
+    def from_rows(cls, times: Array, rows: Array) -> "States":
+        """Make the record from times, (n,) [s], and state vectors, (n, 13); it has copies of both."""
+        x, v, e, w = (part.copy() for part in np.split(rows, (3, 6, 10), axis=1))
+        return cls(time=times.copy(), position=x, velocity=v, quaternion=e, angular_velocity=w)
+
     def __repr__(self) -> str:
         """Return how many there are, and from when to when."""
         span = f" from {self.time.min():.6g} to {self.time.max():.6g} s" if len(self.time) else ""

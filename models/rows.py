@@ -9,20 +9,21 @@ from typing import Any
 
 import numpy as np
 
-from cointoss.models.attitude import Quaternion, normalized, quaternion_from_angles
+from cointoss.models.attitude import normalized, quaternion_from_angles
 from cointoss.models.barriers import barrier
 from cointoss.models.body import NO_CODE, AirLaw, Body, Rules, with_budgets
 from cointoss.models.faults import (
     Fault,
+    FoundFault,
     fault_of_coin,
     fault_of_floor,
     fault_of_quaternion,
     fault_of_toss,
 )
 from cointoss.models.fields import FIELDS, PLACES, TABLES, WORDED, Place
-from cointoss.models.kernel.arrays import Array, Codes, Row, Table, copy_into
+from cointoss.models.kernel.arrays import Array, Codes, Row, Table, copy_into, four, three
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import Matrix, Vector
+from cointoss.models.kernel.vectors import Matrix
 from cointoss.models.making import MOST_LOSSLESS, Cylinder, make_body, most_impacts, moved_inertia
 from cointoss.models.scenario import Scenario
 from cointoss.models.state import State, state
@@ -88,18 +89,6 @@ EXAMINED = ("fault", "limit", "barrier")
 which the coin turns over [J], NaN of a row that is no scenario's."""
 AT = namedtuple("Places", [name.replace(".", "_") for name in FIELDS])(*range(len(FIELDS)))
 """The place of each field in a row by its name, as compiled code reads it: `row[AT.floor_restitution]`."""
-
-
-@compiled
-def three(row: Array, first: int) -> Vector:
-    """Return three numbers of a row."""
-    return row[first], row[first + 1], row[first + 2]
-
-
-@compiled
-def four(row: Array, first: int) -> Quaternion:
-    """Return four numbers of a row."""
-    return row[first], row[first + 1], row[first + 2], row[first + 3]
 
 
 @compiled
@@ -227,7 +216,7 @@ def write_attitudes(rows: Table, attitudes: Table) -> None:
 
 
 @compiled
-def fault_of_parts(row):
+def fault_of_parts(row: Row) -> FoundFault:
     """Return what is wrong with the coin, the floor or the attitude of a row, each for itself."""
     center = three(row, AT.coin_center_of_mass_xi)
     found = fault_of_coin(cylinder_of(row), center, inertia_of(row), has_inertia(row))
@@ -247,8 +236,8 @@ def fault_of_parts(row):
 
 
 @compiled
-def fault_of(body, row):
-    """Return what is wrong with the scenario of a row, whose coin is made."""
+def fault_of(body: Body, row: Row) -> FoundFault:
+    """Return what is wrong with the scenario of a row, whose coin is `body`."""
     found = fault_of_parts(row)
     return found if found.fault != Fault.NONE else fault_of_toss(body, rules_of(row), release_of(row))
 
@@ -263,6 +252,15 @@ def bodies_alike(first: Array, second: Array) -> bool:
 
 
 @compiled
+def run_end(rows: Table, first: int) -> int:
+    """Return the place after the last of the rows from `first` on that have one coin, air and gravity."""
+    end = first + 1
+    while end < len(rows) and bodies_alike(rows[first], rows[end]):
+        end += 1
+    return end
+
+
+@compiled
 def examine_each(rows: Table, faults: Codes) -> None:
     """Write the `Fault` of each row, 0 of a scenario's.
 
@@ -272,23 +270,11 @@ def examine_each(rows: Table, faults: Codes) -> None:
     """
     first = 0
     while first < len(rows):
-        end = first + 1
-        while end < len(rows) and bodies_alike(rows[first], rows[end]):
-            end += 1
-        if foreign_number(rows[first]) >= 0:
-            for i in range(first, end):
-                faults[i] = Fault.ROW.value
-        else:
-            _examine_run(body_in_any_air(rows[first]), rows[first:end], faults[first:end])
+        end, body = run_end(rows, first), body_in_any_air(rows[first])
+        for i in range(first, end):
+            is_foreign = foreign_number(rows[i]) >= 0
+            faults[i] = Fault.ROW.value if is_foreign else fault_of(body, rows[i]).fault.value
         first = end
-
-
-@compiled
-def _examine_run(body, rows, faults):
-    """Write the faults of rows with one coin, air and gravity."""
-    for i in range(len(rows)):
-        is_foreign = foreign_number(rows[i]) >= 0
-        faults[i] = Fault.ROW.value if is_foreign else fault_of(body, rows[i]).fault.value
 
 
 @compiled
@@ -301,9 +287,8 @@ def examine(row: Row, answer: Row) -> None:
     """
     place = foreign_number(row)
     if place >= 0:
-        answer[0], answer[1], answer[2] = Fault.ROW.value, place, math.nan
+        copy_into(answer, (float(Fault.ROW.value), float(place), math.nan))
     else:
         body = body_in_any_air(row)
-        found = fault_of(body, row)
-        answer[0], answer[1] = found.fault.value, found.limit
-        answer[2] = min(barrier(body, 1.0), barrier(body, -1.0))
+        found, least = fault_of(body, row), min(barrier(body, 1.0), barrier(body, -1.0))
+        copy_into(answer, (float(found.fault.value), found.limit, least))

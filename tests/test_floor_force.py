@@ -82,7 +82,7 @@ def from_momentum(tossed, times):
 def times_of(tossed, motion):
     """Return times in the longest sustained contact, of the analytic engine in one motion."""
     if isinstance(tossed.path, Pieces):
-        edges, kinds = tossed.path.start_times, tossed.path.modes[:-1]
+        edges, kinds = tossed.path.started.times, tossed.path.started.modes[:-1]
         spans = [(a, b) for a, b, kind in zip(edges[:-1], edges[1:], kinds, strict=True) if kind == motion]
     else:
         spans = list(tossed.contacts)

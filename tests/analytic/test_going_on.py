@@ -32,7 +32,7 @@ def lying(until="3 s", **release):
 
 
 def time_of_rest(toss):
-    return toss.path.start_times[np.flatnonzero(toss.path.modes == Mode.RESTING)[0]]
+    return toss.path.started.times[np.flatnonzero(toss.path.started.modes == Mode.RESTING)[0]]
 
 
 def test_a_coin_that_lies_slides_as_a_point_on_the_floor():

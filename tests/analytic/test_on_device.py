@@ -13,8 +13,8 @@ from cointoss.analytic.entries import toss_apart
 from cointoss.analytic.settings import MANY, contact_limits
 from cointoss.models.answers import NOT_TOSSED, unanswered
 from cointoss.models.batch import rows_of
-from cointoss.models.kernel.cuda import STACK, CardError
 from cointoss.models.kernel.base_folder import EngineMissingError
+from cointoss.models.kernel.cuda import STACK, CardError
 from cointoss.models.reading import load
 from cointoss.models.rows import has_linear_air
 from tests.helpers.bits import cases

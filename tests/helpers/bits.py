@@ -66,7 +66,7 @@ def numbers_of(case):
         "time": toss.end_time,
         "impacts": np.column_stack([impacts.time, impacts.energy, impacts.impulse]).tolist(),
         "states": rows.ravel().tolist(),
-        "end": path.start_states[-1].tolist(),
+        "end": path.started.states[-1].tolist(),
     }
 
 

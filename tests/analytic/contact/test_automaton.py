@@ -113,11 +113,11 @@ def test_a_toss_passes_through_its_modes_in_time_and_ends_once(changed):
             release={"position": [0, 0, 0.1], "angles": [0, 1.0, 0], "angular_velocity": [3.0, spin, 5.0]},
         )
         log = run(case.body, case.rules, state_at_release(case.release))
-        assert log.modes[-1] == Mode.ENDED
-        assert Mode.ENDED not in log.modes[:-1]
-        assert log.modes[0] == Mode.FLIGHT
-        assert np.all(np.diff(log.start_times) >= 0)
-        seen |= {Mode(mode) for mode in log.modes}
+        assert log.started.modes[-1] == Mode.ENDED
+        assert Mode.ENDED not in log.started.modes[:-1]
+        assert log.started.modes[0] == Mode.FLIGHT
+        assert np.all(np.diff(log.started.times) >= 0)
+        seen |= {Mode(mode) for mode in log.started.modes}
     assert {Mode.FLIGHT, Mode.SLIDING, Mode.STICKING, Mode.ENDED} <= seen
 
 
@@ -176,8 +176,8 @@ def test_a_toss_whose_contact_steps_are_spent_ends_as_is_known_by_then(name, ste
 def test_steps_of_flights_and_events_after_the_first_contact_are_counted_and_none_before():
     case = scenario(**LONG_TRANSIENT)
     log = run(case.body, case.rules, state_at_release(case.release), AnalyticSettings(contact_steps=100))
-    after = log.start_times >= log.contacts[0, 0]
-    flights = after & (log.modes == Mode.FLIGHT)
+    after = log.started.times >= log.contacts[0, 0]
+    flights = after & (log.started.modes == Mode.FLIGHT)
     assert np.sum(log.started.steps[~after]) > 10
     assert np.sum(flights) > 1
     # In contact there are steps too, so that flights and their events alone do not spend it all; with them

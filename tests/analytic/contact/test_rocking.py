@@ -63,12 +63,12 @@ def test_a_coin_that_is_said_to_stand_while_it_rocks_comes_to_stand(floor, count
         stood += 1
         ended = run(body, rules._replace(test=EndingTest.LYING), y)
         assert ended.outcome == Outcome.EDGE
-        assert on_edge(body, ended.start_states[-1])
-        assert max(abs(lean_and_rate(state)[0]) for state in ended.start_states) < 4 * steady_lean(body)
+        assert on_edge(body, ended.started.states[-1])
+        assert max(abs(lean_and_rate(state)[0]) for state in ended.started.states) < 4 * steady_lean(body)
         early = run(body, rules, y)
         assert early.outcome == Outcome.EDGE
         assert early.end_time <= ended.end_time
-        earlier += early.ending == Ending.STANDING and not on_edge(body, early.start_states[-1])
+        earlier += early.ending == Ending.STANDING and not on_edge(body, early.started.states[-1])
     assert stood >= earlier >= count / 8
 
 

@@ -165,7 +165,7 @@ def test_a_toss_that_comes_upright_is_followed_until_it_stands():
     )
     tossed = run(case.body, case.rules, state_at_release(case.release))
     assert (tossed.outcome, tossed.ending) == (Outcome.EDGE, Ending.STANDING)
-    assert Mode.UPRIGHT in tossed.modes
+    assert Mode.UPRIGHT in tossed.started.modes
 
 
 def rolling(body, roll_rate):
@@ -237,7 +237,7 @@ def test_a_toss_that_comes_upright_on_a_rough_floor_is_followed_to_its_end(numbe
     """Tosses of the study of endings in which the coin skids or rolls on both rims for a while."""
     case = draw_toss(np.random.default_rng((2008, 1, number)), imperfect=True)
     tossed = run(case.body, case.rules._replace(test=EndingTest.LYING), state_at_release(case.release))
-    assert Mode.UPRIGHT in tossed.modes
+    assert Mode.UPRIGHT in tossed.started.modes
     assert tossed.outcome != Outcome.UNDECIDED
 
 
@@ -315,5 +315,5 @@ def test_a_coin_that_pivots_on_one_rim_while_the_other_skids_goes_on():
     case = draw_toss(np.random.default_rng((2008, 1, 9428)), imperfect=True)
     tossed = run(case.body, case.rules._replace(max_time=2.9), state_at_release(case.release))
     assert tossed.ending == Ending.MAX_TIME
-    assert np.diff(tossed.start_times)[tossed.modes[:-1] == Mode.UPRIGHT].max() > 1e-3
-    assert len(tossed.modes) < 20_000
+    assert np.diff(tossed.started.times)[tossed.started.modes[:-1] == Mode.UPRIGHT].max() > 1e-3
+    assert len(tossed.started.modes) < 20_000

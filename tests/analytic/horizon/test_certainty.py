@@ -183,7 +183,7 @@ def test_a_neighbour_starts_at_the_last_trusted_impact_with_what_the_toss_has_le
             known, first = Horizon(horizon, np.zeros((12, 12))), impact if tilt else 0
             start = start_of(case.rules._replace(caught=caught), log.rows, log.started, known)
             assert start.impact == first
-            assert np.array_equal(start.state, log.start_states[first])
+            assert np.array_equal(start.state, log.started.states[first])
             assert start.rules.max_impacts == 50 - first
-            assert start.rules.max_time == 50.0 - log.start_times[first]
+            assert start.rules.max_time == 50.0 - log.started.times[first]
             assert start.rules.caught == caught

@@ -152,11 +152,11 @@ def test_without_losses_the_tangent_map_keeps_every_change_of_energy(thickness, 
 
     assert len(toss.rows) == 5
     for i in range(5):
-        before, after = (energy_change(y) for y in toss.start_states[i : i + 2])
+        before, after = (energy_change(y) for y in toss.started.states[i : i + 2])
         tangent = event_tangent(body, rules, toss, i)
         sizes = np.append(SIZES, 1)
         scale = float(np.abs(before * sizes).max())
-        for change in directions(toss.start_states[i]):
+        for change in directions(toss.started.states[i]):
             kept = after @ tangent @ np.append(change, 0)
             # Central differences over 1e-5 of the scales err by some 1e-10, times what an impact makes of it.
             assert kept == pytest.approx(before[:13] @ change, abs=1e-7 * scale)
@@ -185,7 +185,7 @@ def test_the_tangent_map_of_impacts_is_their_derivative(law, number):
     def event(change: np.ndarray) -> np.ndarray:
         moved = run(body, rules, start + change)
         assert np.array_equal(moved.rows["face"], toss.rows["face"])
-        return np.append(moved.start_states[3], moved.start_times[3])
+        return np.append(moved.started.states[3], moved.started.times[3])
 
     for change in directions(start):
         expected = (tangent @ np.append(change, 0)) / np.append(SIZES, 1)
