@@ -7,12 +7,10 @@ import pytest
 from scipy.optimize import brentq
 
 from cointoss.compare.engines import Engine
-from cointoss.models.batch import rows_from_states
 from cointoss.models.records import Ending, Outcome
 from tests.helpers.command_line import cointoss
 from tests.helpers.draws import AIR, IMPERFECT, scenario
 from tests.helpers.engines import toss
-from tests.helpers.many import same_states
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
@@ -88,23 +86,6 @@ def test_a_coin_that_never_comes_to_the_hand_is_not_caught_and_has_no_face(engin
 def test_an_arc_just_above_the_hand_is_caught_and_one_just_below_is_not(engine):
     for part, ending in ((1 + 1e-6, Ending.CAUGHT), (1 - 1e-6, Ending.NOT_CAUGHT)):
         assert toss(engine, thrown(up=part * np.sqrt(2 * G * (HAND - 1)))).ending == ending
-
-
-@engines
-def test_many_caught_tosses_are_those_of_one_at_a_time(engine):
-    held, n = thrown(air=AIR), 40
-    velocity = np.linspace([0, 0, 1.5], [0, 0, 3.0], n)
-    rows = rows_from_states(held, same_states(n, velocity=velocity, angular_velocity=[38.0, 0, 0]))
-    many = engine.package.toss_rows(rows, settings=engine.package.FINE)
-    for i in (0, 10, 20, 39):
-        alone = toss(engine, held.replace("release.velocity", velocity[i].tolist()))
-        assert (many.outcome[i], many.impacts[i]) == (alone.outcome, len(alone.impacts))
-    is_held = many.outcome != Outcome.UNDECIDED
-    assert (np.diff(is_held.astype(int)) >= 0).all()
-    # Air stops some that in vacuum would just come to the hand.
-    arrives = velocity[:, 2] > np.sqrt(2 * G * (HAND - 1))
-    assert 10 < is_held.sum() <= arrives.sum()
-    assert {Outcome.HEADS, Outcome.TAILS} <= {*many.outcome}
 
 
 def test_the_engines_catch_the_same_face_at_the_same_time():

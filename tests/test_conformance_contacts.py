@@ -12,7 +12,6 @@ from cointoss.models.laws import ContactLaw
 from cointoss.models.records import Ending, Outcome
 from tests.helpers import engines
 from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, scenario
-from tests.helpers.many import as_states
 from tests.helpers.states import energies
 from tests.helpers.symmetries import SYMMETRIES
 
@@ -193,20 +192,6 @@ def test_a_symmetry_of_the_release_is_one_of_the_whole_toss(engine, name, symmet
     assert there.outcome == swapped.get(here.outcome, here.outcome)
     # An ending is noticed at the end of a step.
     assert there.end_time == pytest.approx(here.end_time, abs=0.01)
-
-
-@pytest.mark.parametrize(("engine", "name"), BOTH)
-def test_one_of_many_tosses_is_that_of_toss_to_the_bit(engine, name):
-    drawn = [CASES[name][2], SYMMETRIES["a turn about the vertical"].release(CASES[name][2])]
-    outcomes = engines.toss_many(engine, described(name), as_states(drawn))
-    for i, release in enumerate(drawn):
-        tossed = engines.toss_as_many(engine, described(name, release))
-        assert len(tossed.contacts) > 0
-        assert outcomes.outcome[i] == tossed.outcome
-        assert outcomes.ending[i] == tossed.ending
-        assert outcomes.impacts[i] == len(tossed.impacts) > 0
-        assert outcomes.last_face[i] == tossed.impacts.face[-1]
-        assert outcomes.end_time[i] == tossed.end_time
 
 
 @pytest.mark.parametrize("engine", list(Engine))

@@ -21,18 +21,21 @@ AIRS = ({}, AIR, {}, AIR, {**AIR, "exponent": 0.5})
 
 
 def assert_tossed_as_alone(engine, count):
-    """Coins, floors, airs of all kinds, releases and endings, each after others, and some coins twice."""
+    """Coins, floors, airs, releases, endings and hands of all kinds, each after others; some coins twice."""
     rng, cases = np.random.default_rng(12), []
     for number in range(count):
         law, air = LAWS[engine][number % len(LAWS[engine])], AIRS[number % 5]
-        most = 3 if "exponent" in air else int(rng.integers(4, 30))
+        most, hand = (
+            3 if "exponent" in air else int(rng.integers(4, 30)),
+            {"caught": 0.1} if number % 4 == 3 else {},
+        )
         case = scenario(
             gravity=rng.uniform(5, 15),
             coin=draw_coin(rng),
             air=air,
             floor={"restitution": rng.uniform(0, 0.9), "contact": str(law), "friction": 0.3},
             release=draw_release(rng),
-            ending={"max_impacts": most, "max_time": 0.3 if "exponent" in air else 2.0},
+            ending={"max_impacts": most, "max_time": 0.3 if "exponent" in air else 2.0, **hand},
         )
         cases += [case, case.replace("release", draw_release(rng))][: 1 + number % 2]
     rows, tosses = np.array([row_of(case) for case in cases]), [toss_as_many(engine, case) for case in cases]

@@ -6,17 +6,14 @@ import numpy as np
 import pytest
 
 from cointoss import OwnLaw, analytic
-from cointoss.analytic.contact.resets import hit, rebound_at, restitution_at
-from cointoss.analytic.flight.flying import fly
+from cointoss.analytic.contact.resets import rebound_at
 from cointoss.analytic.flight.state_vector import state_of
 from cointoss.analytic.flight.touch_search import is_chattering
 from cointoss.analytic.horizon.touch_derivatives import touch_derivatives
 from cointoss.analytic.impact.own_law import rules_by
-from cointoss.analytic.numerics.tolerances import CHATTERING
 from cointoss.models.certificate import LAW, law_residuals
-from cointoss.models.geometry import evaluate_gap
 from cointoss.models.reading import load
-from cointoss.models.records import IMPACT_ROW, Ending, UnsupportedError
+from cointoss.models.records import Ending, UnsupportedError
 from cointoss.models.restitution import elastic_speed, restitution_at_speed
 from cointoss.models.scenario import Scenario
 from tests.helpers.contacts import touching
@@ -133,28 +130,6 @@ def test_a_threshold_above_the_elastic_speed_stops_the_coin():
     # (v/v_e)^((1 - p)^n) = 1.2 at v = √(2 g 0.3 m).
     ratio = np.log((2 * G * 0.3) ** 0.5 / 0.5**4) / np.log(1.2)
     assert len(speeds) == 1 + np.ceil(np.log(ratio) / np.log(4 / 3))
-
-
-@pytest.mark.parametrize("floor", [VISCOUS, BOTH, {**POWER, "restitution_threshold": 0.07}])
-def test_impacts_chatter_that_all_come_while_the_coin_hardly_turns(floor):
-    """Those after the fastest touch that chatters, made one by one, end within the time that is allowed."""
-    case = scenario(coin=THIN, floor=floor)
-    body, rules, rows = case.body, case.rules, np.zeros(1, IMPACT_ROW)
-    low, high = 0.0, 1.0
-    for _ in range(40):
-        middle = (low + high) / 2
-        y = touching(body, middle)
-        chatters = is_chattering(body, rebound_at(body, rules, y), state_of(y))
-        low, high = (middle, high) if chatters else (low, middle)
-    y, elapsed, impacts = touching(body, low), 0.0, 0
-    allowed = 1.02 * CHATTERING * np.sin(0.6) / (np.linalg.norm(y[10:13]) + (G / body.radius) ** 0.5)
-    while -evaluate_gap(body, state_of(y)).speed > 0.1 * low and restitution_at(body, rules, y) > 0:
-        hit(body, rules, restitution_at(body, rules, y), y, rows[0])
-        elapsed += fly(body, y, 1.0, False).time
-        impacts += 1
-    assert low > 0
-    assert elapsed < allowed
-    assert "restitution_threshold" in floor or impacts > 5
 
 
 def test_a_coin_on_a_viscous_floor_comes_into_contact_and_lies():

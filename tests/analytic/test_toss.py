@@ -40,19 +40,6 @@ def test_impacts_in_air_of_any_exponent_are_those_of_an_independent_integration(
         assert impacts.impulse[i] == pytest.approx(S, abs=1e-5 * float(np.linalg.norm(S)))
 
 
-def test_a_ball_like_drop_rebounds_as_newton_says():
-    """A flat coin loses 1 - chi^2 of its height in each flight; its impacts are a geometric series."""
-    chi, z0, half = 0.5, 0.4, 1e-3
-    tossed = analytic.toss(scenario(floor={"restitution": chi}, release={"position": [0, 0, z0]}))
-    fall = np.sqrt(2 * (z0 - half) / 9.81)
-    n = len(tossed.impacts)
-    expected = fall * (1 + 2 * np.cumsum([0, *chi ** np.arange(1, n)]))
-    assert n >= 3
-    assert tossed.impacts.time == pytest.approx(expected, rel=1e-13)
-    assert tossed.outcome == Outcome.HEADS
-    assert tossed.sequence == "H" * n
-
-
 @pytest.mark.slow_after_first
 @pytest.mark.parametrize("chi", [0.0, 0.01, 0.3, 0.8])
 @pytest.mark.usefixtures("without_horizon")

@@ -19,7 +19,7 @@ from cointoss.analytic.contact.sampling import floor_force, sample_contact
 from cointoss.analytic.numerics.tolerances import STEP_ERROR
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.barriers import energy
-from cointoss.models.geometry import contact_velocity, gap, lowest_point
+from cointoss.models.geometry import contact_velocity, lowest_point
 from cointoss.models.kernel.compiled import by_numba
 from tests.helpers.contacts import end_mode, follow_for, follow_step, held, put_on_floor
 from tests.helpers.draws import AIR, IMPERFECT, THIN, ZLOTY, draw_coin, scenario
@@ -107,28 +107,6 @@ def test_a_smooth_floor_is_one_whose_friction_is_0(seed):
     assert stopped == pytest.approx(y, rel=1e-12, abs=1e-12)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(8))
-def test_a_coin_on_a_smooth_floor_keeps_energy_and_momentum_and_does_not_leave_it(seed):
-    rng = np.random.default_rng([seed, 1])
-    body = scenario(coin=draw_coin(rng)).body
-    start = draw_wobble(rng, body, Mode.SLIDING)
-    y, time, turned = start.copy(), 0.0, 0.0
-    while time < 0.2:
-        step = follow_step(body, SMOOTH, Mode.SLIDING, y, 0.2 - time)
-        time += step.elapsed
-        turned += step.elapsed * np.linalg.norm(y[10:13])
-        assert abs(gap(body, y[2], tuple(up_of(y)))) < 1e-14
-        assert abs(velocity_of_lowest(body, y)[2]) < 1e-12
-        if step.is_over:
-            break
-    assert turned > 0.3, "it should move"
-    assert energy_of(body, y) == pytest.approx(energy_of(body, start), rel=1e-11)
-    assert y[3:5] == pytest.approx(start[3:5], abs=1e-14)
-    L_z, L_z_start = (up_of(s) @ np.array(body.inertia) @ s[10:13] for s in (y, start))
-    assert L_z == pytest.approx(L_z_start, rel=1e-11)
-
-
 @pytest.mark.parametrize("air", [{}, AIR])
 def test_an_ideal_coin_on_a_smooth_floor_gets_no_spin_about_its_axis(air):
     rng, body = np.random.default_rng(13), scenario(coin=ZLOTY, air=air).body
@@ -210,30 +188,6 @@ def test_a_coin_that_rolls_keeps_its_energy(seed):
             break
     assert time > 0.01
     assert energy_of(body, y) == pytest.approx(energy_of(body, start), rel=1e-11)
-
-
-@pytest.mark.slow_after_first
-@pytest.mark.parametrize("seed", range(4))
-def test_a_coin_that_slides_loses_what_friction_takes(seed):
-    """dE/dt = -μ N |v_A| and m dv/dt = -μ N s, with N from the height of C: not from the Delassus matrix."""
-    rng = np.random.default_rng([seed, 4])
-    mu, body = 0.3, scenario(coin=draw_coin(rng)).body
-    angles = rng.uniform(0, 6), rng.uniform(0.4, 1.0), rng.uniform(0, 6)
-    y = on_floor(body, Mode.SLIDING, angles, rng.uniform(-10, 10, 3), [0.4, 0.1])
-    time, n = 0.01, 401
-    times = np.linspace(0, time, n)
-    states = np.empty((n, 13))
-    sample_contact(held(body, FloorFriction(mu), Mode.SLIDING, y), y, 0.0, times, STEP_ERROR, states)
-    v_A = np.array([velocity_of_lowest(body, s) for s in states])
-    slip = np.linalg.norm(v_A[:, :2], axis=1)
-    assert slip.min() > 0.05
-    N = body.mass * (np.gradient(states[:, 5], times, edge_order=2) + G)
-    power = -mu * N * slip
-    lost = energy_of(body, states[-1]) - energy_of(body, states[0])
-    assert lost == pytest.approx(np.trapezoid(power, times), rel=1e-5)
-    gained = body.mass * (states[-1][3:5] - states[0][3:5])
-    pushed = np.trapezoid(-mu * N[:, None] * v_A[:, :2] / slip[:, None], times, axis=0)
-    assert gained == pytest.approx(pushed, abs=1e-5 * float(np.linalg.norm(pushed)))
 
 
 @pytest.mark.parametrize("seed", range(20))

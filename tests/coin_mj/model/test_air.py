@@ -76,17 +76,6 @@ def test_a_spin_whose_square_underflows_is_none():
     assert force[0.0][1] < -0.1
 
 
-@pytest.mark.parametrize("b", [0.2, 0.5, 1.0])
-def test_motions_in_one_direction_have_closed_forms(b):
-    v, W, wall = 0.7, 30.0, 2 * np.pi * R * H
-    f, m = air_force(R, H, PowerLaw(LN, LT, b), (0.0, 0.0, v), (0.0, 0.0, 0.0))
-    assert f == pytest.approx((0, 0, -(v ** (1 + b)) * (LN * np.pi * R**2 + LT * wall)), rel=1e-13, abs=1e-18)
-    f, m = air_force(R, H, PowerLaw(LN, LT, b), (0.0, 0.0, 0.0), (0.0, 0.0, W))
-    spin = -LT * (W * R) ** (1 + b) * R * (2 * 2 * np.pi * R**2 / (b + 4) + wall)
-    assert m == pytest.approx((0, 0, spin), rel=1e-13, abs=1e-20)
-    assert f == pytest.approx((0, 0, 0), abs=1e-18)
-
-
 def test_a_coin_at_rest_feels_no_air():
     assert air_force(R, H, PowerLaw(LN, LT, 0.5), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)) == ((0, 0, 0), (0, 0, 0))
 
