@@ -42,7 +42,7 @@ class Grid:
     """The spins, (y) [rad/s]."""
 
     def rows(self, scenario: Scenario) -> Array:
-        """Return the tosses of all points, line by line, as rows, (y x, 54)."""
+        """Return the tosses of all points, line by line, as rows, (y x, m)."""
         z, w = (part.ravel() for part in np.meshgrid(self.heights, self.spins))
         return planar_rows(scenario, z, w)
 
@@ -77,7 +77,7 @@ def draw_titled(
 
 
 def planar_rows(scenario: Scenario, heights: Array, spins: Array) -> Array:
-    """Return tosses of a coin released flat, heads up, at rest but for its spin about ξ, as rows, (n, 54).
+    """Return tosses of a coin released flat, heads up, at rest but for its spin about ξ, as rows, (n, m).
 
     Args:
         scenario: what is tossed.
@@ -113,7 +113,7 @@ def faces_after(
     """Return the face up at the touch after some impacts, the outcome where a toss ended before, (n,).
 
     Args:
-        rows: of the tosses, (n, 54).
+        rows: of the tosses, (n, m).
         impacts: how many.
         toss_rows: the engine's.
     """
@@ -126,7 +126,7 @@ LANDINGS: dict[str, Callable[[Array], NDArray[np.int8]]] = {
     "soft floor": lambda rows: faces_after(rows, 0),
     "bouncing": lambda rows: analytic.toss_rows(rows).outcome,
 }
-"""How tosses of rows end, (n, 54) to (n,): at their first touch, or after their bounces."""
+"""How tosses of rows end, (n, m) to (n,): at their first touch, or after their bounces."""
 
 
 def touched_faces(scenario: Scenario, heights: Array, spins: Array, touches: int) -> NDArray[np.int8]:

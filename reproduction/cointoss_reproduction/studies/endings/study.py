@@ -109,7 +109,7 @@ def thrown(rng: np.random.Generator, count: int) -> Array:
 
 
 def drawn(kind: str, number: int, count: int) -> Array:
-    """Return random tosses of a class as rows, (count, 54); no two numbers share draws."""
+    """Return random tosses of a class as rows, (count, m); no two numbers share draws."""
     scenario = Scenario.model_validate({"release": {"position": [0, 0, 1]}, **CLASSES[kind]})
     rng = np.random.default_rng((SEED, [*CLASSES].index(kind), number))
     states = SPUN[kind].states(scenario.body, rng, count) if kind in SPUN else thrown(rng, count)

@@ -79,7 +79,7 @@ def make(progress: Progress, count: int = 2000) -> Findings:
 
 
 def _nearby(scenario: Scenario, count: int) -> Array:
-    """Return the scenario `count` times, the attitude at release turned a little at random, (count, 54)."""
+    """Return the scenario `count` times, the attitude at release turned a little at random, (count, m)."""
     rng = np.random.default_rng(SEED)
     turned = Rotation.from_rotvec(rng.uniform(-SPREAD, SPREAD, (count, 3)))
     attitude = Rotation.from_quat(scenario.release.attitude, scalar_first=True) * turned

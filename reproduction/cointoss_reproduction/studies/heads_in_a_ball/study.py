@@ -120,7 +120,7 @@ def ball_about(
         rng: the source of chance.
 
     Returns:
-        The tosses, (count, 54).
+        The tosses, (count, m).
     """
     r, g = scenario.coin.radius, scenario.gravity
     drawn = rng.normal(size=(count, 12))

@@ -95,7 +95,7 @@ def of_planar(quantity: ReleaseQuantity, planar: int = PLANAR, proofs: int = PRO
 
 
 def draw_planar(count: int) -> Array:
-    """Draw tosses in vacuum, uniform in height and spin, flat, at rest but for the spin, as rows, (n, 54)."""
+    """Draw tosses in vacuum, uniform in height and spin, flat, at rest but for the spin, as rows, (n, m)."""
     rng = np.random.default_rng(SEED)
     return planar_rows(case(air=False), rng.uniform(*HEIGHTS, count), rng.uniform(*SPINS, count))
 
@@ -114,7 +114,7 @@ def uncertain_within(rows: Array, quantity: ReleaseQuantity, accuracy: float) ->
     """Return whether a release changed by an accuracy, up or down, has another outcome, (n,).
 
     Args:
-        rows: of the tosses, (n, 54).
+        rows: of the tosses, (n, m).
         quantity: what changes.
         accuracy: ε [the quantity's unit].
     """
