@@ -3,12 +3,12 @@
 import numpy as np
 
 from cointoss.analytic.contact.floor_laws import friction_in_contact
-from cointoss.analytic.events import TossEnd, started_of, toss_coin
+from cointoss.analytic.events import Started, TossEnd, started_of, toss_coin
 from cointoss.analytic.flight.state_vector import STATE_SIZE, position_of, spin_of, velocity_of
 from cointoss.analytic.going_on import go_on
 from cointoss.analytic.horizon.certainty import certainty_of
 from cointoss.analytic.horizon.horizon import MOST_CARRIED, STEP_ERROR, TURN_ERROR, ErrorsMade, find_horizon
-from cointoss.analytic.path import force_in, sample_piece
+from cointoss.analytic.path import force_in, sample_pieces
 from cointoss.analytic.settings import MANY, ContactLimits, contact_limits
 from cointoss.models.answers import ANSWER_AT, write_end
 from cointoss.models.barriers import energy
@@ -214,19 +214,13 @@ def sample_path(row: Row, pieces: Table, times: Row, states: Table, more: Table)
 @compiled
 def _sample_path(body: Body, row: Row, pieces: Table, times: Row, states: Table, more: Table) -> None:
     """Write the states of a path of the coin `body`; for the rest see `sample_path`."""
-    friction, first = friction_in_contact(rules_of(row)), 0
-    for number in range(len(pieces)):
-        piece, last = pieces[number], len(times)
-        if number + 1 < len(pieces):
-            last = first
-            while last < len(times) and times[last] < pieces[number + 1, 0]:
-                last += 1
-        if last == first:
-            continue
-        start, mode, some = piece[2:].copy(), int(piece[1]), states[first:last]
-        sample_piece(body, friction, _LIMITS.tolerance, mode, start, piece[0], times[first:last], some)
-        for i in range(first, last):
-            y = states[i]
-            E = energy(body, position_of(y)[2], velocity_of(y), spin_of(y))
-            copy_into(more[i], (E, *force_in(body, friction, mode, y)))
-        first = last
+    friction, starts, nothing = friction_in_contact(rules_of(row)), pieces[:, 0].copy(), np.empty(0)
+    modes = pieces[:, 1].astype(np.int8)
+    started, number = Started(starts, pieces[:, 2:PIECE].copy(), modes, nothing, nothing), 0
+    sample_pieces(body, friction, _LIMITS.tolerance, started, times, states)
+    for i in range(len(times)):
+        while number + 1 < len(starts) and times[i] >= starts[number + 1]:
+            number += 1
+        y, mode = states[i], int(pieces[number, 1])
+        E = energy(body, position_of(y)[2], velocity_of(y), spin_of(y))
+        copy_into(more[i], (E, *force_in(body, friction, mode, y)))

@@ -149,11 +149,7 @@ def toss_coin(
     while True:
         so_far[0], so_far[1] = spent.impacts, spent.time
         if keep_all and mode != Mode.TOUCHING:
-            if k == len(pieces):
-                pieces = doubled(pieces)
-            pieces[k, 0], pieces[k, 1] = spent.time, mode
-            copy_into(pieces[k, 2:_STEPS], y)
-            pieces[k, _STEPS], pieces[k, _GRAZE] = 0, np.inf
+            pieces = with_piece(pieces, k, spent.time, mode, y)
             k += 1
         if mode == Mode.ENDED:
             break
@@ -178,6 +174,25 @@ def toss_coin(
             mode = mode_after(mode, Event.ENDS)
     outcome, ending = unless_caught(rules, verdict.outcome, verdict.ending)
     return spent.impacts, rows, pieces[:k], outcome, ending, spent.time
+
+
+@compiled
+def with_piece(pieces: Table, k: int, time: float, mode: int, y: Array) -> Table:
+    """Return where modes start with one more in row k: in twice as many rows if there is no room.
+
+    Args:
+        pieces: where modes start, see `toss_coin`.
+        k: how many do.
+        time: at which the next starts [s].
+        mode: the number of its `Mode`.
+        y: state there, (13,).
+    """
+    if k == len(pieces):
+        pieces = doubled(pieces)
+    pieces[k, 0], pieces[k, 1] = time, mode
+    copy_into(pieces[k, 2:_STEPS], y)
+    pieces[k, _STEPS], pieces[k, _GRAZE] = 0, np.inf
+    return pieces
 
 
 @compiled

@@ -22,6 +22,7 @@ from cointoss.analytic.events import (
     cost_of,
     flow_to_event,
     reset,
+    with_piece,
 )
 from cointoss.analytic.flight.flying import fly
 from cointoss.analytic.flight.state_vector import set_spin, set_velocity, spin_of, state_of, velocity_of
@@ -33,7 +34,7 @@ from cointoss.models.contact_laws.table import is_followed
 from cointoss.models.ending import WOBBLE, followed_until, lies
 from cointoss.models.geometry import FACE_SINE, tilt_sine_of
 from cointoss.models.impact_row import FIRST_ROOM
-from cointoss.models.kernel.arrays import Table, copy_into, doubled
+from cointoss.models.kernel.arrays import Table, doubled
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import norm
 from cointoss.models.making import AT_REST
@@ -64,8 +65,8 @@ def go_on(
     Returns:
         The same with the modes from the end of the toss on, and the end of the path, (m, 17).
     """
-    k, width = len(pieces) - 1, pieces.shape[1]
-    start, to_rest = pieces[k, 0], until == AT_REST
+    k, to_rest = len(pieces) - 1, until == AT_REST
+    start = pieces[k, 0]
     last = followed_until(rules, ending, start, until)
     if last == start:
         return pieces
@@ -84,11 +85,7 @@ def go_on(
             stop(y)
             mode = Mode.ENDED.value if to_rest else mode
         if mode != Mode.TOUCHING:
-            found = doubled(found) if k == len(found) else found
-            found[k, 0], found[k, 1] = min(spent.time, last), mode
-            copy_into(found[k, 2:15], y)
-            for column in range(15, width):
-                found[k, column] = np.inf
+            found = with_piece(found, k, min(spent.time, last), mode, y)
             k += 1
         if mode == Mode.ENDED:
             return found[:k]

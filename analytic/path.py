@@ -3,6 +3,7 @@
 from cointoss.analytic.contact.automaton import Mode, contact_at
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.sampling import floor_force, sample_contact
+from cointoss.analytic.events import Started
 from cointoss.analytic.flight.flying import sample
 from cointoss.models.body import Body
 from cointoss.models.kernel.arrays import Codes, Row, Table, copy_into
@@ -42,6 +43,32 @@ def sample_piece(
     else:
         contact = contact_at(body, friction, mode, start)
         sample_contact(contact, start, start_time, times, tolerance, states)
+
+
+@compiled
+def sample_pieces(
+    body: Body, friction: FloorFriction, tolerance: float, started: Started, times: Row, states: Table
+) -> None:
+    """Write the states of a path at `times`.
+
+    Args:
+        body: the coin.
+        friction: of the floor, in contact.
+        tolerance: error allowed in a step of contact, relative.
+        started: where its modes start, and where it ends.
+        times: increasing, from the path's start to its end, (n,) [s].
+        states: where they go, (n, 13).
+    """
+    first, last = 0, len(started.times) - 1
+    for k in range(last + 1):
+        after = first
+        while after < len(times) and (k == last or times[after] < started.times[k + 1]):
+            after += 1
+        if after > first:
+            # Of eight bits, an integer keeps them in compiled code.
+            mode, start, some = 0 + int(started.modes[k]), started.states[k], states[first:after]
+            sample_piece(body, friction, tolerance, mode, start, started.times[k], times[first:after], some)
+        first = after
 
 
 @compiled

@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.events import started_of, toss_coin
 from cointoss.analytic.flight.state_vector import STATE_SIZE
-from cointoss.analytic.path import sample_piece
+from cointoss.analytic.path import sample_pieces
 from cointoss.analytic.settings import ContactLimits
 from cointoss.models.attitude import rotation_matrix
-from cointoss.models.body import Body, Rules
-from cointoss.models.kernel.arrays import Array, Cube, Table
+from cointoss.models.body import Body
+from cointoss.models.kernel.arrays import Cube, Table
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import IMPACT_ROW
 from cointoss.models.rows import (
@@ -83,23 +83,5 @@ def _see_run(
                 found.touch_times[i, k] = impacts[k]["time"]
                 found.up[i, k] = rotation_matrix((e[0], e[1], e[2], e[3]))[2][2]
         if is_filmed:
-            _film(body, rules, limits, pieces, times[i], found.states[i])
-
-
-@compiled
-def _film(
-    body: Body, rules: Rules, limits: ContactLimits, pieces: Array, times: Array, states: Array
-) -> None:
-    """Write the states of a toss at `times` into `states`, (m, 13), from the table that `toss_coin` gives."""
-    started, friction, first = started_of(pieces), friction_in_contact(rules), 0
-    last = len(started.times) - 1
-    for k in range(last + 1):
-        after = first
-        while after < len(times) and (k == last or times[after] < started.times[k + 1]):
-            after += 1
-        if after > first:
-            mode, y, start_time = 0 + int(started.modes[k]), started.states[k], started.times[k]
-            asked = np.minimum(np.maximum(times[first:after], start_time), started.times[last])
-            some = states[first:after]
-            sample_piece(body, friction, limits.tolerance, mode, y, start_time, asked, some)
-        first = after
+            asked, friction = np.minimum(np.maximum(times[i], 0.0), end_time), friction_in_contact(rules)
+            sample_pieces(body, friction, limits.tolerance, started_of(pieces), asked, found.states[i])

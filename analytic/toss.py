@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.resistance import FloorFriction
-from cointoss.analytic.entries import certainty_of, floor_forces, force_and_moment, sample_piece
+from cointoss.analytic.entries import certainty_of, floor_forces, force_and_moment, sample_pieces
 from cointoss.analytic.events import Started
 from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
 from cointoss.analytic.horizon.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR
@@ -47,12 +47,10 @@ class Pieces:
 
     def sample(self, times: Array) -> States:
         """Return the states at `times` [s], in the order of `times`."""
-        order = np.argsort(times, kind="stable")
-        rows = np.empty((len(times), STATE_SIZE))
-        piece = np.searchsorted(self.started.times, times[order], side="right") - 1
-        for number in sorted(set(piece.tolist())):
-            chosen = order[piece == number]
-            rows[chosen] = self._piece(number, times[chosen])
+        order, found = np.argsort(times, kind="stable"), np.empty((len(times), STATE_SIZE))
+        sample_pieces(self.body, self.friction, self.contact_tolerance, self.started, times[order], found)
+        rows = np.empty_like(found)
+        rows[order] = found
         return States.from_rows(times, rows)
 
     def floor_force(self, times: Array) -> Array:
@@ -65,15 +63,6 @@ class Pieces:
         forces = np.empty((len(times), 3))
         floor_forces(self.body, self.friction, self.started.modes[piece], rows, forces)
         return forces
-
-    def _piece(self, number: int, times: Array) -> Array:
-        states = np.empty((len(times), STATE_SIZE))
-        start, start_time = self.started.states[number], self.started.times[number]
-        mode = int(self.started.modes[number])
-        sample_piece(
-            self.body, self.friction, self.contact_tolerance, mode, start, float(start_time), times, states
-        )
-        return states
 
 
 def state_at_release(release: Release) -> Array:

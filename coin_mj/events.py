@@ -17,7 +17,7 @@ from cointoss.coin_mj.steps.sustained_contact import NO_LOSS, NOT_DECIDED, Conta
 from cointoss.models.body import Body, Rules, is_linear, with_time_alone
 from cointoss.models.ending import classify_ending, face_outcome, followed_until, unless_caught
 from cointoss.models.geometry import lowest_point
-from cointoss.models.impact_row import FIRST_ROOM, ImpactRow, ImpactRows, with_room, write_impact
+from cointoss.models.impact_row import FIRST_ROOM, ImpactRows, with_room, write_impact
 from cointoss.models.kernel.arrays import Row, Table, doubled
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector
@@ -196,7 +196,7 @@ def go_on(
 
 
 @compiled
-def record(body: Body, time: float, touch: State, impulse: Vector, release: State, row: ImpactRow) -> None:
+def record(body: Body, time: float, touch: State, impulse: Vector, release: State, row: np.record) -> None:
     """Record an impact; if the coin is flat within rounding, at the point under C.
 
     Args:

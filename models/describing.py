@@ -143,13 +143,7 @@ def _ends(rules: list[Any]) -> list[tuple[str, float]]:
 
 def _known(detail: ErrorDetails, model: type[BaseModel]) -> str:
     """Return the key that a wrong one may mean, and those that its table has."""
-    part = _model_at(detail["loc"][:-1], model)
+    part: Any = _described(detail["loc"][:-1], model)[0]
     known = list(part.model_fields)
     hint = meant(str(detail["loc"][-1]), [*known, *getattr(part, "instead", ())])
     return f"{hint}accepted: {', '.join(known)}"
-
-
-def _model_at(loc: tuple[int | str, ...], model: type[BaseModel]) -> type[BaseModel]:
-    for step in loc:
-        model = cast("type[BaseModel]", model.model_fields[str(step)].annotation)
-    return model

@@ -7,7 +7,7 @@ import numpy as np
 
 from cointoss.models.attitude import Quaternion, rotation_matrix
 from cointoss.models.body import Body
-from cointoss.models.kernel.arrays import Array, Table
+from cointoss.models.kernel.arrays import Array, Table, copy_into, four, three
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, add, apply, cross, subtract
 from cointoss.models.state import State
@@ -22,11 +22,10 @@ def to_mass_center(body: Body, qpos: Array, qvel: Array) -> State:
         qpos: of the free joint, (7,).
         qvel: of the free joint, (6,).
     """
-    e = (qpos[3], qpos[4], qpos[5], qpos[6])
-    w = (qvel[3], qvel[4], qvel[5])
+    e, w = four(qpos, 3), three(qvel, 3)
     R = rotation_matrix(e)
-    x = add((qpos[0], qpos[1], qpos[2]), apply(R, body.center))
-    v = add((qvel[0], qvel[1], qvel[2]), apply(R, cross(w, body.center)))
+    x = add(three(qpos, 0), apply(R, body.center))
+    v = add(three(qvel, 0), apply(R, cross(w, body.center)))
     return State(x, v, e, w, R)
 
 
@@ -51,10 +50,7 @@ def states_of_joint(body: Body, motions: Table) -> Table:
     states = np.empty((len(motions), 13))
     for i in range(len(motions)):
         x, v, e, w, _ = to_mass_center(body, motions[i, :7], motions[i, 7:])
-        for j in range(3):
-            states[i, j], states[i, 3 + j], states[i, 10 + j] = x[j], v[j], w[j]
-        for j in range(4):
-            states[i, 6 + j] = e[j]
+        copy_into(states[i], x + v + e + w)
     return states
 
 
@@ -63,11 +59,7 @@ def joint_of_states(body: Body, states: Table) -> Table:
     """Return qpos and qvel, (n, 13), from the state vectors of C, (n, 13)."""
     motions = np.empty((len(states), 13))
     for i in range(len(states)):
-        y = states[i]
-        e, w = (y[6], y[7], y[8], y[9]), (y[10], y[11], y[12])
-        x, v = of_mass_center(body, (y[0], y[1], y[2]), (y[3], y[4], y[5]), e, w)
-        for j in range(3):
-            motions[i, j], motions[i, 7 + j], motions[i, 10 + j] = x[j], v[j], w[j]
-        for j in range(4):
-            motions[i, 3 + j] = e[j]
+        e, w = four(states[i], 6), three(states[i], 10)
+        x, v = of_mass_center(body, three(states[i], 0), three(states[i], 3), e, w)
+        copy_into(motions[i], x + e + v + w)
     return motions

@@ -1,6 +1,6 @@
 """How either engine writes down its impacts."""
 
-from typing import Annotated, Any, Protocol
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,32 +9,12 @@ from cointoss.models.barriers import energy
 from cointoss.models.body import Body
 from cointoss.models.ending import face_up
 from cointoss.models.geometry import contact_velocity
-from cointoss.models.kernel.arrays import Array, copy_into
+from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.kinds import Rows
 from cointoss.models.kernel.vectors import Vector
 from cointoss.models.records import IMPACT_ROW
 from cointoss.models.state import State
-
-
-class ImpactRow(Protocol):
-    """One impact as `IMPACT_ROW` lays it out, for compiled code; see `cointoss.models.records.Impacts`."""
-
-    time: float
-    face: int
-    impulse: Array
-    point: Array
-    position: Array
-    quaternion: Array
-    velocity_before: Array
-    velocity_after: Array
-    angular_velocity_before: Array
-    angular_velocity_after: Array
-    contact_velocity_before: Array
-    contact_velocity_after: Array
-    energy: float
-    energy_change: float
-
 
 ImpactRows = Annotated[NDArray[Any], Rows(IMPACT_ROW)]
 """Impacts, (n,) of `IMPACT_ROW`."""
@@ -44,7 +24,7 @@ FIRST_ROOM = 64
 
 @compiled
 def write_impact(
-    body: Body, impulse: Vector, point: Vector, before: State, after: State, row: ImpactRow
+    body: Body, impulse: Vector, point: Vector, before: State, after: State, row: np.record
 ) -> None:
     """Write an impact, all but its time, into a row.
 
@@ -54,7 +34,7 @@ def write_impact(
         point: that touches, from B, body frame, (3,) [m].
         before: state at first touch.
         after: state when the floor has acted.
-        row: where it goes.
+        row: where it goes, one `IMPACT_ROW`.
     """
     v, w, v_after, w_after = before.velocity, before.spin, after.velocity, after.spin
     v_A = contact_velocity(body, before.R, v, w, point)

@@ -5,7 +5,7 @@ import numpy as np
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import Body
 from cointoss.models.geometry import lowest_point
-from cointoss.models.kernel.arrays import Table
+from cointoss.models.kernel.arrays import Table, copy_into, four, three
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import add, apply, subtract
 
@@ -22,10 +22,7 @@ def lowest_points(body: Body, positions: Table, quaternions: Table, spins: Table
     """
     points = np.empty((len(positions), 3))
     for i in range(len(positions)):
-        e, w, x = quaternions[i], spins[i], positions[i]
-        R = rotation_matrix((e[0], e[1], e[2], e[3]))
-        A, _ = lowest_point(body, R[2], (w[0], w[1], w[2]))
-        place = add((x[0], x[1], x[2]), apply(R, subtract(A, body.center)))
-        for j in range(3):
-            points[i, j] = place[j]
+        R = rotation_matrix(four(quaternions[i], 0))
+        A, _ = lowest_point(body, R[2], three(spins[i], 0))
+        copy_into(points[i], add(three(positions[i], 0), apply(R, subtract(A, body.center))))
     return points

@@ -14,6 +14,7 @@ import numpy as np
 from cointoss.analytic.air.force import force_and_moment
 from cointoss.analytic.flight.state_vector import (
     attitude_of,
+    motion_scales,
     set_attitude,
     set_position,
     set_spin,
@@ -35,7 +36,7 @@ from cointoss.analytic.numerics.rotation import attitude_near
 from cointoss.models.body import Body
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import Vector, add, apply, apply_transposed, norm, scale, subtract
+from cointoss.models.kernel.vectors import Vector, add, apply, apply_transposed, scale, subtract
 from cointoss.models.state import State
 
 ORDER = 24
@@ -107,8 +108,7 @@ def expand_flight(body: Body, y: Array, longest: float, series: Array) -> tuple[
     write_four(series, 0, _POSITION, _and_none(state.position))
     write_four(series, 0, _VELOCITY, _and_none(state.velocity))
     length = min(longest, _fall_time(body, state))
-    speed = (body.gravity * body.radius) ** 0.5 + norm(state.velocity)
-    spin = (body.gravity / body.radius) ** 0.5 + norm(state.spin)
+    speed, spin = motion_scales(body, y)
     scales = _Scales(1 / (speed * speed), 1 / (body.radius * body.radius), 1 / (spin * spin))
     # All are squares.
     least, square, before, power = _SMALLEST * _SMALLEST, 0.0, 0.0, 1.0

@@ -9,6 +9,7 @@ import numpy as np
 from cointoss.analytic.flight.state_vector import (
     STATE_SIZE,
     attitude_of,
+    motion_scales,
     position_of,
     set_attitude,
     set_position,
@@ -22,7 +23,7 @@ from cointoss.models.attitude import Quaternion
 from cointoss.models.body import Body
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled, inlined
-from cointoss.models.kernel.vectors import Vector, norm
+from cointoss.models.kernel.vectors import Vector
 
 _SAFETY, _SHRINK_MOST, _GROW_MOST = 0.8, 0.2, 6.0
 
@@ -90,8 +91,7 @@ def step_error(body: Body, y: Array, dt: float, stages: Array) -> float:
     The scales: r for positions, √(g r) beside |v| for velocities, 1 for Euler parameters, √(g/r) beside
     |ω| for angular velocities.
     """
-    speed = (body.gravity * body.radius) ** 0.5 + norm(velocity_of(y))
-    spin = (body.gravity / body.radius) ** 0.5 + norm(spin_of(y))
+    speed, spin = motion_scales(body, y)
     sum_5 = _sum_of_squares(_weighted_slope(stages, ERROR_5), body.radius, speed, spin)
     sum_3 = _sum_of_squares(_weighted_slope(stages, ERROR_3), body.radius, speed, spin)
     return combined_error(dt, sum_5, sum_3, STATE_SIZE)

@@ -4,9 +4,10 @@ Position of C (space), velocity of C (space), Euler parameters (body to space), 
 """
 
 from cointoss.models.attitude import Quaternion, norm_of
+from cointoss.models.body import Body
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import Vector
+from cointoss.models.kernel.vectors import Vector, norm
 from cointoss.models.state import State, state
 
 STATE_SIZE = 13
@@ -73,8 +74,15 @@ def set_spin(y: Array, w: Vector) -> None:
 
 
 @compiled
+def motion_scales(body: Body, y: Array) -> tuple[float, float]:
+    """Return the scales of velocities, √(g r) + |v| [m/s], and spins, √(g/r) + |ω| [rad/s], in state y."""
+    speed = (body.gravity * body.radius) ** 0.5 + norm(velocity_of(y))
+    return speed, (body.gravity / body.radius) ** 0.5 + norm(spin_of(y))
+
+
+@compiled
 def normalise(y: Array) -> None:
     """Bring the Euler parameters of the state y back to norm 1."""
-    norm = norm_of(attitude_of(y))
+    size = norm_of(attitude_of(y))
     for i in range(6, 10):
-        y[i] /= norm
+        y[i] /= size

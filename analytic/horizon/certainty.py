@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.events import Started, TossEnd, toss_coin
-from cointoss.analytic.flight.state_vector import STATE_SIZE, normalise, spin_of, velocity_of
+from cointoss.analytic.flight.state_vector import STATE_SIZE, motion_scales, normalise
 from cointoss.analytic.horizon.horizon import Horizon
 from cointoss.analytic.numerics.tolerances import CONTACT_STEP_ERROR
 from cointoss.analytic.settings import ContactLimits
@@ -21,7 +21,6 @@ from cointoss.models.body import Body, Rules, is_to_be_caught, with_budgets
 from cointoss.models.geometry import FLAT_SINE, tilt_sine_of
 from cointoss.models.impact_row import FIRST_ROOM, ImpactRows
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import norm
 from cointoss.models.records import IMPACT_ROW, Array, Ending, Outcome
 
 FAR = 30.0
@@ -90,12 +89,8 @@ def start_of(rules: Rules, rows: NDArray[Any], started: Started, horizon: Horizo
 @compiled
 def _scales(body: Body, y: Array) -> Array:
     """Return the scales of a state's components from the height on, (11,)."""
-    scales = np.ones(STATE_SIZE - _FIRST)
-    scales[0] = body.radius
-    for i in range(3):
-        scales[1 + i] = (body.gravity * body.radius) ** 0.5 + norm(velocity_of(y))
-        scales[8 + i] = (body.gravity / body.radius) ** 0.5 + norm(spin_of(y))
-    return scales
+    speed, spin = motion_scales(body, y)
+    return np.array((body.radius, speed, speed, speed, 1.0, 1.0, 1.0, 1.0, spin, spin, spin))
 
 
 @compiled

@@ -67,25 +67,22 @@ class Change(NamedTuple):
     """The change of ω [rad/s]."""
 
 
+class RateDerivatives(NamedTuple):
+    """The derivatives of the rates of U and ω, body frame: of what the air does to them, or of all."""
+
+    velocity_by_velocity: Matrix
+    velocity_by_spin: Matrix
+    spin_by_velocity: Matrix
+    spin_by_spin: Matrix
+
+
 class Linear(NamedTuple):
     """What the rate of change of a `Change` depends on at a motion."""
 
     motion: Motion
-    velocity_by_velocity: Matrix
-    velocity_by_spin: Matrix
-    spin_by_velocity: Matrix
-    spin_by_spin: Matrix
+    by: RateDerivatives
     weight: Vector
     """g u [m/s²]."""
-
-
-class AirDerivatives(NamedTuple):
-    """The derivatives of what the air does to the rates of U and ω, body frame."""
-
-    velocity_by_velocity: Matrix
-    velocity_by_spin: Matrix
-    spin_by_velocity: Matrix
-    spin_by_spin: Matrix
 
 
 @compiled
@@ -144,7 +141,7 @@ def _against_gravity(body: Body, state: State) -> Vector:
 
 
 @compiled
-def _step(body: Body, motion: Motion, air: AirDerivatives, dt: float, seen: Array) -> Motion:
+def _step(body: Body, motion: Motion, air: RateDerivatives, dt: float, seen: Array) -> Motion:
     """Carry a motion and its changes, one in each row, (n, 12), through a step of Runge-Kutta's method.
 
     Args:
@@ -192,36 +189,36 @@ def motion_rate(body: Body, motion: Motion) -> Motion:
 @compiled
 def change_rate(at: Linear, change: Change) -> Change:
     """Return the rate of change of a `Change`, each part by its own."""
-    x, dU, turn, dw = change
+    (x, dU, turn, dw), by = change, at.by
     _, U, w = at.motion
+    speeding = add(apply(by.velocity_by_velocity, dU), apply(by.velocity_by_spin, dw))
     return Change(
         add(cross(x, w), add(dU, cross(turn, U))),
-        add(add(apply(at.velocity_by_velocity, dU), apply(at.velocity_by_spin, dw)), cross(turn, at.weight)),
+        add(speeding, cross(turn, at.weight)),
         add(cross(turn, w), dw),
-        add(apply(at.spin_by_velocity, dU), apply(at.spin_by_spin, dw)),
+        add(apply(by.spin_by_velocity, dU), apply(by.spin_by_spin, dw)),
     )
 
 
 @compiled
-def _linear_at(body: Body, motion: Motion, air: AirDerivatives) -> Linear:
+def _linear_at(body: Body, motion: Motion, air: RateDerivatives) -> Linear:
     """Return the equations at a motion; in linear air the derivatives `air` are the same at every one."""
     return _linear(body, motion, air if body.air.exponent is None else _air_at(body, motion))
 
 
 @compiled
-def _linear(body: Body, motion: Motion, air: AirDerivatives) -> Linear:
+def _linear(body: Body, motion: Motion, air: RateDerivatives) -> Linear:
     """Return the equations at a motion, with the air there."""
     u, U, w = motion
     J = body.inertia
     gyroscopic = _minus(multiply(_crossing(w), J), _crossing(apply(J, w)))
-    return Linear(
-        motion,
+    by = RateDerivatives(
         _minus(air.velocity_by_velocity, _crossing(w)),
         _minus(air.velocity_by_spin, _crossing(scale(-1.0, U))),
         air.spin_by_velocity,
         _minus(air.spin_by_spin, multiply(body.inertia_inverse, gyroscopic)),
-        scale(whole_gravity(body), u),
     )
+    return Linear(motion, by, scale(whole_gravity(body), u))
 
 
 @compiled
@@ -236,13 +233,13 @@ def _minus(A: Matrix, B: Matrix) -> Matrix:
 
 
 @compiled
-def _air_at(body: Body, motion: Motion) -> AirDerivatives:
+def _air_at(body: Body, motion: Motion) -> RateDerivatives:
     """Return the derivatives of what the air does at a motion."""
     jacobian = np.empty((6, 6))
     write_jacobian(body, motion.velocity, motion.spin, jacobian)
     part, J_inverse = 1 / body.mass, body.inertia_inverse
     by_v, by_w = _block(jacobian, 0, 0), _block(jacobian, 0, 3)
-    return AirDerivatives(
+    return RateDerivatives(
         (scale(part, by_v[0]), scale(part, by_v[1]), scale(part, by_v[2])),
         (scale(part, by_w[0]), scale(part, by_w[1]), scale(part, by_w[2])),
         multiply(J_inverse, _block(jacobian, 3, 0)),
@@ -271,7 +268,7 @@ def longest_step(turned: float, accuracy: float) -> float:
 
 
 @compiled
-def fastest(body: Body, motion: Motion, air: AirDerivatives) -> float:
+def fastest(body: Body, motion: Motion, air: RateDerivatives) -> float:
     """Return the fastest rate of a motion: turning |ω| or wobbling |J ω|/J_ξ, and the air's [1/s]."""
     J_inverse, w = body.inertia_inverse, motion.spin
     easiest = max(J_inverse[0][0], J_inverse[1][1], J_inverse[2][2])

@@ -14,13 +14,13 @@ from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.events import Started
 from cointoss.analytic.flight.state_vector import (
     STATE_SIZE,
+    motion_scales,
     set_attitude,
     set_position,
     set_spin,
     set_velocity,
     spin_of,
     state_of,
-    velocity_of,
 )
 from cointoss.analytic.flight.turning import turns_in_closed_form
 from cointoss.analytic.horizon.flight_tangent import COARSE, flight_tangent, steps_of_tangent
@@ -196,9 +196,7 @@ def _write_made(
         errors: table of error vectors.
     """
     for y, first in ((start, _AT_START), (end, _AT_END)):
-        height = max(abs(y[2]), body.radius)
-        speed = (body.gravity * body.radius) ** 0.5 + norm(velocity_of(y))
-        spin = (body.gravity / body.radius) ** 0.5 + norm(spin_of(y))
+        height, (speed, spin) = max(abs(y[2]), body.radius), motion_scales(body, y)
         for j in range(_TIME):
             component = _FIRST + j
             scale = height if j == 0 else speed if component < 6 else spin
@@ -246,8 +244,7 @@ def _strike_errors(touch: TouchDerivatives, errors: Array) -> None:
     """Carry all errors through the impact."""
     before = np.empty(_TIME)
     for row in errors:
-        for k in range(_TIME):
-            before[k] = row[k]
+        copy_into(before, row)
         for k in range(_TIME):
             after = 0.0
             for j in range(_TIME):

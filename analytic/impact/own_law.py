@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, fields
-from functools import cache
+from functools import cache, partial
 from importlib.util import find_spec
 from inspect import Parameter, signature
 from itertools import cycle, product
@@ -118,10 +118,10 @@ class OwnLaw:
             if told := self.breach(contact) or _difference(S, call_at(address, *contact), agrees):
                 raise ValueError(f"law {self.name}: {told}")
 
-    def __reduce__(self) -> tuple[Callable[..., "OwnLaw"], tuple[dict[str, Any]]]:
+    def __reduce__(self) -> tuple[Callable[[], "OwnLaw"], tuple[()]]:
         """Return the law as another process makes it, at an address of its own."""
         given = {one.name: getattr(self, one.name) for one in fields(self) if one.init}
-        return _made, (given,)
+        return partial(OwnLaw, **given), ()
 
     @property
     def name(self) -> str:
@@ -237,10 +237,6 @@ def residuals(law: OwnLaw, body: Body, rules: Rules, impacts: Impacts) -> Array:
         asked = np.array(law.function(*contact_in(body, rules, R, v, w)))
         missed[i] = np.linalg.norm(S - asked) / np.linalg.norm(S)
     return missed
-
-
-def _made(given: dict[str, Any]) -> OwnLaw:
-    return OwnLaw(**given)
 
 
 def _require_between(name: str, value: object, least: float, most: float) -> None:

@@ -59,20 +59,6 @@ class Addresses(NamedTuple):
     efc_aref: int
 
 
-class JointAddresses(NamedTuple):
-    """Where the arrays of the free joint lie, see `Joint`."""
-
-    qpos: int
-    qvel: int
-    qacc: int
-    qacc_smooth: int
-    qfrc_constraint: int
-    qfrc_actuator: int
-    qfrc_passive: int
-    qfrc_bias: int
-    qfrc_applied: int
-
-
 class Joint(NamedTuple):
     """MuJoCo's arrays of the free joint: qpos, (7,), and the others, (6,)."""
 
@@ -85,6 +71,10 @@ class Joint(NamedTuple):
     qfrc_passive: Array
     qfrc_bias: Array
     qfrc_applied: Array
+
+
+JointAddresses = NamedTuple("JointAddresses", [(name, int) for name in Joint._fields])  # pyright: ignore[reportArgumentType]
+"""Where these arrays lie."""
 
 
 class MujocoCoin(NamedTuple):

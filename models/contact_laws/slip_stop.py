@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.arrays import Array, copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector
 
@@ -134,12 +134,8 @@ def kept_direction(K: Matrix, mu: float, s: tuple[float, float]) -> tuple[tuple[
 @compiled
 def _first_terms(g: float, mu: float, series: Array) -> None:
     """Write the terms of x⁰, of which that of q is 1, g being dq/dp at the stop."""
-    for column in range(COLUMNS):
-        series[BEFORE, column] = 0.0
-    series[BEFORE, Q], series[BEFORE, SQUARE] = 1.0, 1.0
-    series[BEFORE, ALONG] = -mu / g
-    series[BEFORE, NORMAL] = 1 / g
-    series[BEFORE, PATH] = 1 / (2 * g)
+    # In the order of the columns: q; S along s*, across it, and S_z; q² and X.
+    copy_into(series[BEFORE], (1.0, -mu / g, 0.0, 1 / g, 1.0, 1 / (2 * g)))
 
 
 @compiled

@@ -7,7 +7,7 @@ from typing import Any
 
 from llvmlite import binding
 
-from cointoss.models.kernel.build.lowering import LlvmTarget, foreign_to, optimise
+from cointoss.models.kernel.build.lowering import LlvmTarget, foreign_to, optimise, with_parts
 from cointoss.models.kernel.build.queue_code import of_queue
 from cointoss.models.kernel.cuda import KINDS, REGISTERS
 
@@ -37,15 +37,7 @@ def queue_module(
     code: bytes, entry: str, target: LlvmTarget, machine: binding.TargetMachine, *, on_card: bool
 ) -> binding.ModuleRef:
     """Return the module of an engine of which `queue` alone is to be called, optimised for a target."""
-    module = binding.parse_bitcode(code)
-    module.triple, module.data_layout = target.triple, str(machine.target_data)
-    for text in of_queue(entry, on_card=on_card):
-        part = binding.parse_assembly(text)
-        part.triple, part.data_layout = module.triple, module.data_layout
-        module.link_in(part)
-    for each in (*module.functions, *module.global_variables):
-        if not each.is_declaration:
-            each.linkage = "external" if each.name == "queue" else "internal"
+    module = with_parts(code, of_queue(entry, on_card=on_card), ("queue",), target)
     optimise(module, target, machine)
     return module
 

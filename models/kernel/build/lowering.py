@@ -115,18 +115,33 @@ def prepared(code: bytes, target: LlvmTarget, symbols: Collection[str]) -> bytes
         target: for which it is.
         symbols: of the entries that are kept, with what they call.
     """
-    module, machine = binding.parse_bitcode(code), target.machine()
-    module.triple, module.data_layout = target.triple, str(machine.target_data)
-    for text in of_runtime(is_narrow=target.is_narrow):
+    module = with_parts(code, of_runtime(is_narrow=target.is_narrow), (*symbols, *OF_RUNTIME), target)
+    _spare_references(module, target.machine())
+    module.verify()
+    return module.as_bitcode()
+
+
+def with_parts(
+    code: bytes, parts: Iterable[str], shown: Collection[str], target: LlvmTarget
+) -> binding.ModuleRef:
+    """Return a module for a target, with more code in it, of which some functions alone can be called.
+
+    Args:
+        code: the module, as LLVM's bitcode.
+        parts: what is linked in, in LLVM's language.
+        shown: the names of what can be called.
+        target: for which it is.
+    """
+    module = binding.parse_bitcode(code)
+    module.triple, module.data_layout = target.triple, str(target.machine().target_data)
+    for text in parts:
         part = binding.parse_assembly(text)
         part.triple, part.data_layout = module.triple, module.data_layout
         module.link_in(part)
     for each in (*module.functions, *module.global_variables):
         if not each.is_declaration:
-            each.linkage = "external" if each.name in (*symbols, *OF_RUNTIME) else "internal"
-    _spare_references(module, machine)
-    module.verify()
-    return module.as_bitcode()
+            each.linkage = "external" if each.name in shown else "internal"
+    return module
 
 
 def object_code(code: bytes, target: LlvmTarget, symbols: Mapping[str, str]) -> bytes:
