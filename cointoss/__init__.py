@@ -69,8 +69,6 @@ if TYPE_CHECKING:
 
 _PACKAGES = ("models", "analytic", "coin_mj", "compare")
 _HOMES = homes_of(__file__)
-_OF_DATASETS = ("basin", "read_map", "shares", "toss_many")
-"""The functions whose datasets have `.cointoss`."""
 
 # In a checkout the four folders lie beside this one, and links lead to them. Where a system or an archive has
 # lost the links, they are found there all the same.
@@ -105,8 +103,8 @@ def __getattr__(name: str) -> Any:
         return [*_PACKAGES, *_HOMES]
     if name == "__version__":
         return import_module("cointoss.models.distribution").versions_of(["cointoss"])["cointoss"]
-    if name in _OF_DATASETS:
-        from cointoss.compare import accessor as accessor  # registers itself at xarray
+    if name in ("basin", "read_map", "shares", "toss_many"):  # whose datasets have `.cointoss`
+        from cointoss.compare import accessor as accessor
     if name in _PACKAGES:
         return import_module(f"cointoss.{name}")
     return brought(_HOMES, name, __name__)

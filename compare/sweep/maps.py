@@ -240,7 +240,8 @@ def settings_of(engine: Engine, found: Mapping[str, Any]) -> EngineSettings:
     settings: Any = engine.package.MANY
     chosen = {item.name for item in fields(settings) if item.init}
     given = {name: value for name, value in found.items() if name in chosen}
-    for name, value in given.items():
-        if isinstance(value, int) and value > MOST_STEPS:
-            raise ValueError(f"{name} = {value}")
+    if many := [
+        f"{name} = {one}" for name, one in given.items() if isinstance(one, int) and one > MOST_STEPS
+    ]:
+        raise ValueError(many[0])
     return replace(settings, **given)

@@ -3,9 +3,9 @@
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.font_manager import FontProperties, findfont, get_font
 
@@ -23,11 +23,8 @@ from cointoss.compare.sweep.maps import after_of, axes_of, name_of, outcomes_in,
 from cointoss.models.answers import NOT_TOSSED
 from cointoss.models.palette import COLORS
 
-if TYPE_CHECKING:
-    import xarray as xr
 
-
-def png_of(made: "Sequence[xr.Dataset]", style: PictureStyle) -> bytes:
+def png_of(made: Sequence[xr.Dataset], style: PictureStyle) -> bytes:
     """Draw one map, or those of both engines and where they differ, with the numbers of their agreement.
 
     Args:
@@ -51,7 +48,7 @@ def png_of(made: "Sequence[xr.Dataset]", style: PictureStyle) -> bytes:
     return picture_bytes(figure, dpi=style.dpi)
 
 
-def section(made: "Sequence[xr.Dataset]", style: PictureStyle, command: str) -> MapSection:
+def section(made: Sequence[xr.Dataset], style: PictureStyle, command: str) -> MapSection:
     """Return what a report shows of the maps of both engines.
 
     Args:
@@ -77,7 +74,7 @@ def section(made: "Sequence[xr.Dataset]", style: PictureStyle, command: str) -> 
     )
 
 
-def _title(made: "xr.Dataset") -> str:
+def _title(made: xr.Dataset) -> str:
     """Return the title of a map, with what its font has; a file's name may hold anything."""
     glyphs = get_font(findfont(FontProperties())).get_charmap()
     after = after_of(made)
@@ -85,7 +82,7 @@ def _title(made: "xr.Dataset") -> str:
     return "".join(char if ord(char) in glyphs else "?" for char in title_of(made) + shown)
 
 
-def plot_map(made: "xr.Dataset", ax: Axes | None, layer: str, palette: str, *, boundaries: bool) -> Axes:
+def plot_map(made: xr.Dataset, ax: Axes | None, layer: str, palette: str, *, boundaries: bool) -> Axes:
     """Draw a map into axes; see `cointoss.compare.accessor.Tosses.plot`.
 
     Raises:
@@ -126,6 +123,6 @@ def _drawn(axis: Axis) -> picture.MapAxis:
     return picture.MapAxis(name=axis.word, unit=axis.printed_unit, start=axis.start, stop=axis.stop)
 
 
-def _margins(made: "xr.Dataset") -> picture.MapMargins:
+def _margins(made: xr.Dataset) -> picture.MapMargins:
     quantity = quantity_of(made.attrs["margin_along"])
     return picture.MapMargins(made["margin"].values, quantity.name, quantity.unit, most=quantity.factor)

@@ -1,6 +1,6 @@
 """The words of a dataset and the codes that stand for them in files."""
 
-from collections.abc import Hashable, Mapping
+from collections.abc import Hashable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -38,10 +38,10 @@ def codes_of(name: str, words: NDArray[Any]) -> NDArray[Any]:
 
 
 def in_words(dataset: "xr.Dataset") -> "xr.Dataset":
-    """Return a dataset whose codes are words, those of coordinates too."""
+    """Return a dataset whose codes are words, those of coordinates too; attributes explain no codes then."""
     new: dict[Hashable, Any] = {
-        name: (dataset[name].dims, words_of(name, dataset[name].values), _named(COLUMNS[name].attributes))
-        for name in WORDED
+        name: (dataset[name].dims, words_of(name, dataset[name].values), {"long_name": about["long_name"]})
+        for name, about in ((name, COLUMNS[name].attributes) for name in WORDED)
         if name in dataset
     }
     if (certain := dataset.get("outcome_certain")) is not None:
@@ -50,10 +50,5 @@ def in_words(dataset: "xr.Dataset") -> "xr.Dataset":
         if "flag_values" in one.attrs and one.dtype.kind in "iuf":
             known = dict(zip(one.attrs["flag_values"], one.attrs["flag_meanings"].split(), strict=True))
             words = np.array([known[int(code)] for code in one.values.ravel()]).reshape(one.shape)
-            new[name] = (one.dims, words, _named(one.attrs))
+            new[name] = (one.dims, words, {"long_name": one.attrs["long_name"]})
     return dataset.assign(new)
-
-
-def _named(attributes: Mapping[Any, Any]) -> dict[str, Any]:
-    """Return the attributes of words, without those that explain the codes."""
-    return {"long_name": attributes["long_name"]}
