@@ -1,10 +1,10 @@
 """Draw the releases of a plan, toss them and count how they end, until enough is known."""
 
+import itertools
 import math
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
-from heapq import heapify, heappop, heappush
 from itertools import chain, islice, zip_longest
 from typing import NamedTuple
 
@@ -136,16 +136,17 @@ def _width(met: int, tosses: int) -> float:
 
 
 def wanted(counts: list[Count]) -> Iterator[Block]:
-    """Yield the blocks to toss next, those of the setting with the fewest first, until about enough are
-    tossed."""
-    queue = [(one.blocks, setting) for setting, one in enumerate(counts) if not one.is_enough]
-    heapify(queue)
-    while queue:
-        number, setting = heappop(queue)
-        one = counts[setting]
-        if not one.is_enough and number * one.size < max(one.needed, one.tosses + 1):
-            yield Block(setting, number)
-            heappush(queue, (number + 1, setting))
+    """Yield the blocks to toss next, those with the lowest number first, until about enough are tossed."""
+    begun = {one: (setting, one.blocks) for setting, one in enumerate(counts) if not one.is_enough}
+    for number in itertools.count(min((blocks for _, blocks in begun.values()), default=0)):
+        left = [
+            setting
+            for one, (setting, blocks) in begun.items()
+            if number >= blocks and not one.is_enough and number * one.size < max(one.needed, one.tosses + 1)
+        ]
+        if not left:
+            return
+        yield from (Block(setting, number) for setting in left)
 
 
 def counting(plan: Plan, tosser: Tosser = toss_here) -> Iterator[Counts]:
