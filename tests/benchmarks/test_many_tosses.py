@@ -101,7 +101,7 @@ def test_many_tosses(benchmark, capsys, monkeypatch, air, cores):
 def test_few_gap_evaluations_find_a_touch(capsys, air, most):
     evaluations, flights = 0, 0
     for case in family(40, air):
-        for start in run(case.body, case.rules, state_at_release(case.release)).start_states[:-1]:
+        for start in run(case.body, case.rules, state_at_release(case.release)).started.states[:-1]:
             evaluations += fly(case.body, start.copy(), 10.0, False).evaluations
             flights += 1
     assert evaluations < most * flights

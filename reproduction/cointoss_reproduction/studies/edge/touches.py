@@ -75,5 +75,5 @@ def way_to_rest(kind: EdgeClass, count: int) -> Array:
     logs = [run(kind.scenario.body, kind.scenario.rules, state) for state in kind.starts(count)]
     ends = [(log, log.rows[-1]) for log in logs if log.outcome == Outcome.EDGE]
     times = [log.end_time - last["time"] for log, last in ends]
-    ways = [np.linalg.norm(log.start_states[-1][:2] - last["position"][:2]) for log, last in ends]
+    ways = [np.linalg.norm(log.started.states[-1][:2] - last["position"][:2]) for log, last in ends]
     return np.array([times, ways], dtype=float)

@@ -167,9 +167,7 @@ def followed(found: Boundary, place: float) -> tuple[Array, Standing]:
         body=body,
         friction=FloorFriction(0.0),
         contact_tolerance=SETTINGS.contact_tolerance,
-        start_times=log.start_times,
-        start_states=log.start_states,
-        modes=log.modes,
+        started=log.started,
     )
     times = np.concatenate([np.arange(start, stop, SAMPLED) for start, stop in log.contacts] or [np.empty(0)])
     states = path.sample(times)

@@ -93,8 +93,8 @@ def unasked(floor: bool, others: int = 8_000) -> dict[str, int]:
         for test in ("paper", "rigorous")
     )
     standing = starts[(whole.outcome == Outcome.EDGE) & (stopped.ending != Ending.PAPER)]
-    later = (run(body, rules, start, SETTINGS, AT_REST).later for start in standing)
-    ends = [path.states[-1] for path in later if path.modes[-2] == Mode.UPRIGHT]
+    paths = (run(body, rules, start, SETTINGS, AT_REST).path for start in standing)
+    ends = [path.states[-1] for path in paths if path.modes[-2] == Mode.UPRIGHT]
     below = sum(
         energy(body, y[2], tuple(y[3:6]), tuple(y[10:])) < body.mass * body.gravity * body.radius
         for y in ends
@@ -114,13 +114,11 @@ def turns_over(body: Body, rules: Rules, start: Array, named: int, time: float, 
         body=body,
         friction=FloorFriction(rules.friction),
         contact_tolerance=SETTINGS.contact_tolerance,
-        start_times=toss.start_times,
-        start_states=toss.start_states,
-        modes=toss.modes,
+        started=toss.started,
     )
-    starts = toss.start_times[toss.start_times > time]
+    starts = toss.started.times[toss.started.times > time]
     at = starts if body.thickness > 0 else np.union1d(starts, np.arange(time, toss.end_time, STEP))
-    modes = toss.modes[np.searchsorted(toss.start_times, at, side="right") - 1]
+    modes = toss.started.modes[np.searchsorted(toss.started.times, at, side="right") - 1]
     normals = path.sample(at[~np.isin(modes, (Mode.FLIGHT, Mode.UPRIGHT, Mode.ENDED))]).normal
     return bool(np.any(SIGNS[named] * normals[:, 2] < 0))
 
