@@ -11,7 +11,7 @@ from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.entries import certainty_of, floor_forces, force_and_moment, sample_pieces
 from cointoss.analytic.events import Started
-from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
+from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, state_of
 from cointoss.analytic.horizon.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR
 from cointoss.analytic.impact.own_law import OwnLaw, contact_in, residuals, rules_by
 from cointoss.analytic.runs import EventLog, horizon_of, later_part, other_outcome, run
@@ -111,7 +111,7 @@ def _toss(
 ) -> Toss:
     body, start = scenario.body, state_at_release(scenario.release)
     answer = run(body, rules, start, settings, scenario.ending.until, so_far)
-    impacts, end = Impacts.from_rows(answer.rows), answer.started.states[-1]
+    impacts, end = Impacts.from_rows(answer.rows), state_of(answer.started.states[-1])
     horizon, contacts = horizon_of(body, rules, answer), answer.contacts
     certainty = certainty_of(body, rules, answer.rows, answer.started, answer.verdict, horizon)
     before_contact = np.sum(impacts.time < contacts[0, 0]) if len(contacts) else len(impacts)
@@ -141,8 +141,14 @@ def _toss(
             Setting(name="error of a step carried to the horizon: of the attitude", value=TURN_ERROR),
             Setting(name="part of these errors in a step in closed form", value=CLOSED_FORM),
             Setting(name="safety factor of the horizon", value=SAFETY),
-            Setting(name="energy at the end", value=_energy(body, end), unit="J"),
-            Setting(name="energy of the lowest pass to the other face", value=_barrier(body, end), unit="J"),
+            Setting(
+                name="energy at the end",
+                value=energy(body, end.position[2], end.velocity, end.spin),
+                unit="J",
+            ),
+            Setting(
+                name="energy of the lowest pass to the other face", value=barrier(body, end.R[2][2]), unit="J"
+            ),
             *measurements(
                 scenario,
                 impacts,
@@ -198,11 +204,3 @@ def _in_contact(body: Body, started: Started) -> InContact:
     stretches = at_both_ends(stays[:-1])
     found = np.concatenate([gaps(body, each) for each in stretches])
     return InContact(stretches, at_both_ends(lands), found)
-
-
-def _energy(body: Body, y: Array) -> float:
-    return energy(body, position_of(y)[2], velocity_of(y), spin_of(y))
-
-
-def _barrier(body: Body, y: Array) -> float:
-    return barrier(body, rotation_matrix(attitude_of(y))[2][2])
