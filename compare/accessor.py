@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.maps import field_along, untrusted_in
+from cointoss.compare.sweep.maps import as_map, field_along, untrusted_in
 from cointoss.compare.sweep.words import codes_of, in_words, words_of
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
@@ -173,7 +173,7 @@ class Tosses:
         """
         from cointoss.compare.explorer.static import explore  # loads the film's
 
-        return explore(self._dataset)
+        return explore(as_map(self._dataset))
 
     def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> Path:
         """Write a map as `cointoss basin` does: `read_map`, `cointoss explore` and `--resume` take it.

@@ -17,7 +17,7 @@ from cointoss.compare.sweep.batch import Batch, Varied
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.layout import is_untrusted, map_layers, trust_layer
 from cointoss.compare.sweep.pieces import Columns, How
-from cointoss.compare.sweep.words import codes_of
+from cointoss.compare.sweep.words import codes_of, in_codes
 from cointoss.models.answers import NOT_TOSSED, REFUSED
 from cointoss.models.devices import Device
 from cointoss.models.processor import Processor
@@ -130,14 +130,26 @@ def map_of(batch: Batch, how: How, arrays: Columns, name: str) -> "xr.Dataset":
     return xarray.Dataset(layers, batch.coordinates, about)
 
 
+def as_map(dataset: "xr.Dataset") -> "xr.Dataset":
+    """Return tosses over two fields as a map, along y and x and with a map's attributes; a map as it is.
+
+    Raises:
+        SweepError: for another dataset.
+    """
+    batch, how = asked_of(dataset)
+    if "stride" in dataset.attrs:
+        return dataset
+    return map_of(batch, how, layers_in(dataset), dataset.attrs.get("name", ""))
+
+
 def layers_in(dataset: "xr.Dataset") -> Columns:
     """Return the arrays that a map keeps on disk, by name, of a dataset in words or in codes.
 
     Raises:
         SweepError: for what is no map.
     """
-    found = {name: codes_of(name, dataset[name].values) for name in map_layers(asked_of(dataset)[1])}
-    return {**found, "outcome": outcomes_in(dataset)}
+    names, coded = map_layers(asked_of(dataset)[1]), in_codes(dataset)
+    return {**{name: coded[name].values for name in names}, "outcome": outcomes_in(dataset)}
 
 
 def outcomes_in(dataset: "xr.Dataset") -> NDArray[np.int8]:

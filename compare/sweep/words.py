@@ -37,6 +37,17 @@ def codes_of(name: str, words: NDArray[Any]) -> NDArray[Any]:
     return codes[inverse].reshape(words.shape)
 
 
+def in_codes(dataset: "xr.Dataset") -> "xr.Dataset":
+    """Return a dataset whose words are codes, which CF's attributes `flag_values` explain."""
+    return dataset.assign(
+        {
+            name: (dataset[name].dims, codes_of(name, dataset[name].values), column.attributes)
+            for name, column in COLUMNS.items()
+            if name in dataset
+        }
+    )
+
+
 def in_words(dataset: "xr.Dataset") -> "xr.Dataset":
     """Return a dataset whose codes are words, those of coordinates too; attributes explain no codes then."""
     new: dict[Hashable, Any] = {

@@ -12,7 +12,8 @@ from matplotlib.figure import Figure
 
 import cointoss
 from cointoss.compare.sweep import pieces
-from cointoss.compare.sweep.maps import axes_of
+from cointoss.compare.sweep.maps import as_map, axes_of
+from cointoss.compare.sweep.words import in_words
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
 from tests.helpers.command_line import cointoss as command
@@ -56,6 +57,8 @@ def test_a_map_is_two_axes_of_the_verb(trust, after, chi):
     assert len(known) == 1 + bool(trust)
     assert all(np.array_equal(found[name].values, due[name].values) for name in known)
     assert axes_of(due) == axes_of(found)
+    if after is None:  # a dataset of the verb is the same map
+        assert in_words(as_map(due)).equals(found)
     if trust:
         trusted = due.outcome_certain if after is None else (due.trusted_impacts > after) & reached
         assert np.array_equal(found.cointoss.untrusted, ~trusted.values)
