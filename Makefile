@@ -192,12 +192,12 @@ opengl:
 	  || echo "The OpenGL libraries could not be installed; the report will have no video." >&2; \
 	fi
 
-# The tests of the explorer's page drive a headless Chromium.
+# The tests of the pages drive a headless Chromium.
 chromium: | opengl
 	@if [ "$$(uname)" = Linux ] && ! command -v chromium >/dev/null \
 	  && [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
 	  $(APT) chromium \
-	  || echo "Chromium could not be installed; the tests of the explorer's page will fail." >&2; \
+	  || echo "Chromium could not be installed; the tests of the pages will fail." >&2; \
 	fi
 
 # The site's map is looked at in a headless Firefox, too.

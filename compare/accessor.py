@@ -162,16 +162,17 @@ class Tosses:
     def page(self) -> "Frame":
         """Return what a notebook shows as the page of `cointoss explore --static`: pixels can be clicked.
 
-        Both engines toss a grid of the pixels first. The analytic engine tosses any other pixel in the
-        page, where the package carries it for a browser; of a large map every second, third, ... is shown.
+        MuJoCo tosses a grid of the pixels first, and the analytic engine any pixel in the page; of a large
+        map every second, third, ... is shown.
 
         Returns:
             A frame, whose `page` is the HTML of a page that needs no other file and no network.
 
         Raises:
             SweepError: for tosses that are not over two fields.
+            UnusableEngineError: where the engine for a browser was not built.
         """
-        from cointoss.compare.explorer.static import explore  # loads the film's
+        from cointoss.compare.lab.static import explore  # loads the film's
 
         return explore(as_map(self._dataset))
 

@@ -101,6 +101,6 @@ def map_path(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def server(map_path):
-    """The explorer's server of that map."""
-    with serving(map_path) as explorer:
-        yield explorer
+    """The lab's server of that map."""
+    with serving(map_path) as lab:
+        yield lab

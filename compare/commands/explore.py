@@ -34,16 +34,16 @@ class Page(ServedPage):
 def explore(map_path: Path, asked: Page) -> None:
     """Show a map in the browser: click a pixel, see both engines toss it.
 
-    MAP.zarr is a map that cointoss basin made, whole or in part. The page is served to this machine alone,
-    until Ctrl-C.
+    MAP.zarr is a map that cointoss basin made, whole or in part. It is opened in the lab, whose sliders
+    change it. The page is served to this machine alone, until Ctrl-C.
     """
     with plain_errors(str(map_path)):
         if asked.static is not None:
-            from cointoss.compare.explorer.static import write_static
+            from cointoss.compare.lab.static import write_static
 
             write_static(map_path, asked.static)
             click.echo(asked.static)
             return
-        from cointoss.compare.explorer.server import Explorer
+        from cointoss.compare.lab.served import ServedLab
 
-        serve(Explorer(map_path, asked.port or 0, asked.device), asked)
+        serve(ServedLab(map_path, asked.port or 0, asked.device), asked)

@@ -1,13 +1,15 @@
-"""`cointoss lab`: a page in which one tosses coins."""
+"""`cointoss lab`: a page in which one tosses coins, and that opens a map."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import click
 from click.core import ParameterSource
 
 from cointoss.compare.commands.common import SCENARIO_HELP, say
+from cointoss.compare.commands.explore import explore
 from cointoss.compare.commands.names import spared_scenario_argument
 from cointoss.compare.commands.options import only_with, options_of, without
 from cointoss.compare.commands.served import ServedPage, serve
@@ -28,7 +30,18 @@ class LabPage(ServedPage):
     the card where there is one and it is faster."""
 
 
-@click.command(epilog=SCENARIO_HELP)
+class _OfScenarioOrMap(click.Command):
+    """Takes a map in place of a scenario: the command is `explore` then, with its options."""
+
+    def make_context(
+        self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
+    ) -> click.Context:
+        if any(Path(word).suffix == ".zarr" and before != "--out" for before, word in pairwise(["", *args])):
+            return explore.make_context(info_name, args, parent, **extra)
+        return super().make_context(info_name, args, parent, **extra)
+
+
+@click.command(cls=_OfScenarioOrMap, epilog=SCENARIO_HELP)
 @spared_scenario_argument
 @set_option
 @options_of(LabPage, without("device", "out"), only_with("port", "device"), only_with("no_browser", "device"))
@@ -37,10 +50,11 @@ def lab(source: Source, asked: LabPage) -> None:
     """Toss coins in the browser: a map that follows sliders, and each of its tosses.
 
     The page is one file with the analytic engine in it; it needs no server and no network. It begins with
-    SCENARIO, by default with its tour. With --device the page is served, and its map is tossed here.
+    SCENARIO, by default with its tour. With --device the page is served, and its map is tossed here. A
+    MAP.zarr in place of SCENARIO is opened as by cointoss explore, with its options.
     """
-    given = click.get_current_context().get_parameter_source("scenario")
-    is_tour = given is ParameterSource.DEFAULT and not source.settings
+    is_given = click.get_current_context().get_parameter_source("scenario") is not ParameterSource.DEFAULT
+    is_tour = not (is_given or source.settings)
     if asked.device is not None:
         from cointoss.compare.lab.served import ServedLab
 
@@ -53,8 +67,7 @@ def lab(source: Source, asked: LabPage) -> None:
     from cointoss.compare.output.files import write_text
 
     page = lab_page(source.scenario, is_tour=is_tour)
-    target = asked.out or Path(tempfile.mkdtemp(prefix="cointoss-")) / "lab.html"
-    write_text(target, page)
+    write_text(target := asked.out or Path(tempfile.mkdtemp(prefix="cointoss-")) / "lab.html", page)
     click.echo(target)
     if asked.out is None and not webbrowser.open(target.as_uri()):
         say("no browser was found; open the file above in one")

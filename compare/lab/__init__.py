@@ -1,1 +1,1 @@
-"""The lab: a page that tosses coins by itself; imports web and below."""
+"""The lab: a page that tosses coins by itself, and opens maps; imports sweep and below."""

@@ -12,13 +12,22 @@ SERVED_POLICY = f"{ENGINE_POLICY}; connect-src 'self'"
 """The Content-Security-Policy of the page where it is served."""
 
 
-def lab_page(scenario: Scenario, *, is_tour: bool = False, is_served: bool = False) -> str:
+def lab_page(
+    scenario: Scenario,
+    *,
+    is_tour: bool = False,
+    is_served: bool = False,
+    saved: object = False,
+    tosses: object = None,
+) -> str:
     """Return the page, which begins with a scenario.
 
     Args:
         scenario: the first one.
         is_tour: whether the page begins with its tour instead.
         is_served: whether it asks the server that it comes from for its map; else it needs none.
+        saved: a map of that scenario as `saved_map` returns it, or whether the server has one.
+        tosses: some of its pixels, tossed by MuJoCo.
 
     Raises:
         UnusableEngineError: where the engine for a browser was not built.
@@ -27,6 +36,7 @@ def lab_page(scenario: Scenario, *, is_tour: bool = False, is_served: bool = Fal
     if data is None:
         raise UnusableEngineError("engine.wasm: not built, or of other sources; make report builds it")
     files = {**files_of("cointoss.compare.lab"), **engine_scripts()}
-    policy = SERVED_POLICY if is_served else ENGINE_POLICY
-    shown = {**data, "outcomes": shown_outcomes(), "tour": is_tour, "served": is_served}
-    return one_file(files, shown, policy)
+    told = {"tour": is_tour, "served": is_served, "saved": saved, "tosses": tosses}
+    return one_file(
+        files, {**data, "outcomes": shown_outcomes(), **told}, SERVED_POLICY if is_served else ENGINE_POLICY
+    )

@@ -1,1 +1,1 @@
-"""What the report and the explorer share: their scripts, and a toss as these play it; imports engines."""
+"""What the report and the lab share: their scripts, and a toss as these play it; imports engines."""

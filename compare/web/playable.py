@@ -10,7 +10,6 @@ from cointoss.compare.output.style import OUTCOMES
 from cointoss.models.barriers import barrier
 from cointoss.models.certificate import energies
 from cointoss.models.records import Array, Toss
-from cointoss.models.scenario import Scenario
 
 SAMPLES = 1200
 """Samples of a path that is played."""
@@ -23,17 +22,6 @@ def shown_outcomes() -> dict[int, dict[str, str]]:
     return {int(outcome): {"label": str(outcome), "color": color} for outcome, color in OUTCOMES.items()}
 
 
-def coin_of(scenario: Scenario) -> dict[str, Any]:
-    """Return what the coin looks like [m], and the least energy with which it turns over [J]."""
-    body = scenario.body
-    return {
-        "radius": scenario.coin.radius,
-        "thickness": shape_thickness(scenario),
-        "center": list(scenario.coin.center_of_mass),
-        "barrier": min(barrier(body, side) for side in (1.0, -1.0)),
-    }
-
-
 def playable(toss: Toss, samples: int = SAMPLES, most_symbols: int = MOST_SYMBOLS) -> dict[str, Any]:
     """Return a toss as scripts show it: how it ended, its sequence with the horizon of trust, and its path.
 
@@ -44,7 +32,7 @@ def playable(toss: Toss, samples: int = SAMPLES, most_symbols: int = MOST_SYMBOL
         samples: of the path, roughly.
         most_symbols: of the sequence, and times of its touches.
     """
-    is_followed = toss.path_end > toss.end_time
+    is_followed, case = toss.path_end > toss.end_time, toss.scenario
     return {
         "engine": toss.engine,
         "outcome": str(toss.outcome),
@@ -55,7 +43,12 @@ def playable(toss: Toss, samples: int = SAMPLES, most_symbols: int = MOST_SYMBOL
         "times": rounded(toss.impacts.time[:most_symbols], 7),
         "trusted": toss.trusted_impacts,
         "notes": [],
-        "coin": coin_of(toss.scenario),
+        "coin": {
+            "radius": case.coin.radius,
+            "thickness": shape_thickness(case),
+            "center": list(case.coin.center_of_mass),
+            "barrier": min(barrier(case.body, side) for side in (1.0, -1.0)),
+        },
         "path": path_of(toss, samples),
         **({"later_times": rounded(toss.later_times[:most_symbols], 7)} if is_followed else {}),
     }

@@ -1,19 +1,19 @@
-"""The HTTP server of a page: its files, and answers to what it asks, for this machine alone."""
+"""The HTTP server of a page: the page, and answers to what it asks, for this machine alone."""
 
 import errno
 import json
+import re
+import select
+import socket
 import sys
 import threading
 from collections.abc import Callable, Mapping
 from http.server import BaseHTTPRequestHandler
-from io import BytesIO
-from pathlib import Path
 from socketserver import ThreadingTCPServer
 from typing import Any
+from urllib.parse import parse_qsl
 
 from cointoss.compare.output.files import UnwritableError
-from cointoss.compare.web.query import QueryError
-from cointoss.compare.web.turns import Client, in_turn
 from cointoss.models.devices import DeviceError
 from cointoss.models.errors import ScenarioError
 from cointoss.models.records import UnsupportedError
@@ -22,7 +22,6 @@ ADDRESS = "127.0.0.1"
 LONGEST_TARGET = 1500
 """The longest target of a request, in characters: the query for a map of the lab holds a scenario of 54
 numbers."""
-_KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 _HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "Cross-Origin-Resource-Policy": "same-origin",
@@ -30,8 +29,35 @@ _HEADERS = {
     "Cache-Control": "no-store",
 }
 
-Answer = Callable[[str, Client], Any]
-"""Returns what a query asks for, bytes or what JSON has; the client may go meanwhile."""
+Answer = Callable[[str, Callable[[], None]], Any]
+"""Returns what a query asks for, bytes or what JSON has; its second argument gives it up where the client has
+hung up meanwhile."""
+
+
+class QueryError(ValueError):
+    """A query that can't be answered; the message says what is accepted."""
+
+
+def query_of(text: str, forms: Mapping[str, tuple[str, str]]) -> dict[str, str]:
+    """Return what a query says, which has each name once, and values of a form.
+
+    Args:
+        text: of the query.
+        forms: the regular expression of each value and what it accepts in words, by name.
+
+    Raises:
+        QueryError: naming what is accepted.
+    """
+    try:
+        pairs = parse_qsl(text, keep_blank_values=True, strict_parsing=bool(text), max_num_fields=8)
+    except ValueError:
+        raise QueryError("accepted: NAME=VALUE&NAME=VALUE") from None
+    if sorted(name for name, _ in pairs) != sorted(forms):
+        raise QueryError(f"accepted: {', '.join(forms) or 'no query'}, each name once")
+    for name, value in pairs:
+        if not re.fullmatch(forms[name][0], value, re.ASCII):
+            raise QueryError(f"{name}: accepted: {forms[name][1]}")
+    return dict(pairs)
 
 
 class PageServer(ThreadingTCPServer):
@@ -43,22 +69,20 @@ class PageServer(ThreadingTCPServer):
     refusals: tuple[type[Exception], ...] = (QueryError, ScenarioError, UnsupportedError)
     """What an answer raises for a request that can't be answered."""
 
-    def __init__(
-        self, port: int, files: Mapping[str, bytes], answers: Mapping[str, Answer], policy: str
-    ) -> None:
+    def __init__(self, port: int, page: str, answers: Mapping[str, Answer], policy: str) -> None:
         """Listen.
 
         Args:
             port: 0 for a free one.
-            files: of the page, by their names.
+            page: its HTML, which needs no other file.
             answers: by the path that is asked for, such as "/map"; one at a time is made of each.
             policy: the page's Content-Security-Policy.
 
         Raises:
             UnwritableError: for a port that can't be had.
         """
-        self.files = {f"/{name}": content for name, content in files.items()}
-        self.answers, self.turns = dict(answers), {path: threading.Lock() for path in answers}
+        self.page, self.answers = page.encode(), dict(answers)
+        self.turns = {path: threading.Lock() for path in answers}
         more = "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
         self.headers = {"Content-Security-Policy": f"{policy}; {more}", **_HEADERS}
         try:
@@ -68,9 +92,8 @@ class PageServer(ThreadingTCPServer):
             accepted = "accepted: another port, or no `port` for one that is free"
             raise UnwritableError(f"`port` {port}: {why}; {accepted}") from None
         self.port: int = self.server_address[1]
-        self.hosts = {f"{name}:{self.port}" for name in (ADDRESS, "localhost")}
-        if self.port == 80:
-            self.hosts |= {ADDRESS, "localhost"}
+        # Browsers leave out the port of HTTP.
+        self.hosts = {f"{name}:{self.port}".removesuffix(":80") for name in (ADDRESS, "localhost")}
 
     @property
     def url(self) -> str:
@@ -91,11 +114,6 @@ class PageRequest(BaseHTTPRequestHandler):
     timeout = 30
     """The longest that a client may take to send its request [s]."""
 
-    def setup(self) -> None:
-        """Know the client."""
-        super().setup()
-        self._client = Client(self.connection, self.protocol_version.encode())
-
     def parse_request(self) -> bool:
         """Return whether the request can be answered; if not, refuse it here."""
         if not super().parse_request():
@@ -114,17 +132,18 @@ class PageRequest(BaseHTTPRequestHandler):
 
     def do_GET(self) -> None:
         """Answer."""
-        path, mark, query = self.path.partition("?")
-        name = "/index.html" if path == "/" else path
+        path, _, query = self.path.partition("?")
         try:
             if path in self.server.answers:
-                with in_turn(self.server.turns[path], self._client):
-                    answer = self.server.answers[path](query, self._client)
-                body = answer if isinstance(answer, bytes) else json.dumps(answer, allow_nan=False).encode()
-                kind = "application/octet-stream" if isinstance(answer, bytes) else "application/json"
-                self._send(200, kind, body)
-            elif name in self.server.files and not mark:
-                self._send(200, _KINDS.get(Path(name).suffix, "text/plain"), self.server.files[name])
+                with self.server.turns[path]:
+                    self._require_client()
+                    answer = self.server.answers[path](query, self._require_client)
+                if isinstance(answer, bytes):
+                    self._send(200, "application/octet-stream", answer)
+                else:
+                    self._send(200, "application/json", json.dumps(answer, allow_nan=False).encode())
+            elif self.path in ("/", "/index.html"):
+                self._send(200, "text/html; charset=utf-8", self.server.page)
             else:
                 self._refuse(404, "accepted: /")
         except self.server.refusals as error:
@@ -132,22 +151,26 @@ class PageRequest(BaseHTTPRequestHandler):
         except DeviceError as error:
             self._refuse(503, str(error))
 
+    def _require_client(self) -> None:
+        """Give up what is made for a client that has hung up.
+
+        Raises:
+            OSError: where it has.
+        """
+        if select.select([self.connection], [], [], 0)[0] and not self.connection.recv(1, socket.MSG_PEEK):
+            raise ConnectionAbortedError("the client has hung up")
+
     def _refuse(self, status: int, message: str) -> None:
-        self._send(status, "text/plain", f"{message}\n".encode())
+        self._send(status, "text/plain; charset=utf-8", f"{message}\n".encode())
 
     def _send(self, status: int, kind: str, body: bytes) -> None:
         self.close_connection = True
         self.send_response(status)
-        for name, value in self.server.headers.items():
+        about = {"Content-Type": kind, "Content-Length": str(len(body)), "Allow": "GET"}
+        for name, value in (self.server.headers | about).items():
             self.send_header(name, value)
-        if status == 405:
-            self.send_header("Allow", "GET")
-        self.send_header("Content-Type", f"{kind}; charset=utf-8" if kind.startswith("text/") else kind)
-        self.send_header("Content-Length", str(len(body)))
-        to_client, self.wfile = self.wfile, BytesIO()
         self.end_headers()
-        head, self.wfile = self.wfile.getvalue(), to_client
-        self.wfile.write(self._client.left_of(head) + body)
+        self.wfile.write(body)
 
     def send_error(self, code: int, *_: object, **__: object) -> None:
         """Refuse what is no HTTP, in one line."""

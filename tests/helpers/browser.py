@@ -29,13 +29,13 @@ OPTIONS = (
 # Chromium reads its orders from descriptor 3, and answers to 4.
 LAUNCH = "import os, sys; r, w, *c = sys.argv[1:]; os.dup2(int(r), 3); os.dup2(int(w), 4); os.execv(c[0], c)"
 READY = "document.body?.dataset.ready === 'true'"
-"""A page of the explorer says that it is ready."""
+"""A page of the lab says that it is ready."""
 
 
 def chromium() -> str:
     """Return the path of Chromium; `make test` installs it."""
     found = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-    assert found, "the tests of the explorer need Chromium; on Debian or Ubuntu: apt-get install chromium"
+    assert found, "the tests of the pages need Chromium; on Debian or Ubuntu: apt-get install chromium"
     return found
 
 
@@ -135,7 +135,7 @@ class Page:
     ) -> None:
         """Load an address in a window of a size, in light or dark, with motion or the least of it.
 
-        It is loaded when the expression `ready` is true, by default when a page of the explorer says so.
+        It is loaded when the expression `ready` is true, by default when a page of the lab says so.
         """
         self.call(
             "Emulation.setDeviceMetricsOverride",

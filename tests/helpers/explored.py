@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from cointoss.compare.explorer.server import Explorer
+from cointoss.compare.lab.served import ServedLab
 from cointoss.compare.web.server import PageServer
 from tests.helpers import basin_runs
 from tests.helpers.command_line import printed
@@ -28,7 +28,7 @@ def small_map(folder: Path, *more: str, size: tuple[int, int] = (24, 18), text: 
 @contextmanager
 def serving(shown: Path | PageServer) -> Iterator[PageServer]:
     """Serve a map, or another page, until the `with` statement ends."""
-    with shown if isinstance(shown, PageServer) else Explorer(shown, 0) as server:
+    with shown if isinstance(shown, PageServer) else ServedLab(shown, 0) as server:
         thread = threading.Thread(target=server.serve_forever, args=(0.05,))
         thread.start()
         try:
@@ -49,7 +49,6 @@ def sent(port: int, request: bytes) -> tuple[int, dict[str, str], bytes]:
     """Send bytes to a server; return its answer's status, headers and body."""
     with socket.create_connection(("127.0.0.1", port), timeout=HANGS) as connection:
         connection.sendall(request)
-        connection.shutdown(socket.SHUT_WR)
         answer = b"".join(iter(lambda: connection.recv(1 << 16), b""))
     head, _, body = answer.partition(b"\r\n\r\n")
     first, *lines = head.decode("latin-1").split("\r\n")

@@ -7,9 +7,7 @@ import numpy as np
 import pytest
 
 import cointoss
-from cointoss import analytic, read_map
-from cointoss.compare.engines import Engine
-from cointoss.compare.explorer import static
+from cointoss import analytic
 from cointoss.models.certificate import energies
 from cointoss.models.errors import ScenarioError
 from cointoss.models.fields import put
@@ -17,7 +15,6 @@ from cointoss.models.records import Outcome
 from cointoss.models.scenario import Scenario
 from tests.helpers.draws import LONG_TRANSIENT, ZLOTY, scenario
 from tests.helpers.engine_page import ENGINE, written
-from tests.helpers.explored import FIELDS, SCENARIO, small_map
 
 LARGEST = 640_000
 """Bytes of the engine, by gzip less than half."""
@@ -284,44 +281,3 @@ def test_a_page_without_workers_tosses_itself(loaded):
         }})()"""
     )
     assert told == [0, str(analytic.toss("fig24a").outcome)]
-
-
-@pytest.mark.parametrize("most", [20_000, 5])
-def test_any_pixel_of_the_explorer_in_a_file_is_tossed_by_the_engine_in_it(page, tmp_path, monkeypatch, most):
-    monkeypatch.setitem(static.MOST_IMPACTS, Engine.ANALYTIC, most)
-    monkeypatch.setattr(static, "TOSSED", (2, 2))
-    target = tmp_path / "map.html"
-    longer = SCENARIO.replace("max_impacts = 4", "max_impacts = 40")
-    static.write_static(small_map(tmp_path, size=(24, 18), text=longer), target)
-    made = read_map(tmp_path / "map.zarr")
-    x, y = float(made[FIELDS[0]].values[3]), float(made[FIELDS[1]].values[9])
-    page.open(f"{target.as_uri()}#x={x}&y={y}")
-    page.wait_for("document.getElementById('outcome').textContent.includes(' impacts in ')")
-    page.wait_for("document.getElementById('outcome').textContent.includes('MuJoCo: tossed only')")
-    case = made.cointoss.scenario.replace("release.angular_velocity.eta", x, "release.position.z", y)
-    toss = analytic.toss(case.replace("ending.max_impacts", min(most, case.rules.max_impacts)))
-    told = page.text("outcome")
-    is_cut = most < case.rules.max_impacts
-    assert f" s. {f'It is shown up to impact {most}.' if is_cut else toss.ending.sentence}" in told
-    assert f"analytic: {toss.outcome} after {len(toss.impacts)} impacts in {toss.end_time:.4f} s." in told
-    assert "MuJoCo: tossed only where there is a dot." in told
-    assert "Any pixel can be tossed" in page.text("about")
-    page.value("document.getElementById('map').focus()")
-    page.press("ArrowRight")
-    page.wait_for(f"location.hash.includes('x={float(made[FIELDS[0]].values[4])}')")
-
-
-def test_any_pixel_is_tossed_in_the_frame_of_a_notebook(page, tmp_path, monkeypatch):
-    monkeypatch.setattr(static, "TOSSED_IN_FRAME", (1, 1))
-    found = read_map(small_map(tmp_path))
-    (tmp_path / "notebook.html").write_text(static.explore(found)._repr_html_(), encoding="utf-8")
-    (frame,) = page.open_frames((tmp_path / "notebook.html").as_uri(), 1)
-    x, y = found[FIELDS[0]].values[11], found[FIELDS[1]].values[9]
-    toss = analytic.toss(found.cointoss.scenario.replace(FIELDS[0], x, FIELDS[1], y))
-    for key in ("Enter", "ArrowLeft"):
-        pressed = f"new KeyboardEvent('keydown', {{ key: '{key}' }})"
-        frame.value(f"document.getElementById('map').dispatchEvent({pressed})")
-    frame.wait_for("document.getElementById('outcome').textContent.includes('MuJoCo: tossed only')")
-    told = frame.text("outcome")
-    assert f"analytic: {toss.outcome} after {len(toss.impacts)} impacts in {toss.end_time:.4f} s." in told
-    assert frame.complaints() == []

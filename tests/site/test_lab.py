@@ -136,22 +136,6 @@ def test_a_click_tosses_a_pixel_and_arrows_step_to_the_next(page, lab_path):
     assert page.value("document.querySelectorAll('#energy polyline').length") == 2
 
 
-def test_the_map_follows_a_slider(page, lab_path):
-    page.open(lab_path.as_uri(), width=420, height=1900)
-    page.wait_for(WHOLE)
-    before = picture(page, "map").copy()
-    slide(page, "floor.restitution", 0.5)
-    page.wait_for("location.hash.includes('floor.restitution=0.5')")
-    page.wait_for(WHOLE)
-    after = picture(page, "map")
-    assert np.mean((before != after).any(axis=2)) > 0.05
-    # A scenario that cannot be is told, and the state stays.
-    page.value(f"document.querySelector('[data-field=\"{HEIGHT}\"]').min = 0")
-    slide(page, HEIGHT, 0.001)
-    page.wait_for("document.getElementById('problem').textContent.includes('release.position.z')")
-    assert float(state(page)[HEIGHT]) == 0.40001
-
-
 def test_a_link_opens_the_same_state_on_another_page(chromium, page, lab_path, tmp_path):
     page.open(lab_path.as_uri(), width=420, height=1900)
     for id_ in ("hand", "trust"):
@@ -303,25 +287,3 @@ def test_a_browser_that_lacks_something_is_told_and_the_page_goes_on(tab, lab_pa
     assert tab.text("problem") == told
     if not told:
         tab.wait_for(f"{WHOLE} && {TOSSED}")
-
-
-def test_the_browser_is_measured(page, lab_path):
-    page.open(lab_path.as_uri())
-    page.value("document.getElementById('measured').open = true; document.getElementById('measure').click()")
-    # The map takes seconds, and minutes where other programs run.
-    for count in (1, 3, 4):
-        page.wait_for(f"document.querySelectorAll('#measurements tr').length >= {count}")
-    page.wait_for("!document.getElementById('measure').disabled")
-    rows = page.value(
-        "[...document.querySelectorAll('#measurements tr')].map((row) => row.children[1].textContent)"
-    )
-    forms = (
-        r"\d+ ms",
-        r"[\d,]+ tosses/s",
-        r"[\d,]+ tosses/s",
-        r"[\d.]+ s",
-        r"[\d.]+ s, [\d,]+ tosses/s",
-        r"[\d.]+ MB",
-    )
-    assert len(rows) == len(forms)
-    assert all(re.fullmatch(form, row) for form, row in zip(forms, rows, strict=True))

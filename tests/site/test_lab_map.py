@@ -129,6 +129,11 @@ def test_pictures_follow_a_slider_and_each_is_whole(tab, lab_path, capsys):
     with capsys.disabled():
         print(f"\n{len(pictures)} pictures in {span / 1000:.1f} s, the first after {first:.0f} ms", end="")
     assert all(pictures)
+    # A scenario that cannot be is told, and the state stays.
+    slider = f"document.querySelector('[data-field=\"{HEIGHT}\"]')"
+    tab.value(f"Object.assign({slider}, {{ min: 0, value: 0.001 }}).dispatchEvent(new Event('input'))")
+    tab.wait_for("document.getElementById('problem').textContent.includes('release.position.z')")
+    assert float(tab.value(f"{slider}.value")) == pytest.approx(0.40001)
     tab.wait_for(WHOLE)
 
 

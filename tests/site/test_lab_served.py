@@ -6,7 +6,7 @@ import cointoss
 from cointoss.compare.lab.served import ServedLab
 from cointoss.models.devices import Device
 from tests.helpers.explored import serving
-from tests.helpers.lab import ADDRESSED, SAVED, TOSSED, WHOLE, go, saved
+from tests.helpers.lab import ADDRESSED, SAVED, go, saved
 
 COIN = (
     "#coin.mass=0.002&coin.radius=0.0125&coin.thickness=0.002&floor.contact=smooth&floor.restitution=0.8"
@@ -50,12 +50,3 @@ def test_the_map_by_the_server_is_that_of_the_page(page, both, served, window):
     assert "not tossed" not in alone
     assert any(address.startswith(f"{served.url}map?") for address in page.asked())
     assert page.text("where") == "on this machine"
-
-
-def test_a_server_that_is_gone_or_refuses_is_told(tab):
-    with serving(ServedLab(cointoss.load("fig24a"), 0, Device.CPU)) as lab:
-        tab.open(lab.url, width=420)
-        tab.wait_for(WHOLE)
-    tab.value("document.getElementById('zoom-in').click()")
-    tab.wait_for("document.getElementById('problem').textContent.includes('is it still running?')")
-    tab.wait_for(TOSSED)

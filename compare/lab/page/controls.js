@@ -35,8 +35,7 @@ export function makeControls(boxes, fields, change) {
   const value = (field) => state.scenario[field] ?? fields[field]?.default ?? 0;
 
   function slider(box, name, unit, low, high, read, write, words = (now) => `${Number(now.toPrecision(4))}${unit && (unit === "°" ? unit : `\u00a0${unit}`)}`) {
-    const label = element("label", "slider"), input = element("input"), output = element("output");
-    Object.assign(input, { type: "range", min: low, max: high, step: "any" });
+    const label = element("label", "slider"), output = element("output"), input = Object.assign(element("input"), { type: "range", min: low, max: high, step: "any" });
     label.append(element("span", "", name), input, output);
     input.addEventListener("input", () => write(Number(input.value)));
     shows.push(() => {
@@ -73,8 +72,7 @@ export function makeControls(boxes, fields, change) {
   }
 
   function tick(box, name, read, write) {
-    const label = element("label", "tick"), input = element("input");
-    input.type = "checkbox";
+    const label = element("label", "tick"), input = Object.assign(element("input"), { type: "checkbox" });
     label.append(input, element("span", "", name));
     input.addEventListener("change", () => write(input.checked));
     shows.push(() => (input.checked = read()));
@@ -82,13 +80,9 @@ export function makeControls(boxes, fields, change) {
     return input;
   }
 
-  function without(...names) {
-    change({ scenario: Object.fromEntries(Object.entries(state.scenario).filter(([field]) => !names.includes(field))) });
-  }
+  const without = (...names) => change({ scenario: Object.fromEntries(Object.entries(state.scenario).filter(([field]) => !names.includes(field))) });
 
-  const presets = element("div", "presets");
-  presets.setAttribute("role", "group");
-  presets.setAttribute("aria-label", "Coins");
+  const presets = Object.assign(element("div", "presets"), { role: "group", ariaLabel: "Coins" });
   for (const [name, coin] of Object.entries(COINS)) {
     const button = Object.assign(element("button"), { type: "button" });
     button.append(coinPicture(coin), element("span", "", name));
@@ -133,10 +127,5 @@ export function makeControls(boxes, fields, change) {
   hair.id = "thinness";
   shows.push(() => (hair.disabled = state.hair === null));
 
-  return {
-    show(now) {
-      state = now;
-      for (const each of shows) each();
-    },
-  };
+  return { show: (now) => ((state = now), shows.forEach((each) => each())) };
 }

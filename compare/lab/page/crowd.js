@@ -1,7 +1,7 @@
 // A hundred coins in 3D, side by side in ten rows, each with a rim of its own colour.
 
 import * as THREE from "./three.module.min.js";
-import { placeIn } from "./sampled.js";
+import { colorOf, dispose, drawOn, light, poseAt } from "./posed.js";
 
 const COLUMNS = 10, APART = 2.7; // between two coins, in radii
 const STEPS = 200, SLANT = 0.55; // times at which the camera knows how high the coins still come; its slant [rad]
@@ -13,16 +13,11 @@ export const hueOf = (i, count) => `hsl(${Math.round((300 * i) / count)}, 85%, 4
 // Returns what shows tosses and draws them at a time. Throws where there is no WebGL.
 export function makeCrowd(canvas) {
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
-  const style = (name) => new THREE.Color(getComputedStyle(document.documentElement).getPropertyValue(name).trim());
-  const pose = new THREE.Object3D(), from = new THREE.Quaternion(), to = new THREE.Quaternion();
-  const center = new THREE.Vector3();
+  const pose = new THREE.Object3D(), center = new THREE.Vector3();
   let tosses = [], parts = [], scene = null, camera = null, view = null;
 
   function show(found) {
-    scene?.traverse(({ geometry, material }) => {
-      geometry?.dispose();
-      material?.dispose();
-    });
+    dispose(scene);
     for (const part of parts) part.dispose();
     tosses = found;
     const { radius: r, thickness } = tosses[0].coin, count = tosses.length;
@@ -36,39 +31,32 @@ export function makeCrowd(canvas) {
     });
     for (let i = 0; i < count; i++) parts[0].setColorAt(i, new THREE.Color(hueOf(i, count)));
     scene = new THREE.Scene();
-    const lamp = new THREE.DirectionalLight("#ffffff", 1.2);
-    lamp.position.set(0.4, -1, 1.6);
     const wide = COLUMNS * APART * r, tops = heightsToCome(tosses), top = tops[0];
-    const floor = new THREE.Mesh(new THREE.PlaneGeometry(1.1 * wide, 1.1 * wide), new THREE.MeshBasicMaterial({ color: style("--floor-dark") }));
+    const floor = new THREE.Mesh(new THREE.PlaneGeometry(1.1 * wide, 1.1 * wide), new THREE.MeshBasicMaterial({ color: colorOf("--floor-dark") }));
     floor.position.z = -0.06 * r;
-    scene.add(new THREE.HemisphereLight("#ffffff", "#cfd6dd", 2.4), lamp, floor, ...parts);
+    light(scene, 2.4, 1.2);
+    scene.add(floor, ...parts);
     camera = new THREE.PerspectiveCamera(32, 1, r, 40 * (wide + top));
     view = { wide, tops, end: Math.max(...tosses.map(({ path }) => path.time.at(-1))), least: 4 * r };
   }
 
   function draw(time) {
-    const { width, height } = canvas.getBoundingClientRect();
-    if (!width || !height || !scene) return;
-    renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
-    renderer.setSize(width, height, false);
-    renderer.setClearColor(style("--sky"), 1);
-    tosses.forEach((toss, i) => place(toss, i, time));
-    for (const part of parts) part.instanceMatrix.needsUpdate = true;
-    aim(width / height, time);
-    renderer.render(scene, camera);
+    if (!scene) return;
+    drawOn(renderer, canvas, (width, height) => {
+      tosses.forEach((toss, i) => place(toss, i, time));
+      for (const part of parts) part.instanceMatrix.needsUpdate = true;
+      aim(width / height, time);
+      renderer.render(scene, camera);
+    });
   }
 
   function place({ path, coin }, i, time) {
-    const { at, part } = placeIn(path.time, time), next = Math.min(at + 1, path.time.length - 1), gap = APART * coin.radius;
-    const mixed = (k) => path.position[3 * at + k] + part * (path.position[3 * next + k] - path.position[3 * at + k]);
-    const turned = (k) => path.quaternion.slice(4 * k, 4 * k + 4);
-    const [e0, e1, e2, e3] = turned(at), [f0, f1, f2, f3] = turned(next);
-    from.set(e1, e2, e3, e0);
-    pose.quaternion.copy(from.slerp(to.set(f1, f2, f3, f0), part));
+    const { position: { x, y, z }, attitude } = poseAt(path, time), gap = APART * coin.radius;
+    pose.quaternion.copy(attitude);
     // The path is that of the mass centre.
     center.set(...coin.center.map((each) => -each)).applyQuaternion(pose.quaternion);
     const column = (i % COLUMNS) - (COLUMNS - 1) / 2, row = Math.floor(i / COLUMNS) - (COLUMNS - 1) / 2;
-    pose.position.set(column * gap + mixed(0) - path.position[0], row * gap + mixed(1) - path.position[1], mixed(2)).add(center);
+    pose.position.set(column * gap + x - path.position[0], row * gap + y - path.position[1], z).add(center);
     pose.updateMatrix();
     for (const each of parts) each.setMatrixAt(i, pose.matrix);
   }
@@ -90,12 +78,10 @@ export function makeCrowd(canvas) {
 // The greatest height of any coin from each of evenly spread times on.
 function heightsToCome(tosses) {
   const end = Math.max(...tosses.map(({ path }) => path.time.at(-1))), tops = new Array(STEPS + 1).fill(0);
-  for (const { path } of tosses) {
-    path.time.forEach((time, k) => {
-      const at = Math.min(Math.floor((time / end) * STEPS), STEPS);
-      tops[at] = Math.max(tops[at], path.position[3 * k + 2]);
-    });
-  }
+  for (const { path } of tosses) path.time.forEach((time, k) => {
+    const at = Math.min(Math.floor((time / end) * STEPS), STEPS);
+    tops[at] = Math.max(tops[at], path.position[3 * k + 2]);
+  });
   for (let at = STEPS - 1; at >= 0; at--) tops[at] = Math.max(tops[at], tops[at + 1]);
   return tops;
 }

@@ -42,8 +42,7 @@ export function makeFlick(handle, onThrow) {
 
   function drop() {
     trace = held = null;
-    handle.style.transform = "";
-    handle.style.removeProperty("--strength");
+    handle.removeAttribute("style");
     handle.classList.remove("held");
   }
 

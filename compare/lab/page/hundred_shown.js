@@ -1,10 +1,12 @@
 // The panel of the hundred coins: their scene, the strip of their faces, and the count of heads.
 
 import { makeCrowd } from "./crowd.js";
-import { COINS, ends, isHeads, partingTouch, spread, tossHundred } from "./hundred.js";
+import { COINS, ends, faceAt, headsByTouch, isHeads, partingTouch, spread, tossHundred } from "./hundred.js";
 import { counted } from "./outcome.js";
 import { placeIn } from "./sampled.js";
-import { drawStrip } from "./strip.js";
+
+const MOST = 24; // touches that are shown
+const FACES = { H: "#f5ab1f", T: "#0d5ca8" };
 
 // `parts` are elements; `workers` toss, and `told` is called with a problem.
 export function makeHundred(parts, workers, told) {
@@ -51,4 +53,15 @@ export function makeHundred(parts, workers, told) {
     // The toss whose path is the longest: the clock goes as far.
     longest: () => tosses && tosses.reduce((one, other) => (other.path.time.at(-1) > one.path.time.at(-1) ? other : one)),
   };
+}
+
+// The faces of the coins, a row for each coin and a column for each touch.
+function drawStrip(canvas, tosses) {
+  const heads = headsByTouch(tosses).slice(0, MOST), pen = canvas.getContext("2d");
+  Object.assign(canvas, { width: Math.max(heads.length, 1), height: tosses.length });
+  tosses.forEach((toss, i) => heads.forEach((_, k) => {
+    pen.fillStyle = FACES[faceAt(toss, k + 1)] ?? "#888";
+    pen.fillRect(k, i, 1, 1);
+  }));
+  canvas.setAttribute("aria-label", `Heads among ${tosses.length} coins at each touch: ${heads.join(", ")}`);
 }

@@ -1,23 +1,23 @@
 // The lab's page: joins coin, map, controls, tour and address, which all show one state.
 
-import { changed, unpacked } from "./engine.js";
+import { changed, spun, unpacked } from "./engine.js";
 import { startWorkers } from "./workers.js";
-import { element, legendOf } from "./elements.js";
-import { counted } from "./outcome.js";
+import { legendOf } from "./elements.js";
+import { LABELS as ENGINES, showEnergy } from "./motion.js";
+import { counted, outcomeLine, outcomeText } from "./outcome.js";
+import { makeSaved } from "./saved.js";
 import { LABELS, shownAs } from "./words.js";
 import { makeControls } from "./controls.js";
 import { makeLiveMap } from "./live_map.js";
 import { makeStage } from "./stage.js";
 import { horizonText, markTouch, showSequences } from "./sequences.js";
-import { showEnergy } from "./energy.js";
 import { address, fromAddress, START } from "./state.js";
-import { tossedThere } from "./served.js";
+import { savedThere, tossedByMujoco, tossedThere } from "./served.js";
 import { makeTour, STOPS } from "./tour.js";
 import { countHeads } from "./hand.js";
 import { makeHundred } from "./hundred_shown.js";
 import { makeThrows } from "./throws.js";
 import { glide } from "./glide.js";
-import { measure } from "./measure.js";
 import { copied, saveCsv, savePng, saveToml } from "./save.js";
 import { command } from "./toml.js";
 
@@ -31,35 +31,33 @@ const NAMES = { analytic: "this toss", before: "the toss before" };
 const byId = (id) => document.getElementById(id);
 const data = JSON.parse(byId("data").textContent), { outcomes } = data;
 
-let bytes, engine, workers, fields, state, stage, map, controls, hundred, throws, showStop, moveEnergy = () => {}, stopGlide = () => {}, ahead = null;
+let engine, workers, fields, saved = null, state, stage, map, controls, hundred, throws, showStop, moveEnergy = () => {}, stopGlide = () => {}, ahead = null;
 let tosses = [null, null], tossed = null, wanted = null, isTossing = false, counting = null, pending = null, resting = null;
 
 async function begin() {
-  bytes = await unpacked(data.wasm);
-  workers = await startWorkers(bytes);
+  workers = await startWorkers(await unpacked(data.wasm));
   engine = workers.engine;
-  if (data.served) {
-    workers.tossMap = tossedThere;
-    byId("where").textContent = "on this machine";
-  }
+  if (data.served) [workers.tossMap, byId("where").textContent] = [tossedThere, "on this machine"];
   fields = Object.fromEntries(engine.about.fields.map((field) => [field.name, { ...field, word: LABELS[field.name] ?? field.word }]));
+  fields["release.spin"] = { word: "spin", unit: "rad/s" };
+  if (data.saved) open(data.saved === true ? await savedThere() : data.saved);
   hundred = makeHundred({ box: byId("crowd"), scene: byId("hundred"), strip: byId("strip"), up: byId("up"), heads: byId("heads"), parting: byId("parting") }, workers, say);
   stage = makeStage(byId("played"), {
-    without: "The map, the sequences and the energies work without it.", labels: NAMES, shown: "The coin that is tossed",
+    without: "The map, the sequences and the energies work without it.", labels: saved ? ENGINES : NAMES, shown: "The coin that is tossed",
     isBusy: () => byId("map").ariaBusy === "true",
     onTime(time) {
-      markTouch(byId("sequences"), [tosses[0]], time);
+      markTouch(byId("sequences"), [tosses[0], tosses[2]], time);
       hundred.draw(time);
       moveEnergy(time);
       if (throws.isInTheAir() && time >= tosses[0].end_time) land();
     },
   });
   map = makeLiveMap({
-    canvas: byId("map"), workers, fields, outcomes, marks: () => throws?.marks() ?? [],
+    canvas: byId("map"), workers, fields, outcomes, saved, marks: () => [...(saved?.shows(state) ? saved.dots : []), ...(throws?.marks() ?? [])],
     told: {
       place: (place) => (byId("readout").textContent = placeText(place)),
-      choose: ({ x, y }) => choose(x, y),
-      moved: (windows) => state && change(windows),
+      choose,
+      moved: change,
       end: (isEnd) => (byId("ends").textContent = isEnd ? ENDS : ""),
       nearest: (text) => (byId("boundary").textContent = text),
       problem: say,
@@ -80,39 +78,49 @@ async function begin() {
   document.body.dataset.ready = "true";
 }
 
+// Opens a map that was made: both engines toss its pixels.
+function open(found) {
+  saved = makeSaved(found, data.tosses, data.scenario, fields, outcomes);
+  document.body.classList.add("saved");
+  document.title = `${saved.title}: the coin lab`;
+  byId("name").textContent = saved.title;
+  byId("about").textContent = saved.about;
+  if (!data.served && saved.engine === "mujoco") workers.tossMap = () => Promise.reject(new Error("MuJoCo tosses no map in this file; cointoss explore does"));
+}
+
 function listen() {
-  byId("zoom-in").addEventListener("click", () => map.zoom(0.5));
-  byId("zoom-out").addEventListener("click", () => map.zoom(2));
-  byId("whole").addEventListener("click", () => map.showWhole());
-  byId("both").addEventListener("click", () => {
-    byId("both").setAttribute("aria-pressed", String(!areBoth()));
-    showTosses(true);
-  });
   const copy = async (text) => (byId("copied").textContent = await copied(text, byId("command")));
-  byId("copy").addEventListener("click", () => copy(command(state, fields, map.grid())));
-  byId("link").addEventListener("click", () => copy(new URL(address(state, fields), location.href).href));
-  byId("toml").addEventListener("click", () => saveToml(state, fields));
-  byId("png").addEventListener("click", () => savePng(byId("map")));
-  byId("csv").addEventListener("click", () => saveCsv(map.seen(), state.trust, outcomes));
-  byId("print").addEventListener("click", () => print());
-  byId("measure").addEventListener("click", measured);
+  const clicks = {
+    "zoom-in": () => map.zoom(0.5), "zoom-out": () => map.zoom(2), whole: () => map.showWhole(), print: () => print(),
+    both() {
+      byId("both").setAttribute("aria-pressed", String(!areBoth()));
+      showTosses(true);
+    },
+    copy: () => copy(command({ ...state, scenario: spun(state.scenario) }, fields, map.grid())),
+    link: () => copy(new URL(address(state, fields), location.href).href),
+    toml: () => saveToml(spun(state.scenario), fields), png: () => savePng(byId("map")), csv: () => saveCsv(map.seen(), state.trust, outcomes),
+  };
+  for (const [id, act] of Object.entries(clicks)) byId(id).addEventListener("click", act);
   addEventListener("hashchange", restore);
 }
 
 // The state of the address, or of the page where that names none.
 function restore() {
-  let found = data.tour ? STOPS[0].state : { ...START, scenario: data.scenario };
+  const start = { ...START, scenario: data.scenario, ...saved?.state };
+  let found = data.tour ? STOPS[0].state : start;
   say("");
   stopGlide();
   ahead = null;
   if (location.hash.length > 1) {
     try {
-      found = fromAddress(location.hash, fields, (scenario) => engine.fault(scenario), data.scenario);
+      found = fromAddress(location.hash, fields, (scenario) => engine.fault(scenario), start);
     } catch (problem) {
       say(`The address is no state of the lab: ${problem.message}. Shown is what the page begins with.`);
     }
   }
   take(found, true);
+  const { x, y, scenario } = state;
+  if (saved?.shows(state)) byId("readout").textContent = placeText(saved.place(scenario[x.field], scenario[y.field]));
 }
 
 // Goes to a stop of the tour: the controls move there, where they can be followed.
@@ -135,9 +143,12 @@ function settled() {
 }
 
 function take(found, fresh, isOnTheWay = false) {
-  state = { ...found, home: { x: found.x, y: found.y } };
+  state = { ...found, home: homeOf(found) };
   show(fresh, isOnTheWay);
 }
+
+// The whole map over the fields of a state.
+const homeOf = ({ x, y }) => (saved?.state.x.field === x.field && saved.state.y.field === y.field ? { x: saved.state.x, y: saved.state.y } : { x, y });
 
 // Changes the state; where that gives no scenario, says why and changes nothing.
 function change(more, fresh = false) {
@@ -146,7 +157,7 @@ function change(more, fresh = false) {
   const wrong = more.scenario ? engine.fault(more.scenario) : null, isOtherMap = ["x", "y"].some((name) => more[name] && more[name].field !== state[name].field);
   if (more.scenario || isOtherMap) say(wrong ?? "");
   if (wrong === null) state = { ...state, ...more };
-  if (isOtherMap) state.home = { x: state.x, y: state.y };
+  if (isOtherMap) state.home = homeOf(state);
   if (wrong === null) show(fresh);
   else controls.show(state);
 }
@@ -161,17 +172,15 @@ function show(fresh, isOnTheWay = false) {
   else resting = setTimeout(tossAndCount, REST);
   if (isOnTheWay) return;
   clearTimeout(pending);
-  pending = setTimeout(() => history.replaceState(null, "", address(state, fields)), PAUSE);
+  // A page in the frame of a notebook has no address of its own.
+  if (location.protocol !== "about:") pending = setTimeout(() => history.replaceState(null, "", address(state, fields)), PAUSE);
 }
 
-function tossAndCount(fresh = false) {
-  toss(fresh);
-  count();
-}
+const tossAndCount = (fresh = false) => (toss(fresh), count());
 
-function choose(x, y) {
-  const { scenario } = state, before = [scenario[state.x.field] ?? 0, scenario[state.y.field] ?? 0];
-  byId("readout").textContent = valuesText(x, y);
+function choose(place) {
+  const { x, y } = place, { scenario } = state, before = [scenario[state.x.field] ?? 0, scenario[state.y.field] ?? 0];
+  byId("readout").textContent = placeText(place);
   if (before[0] === x && before[1] === y) return toss(true);
   change({ before, scenario: changed(scenario, { [state.x.field]: x, [state.y.field]: y }) }, true);
 }
@@ -182,20 +191,23 @@ async function toss(fresh) {
   const scenarios = [state.scenario, state.before && at(state.before)];
   const key = JSON.stringify([scenarios, state.after, state.hair]);
   if (key === tossed && !fresh && !wanted) return;
-  wanted = { scenarios, key, hair: state.hair, fresh: fresh || (wanted?.fresh ?? false) };
+  wanted = { scenarios, key, state, fresh: fresh || (wanted?.fresh ?? false) };
   if (isTossing) return;
   isTossing = true;
   while (wanted) {
-    const { scenarios, key, hair, fresh } = wanted;
+    const { scenarios, key, state: asked, fresh } = wanted;
     wanted = null;
     try {
       if (key !== tossed) {
         const [one, before] = await Promise.all(scenarios.map((each) => each && workers.toss(followed(each), SAMPLES)));
-        await hundred.toss(scenarios[0], hair);
-        tosses = [{ ...one, label: NAMES.analytic }, before && { ...before, engine: "before", label: "before" }];
+        await hundred.toss(spun(asked.scenario), asked.hair);
+        tosses = [saved ? one : { ...one, label: NAMES.analytic }, before && { ...before, engine: "before", label: "before" }];
         tossed = key;
       }
       showTosses(fresh);
+      if (!saved || tosses[2] || wanted) continue;
+      tosses[2] = data.served ? await tossedByMujoco(engine.row(asked.scenario)) : saved.tossOf(asked);
+      if (!wanted) showTosses(false);
     } catch (problem) {
       say(problem.message);
     }
@@ -209,23 +221,20 @@ const followed = (scenario) => ("ending.caught" in scenario || "ending.until" in
 const areBoth = () => byId("both").getAttribute("aria-pressed") === "true";
 
 function showTosses(fresh) {
-  const [one, before] = tosses;
+  const [one, before, other = null] = tosses, own = saved ? [one, other] : [one], shown = areBoth() && before ? [one, before] : own;
   byId("both").disabled = !before;
-  const shown = areBoth() && before ? [one, before] : [one];
-  showSequences(byId("sequences"), [one], before, state.after);
-  byId("horizon").textContent = one.count ? horizonText([one, null], before, state.after) : "";
+  showSequences(byId("sequences"), own, before, state.after);
+  byId("horizon").textContent = one.count ? horizonText([one, other], before, state.after) : "";
   byId("sequences").hidden = one.count === 0;
   moveEnergy = showEnergy(byId("energy"), shown, PLOT);
-  byId("outcome").textContent = throws.isInTheAir() ? "The coin is in the air." : outcomeText(one);
+  if (saved) byId("outcome").replaceChildren(outcomeLine(one), outcomeLine(other ?? { engine: "mujoco" }));
+  else byId("outcome").textContent = throws.isInTheAir() ? "The coin is in the air." : outcomeText(one);
   document.querySelector(".coin").classList.toggle("crowded", hundred.isShown());
-  const played = hundred.longest() ?? null;
-  stage.show(played ? [played] : shown, (played ? [played] : shown).map((each) => (throws.isInTheAir() ? "" : each.outcome)), fresh,
+  const played = hundred.longest() ?? null, isFinal = saved && state.after !== null;
+  const told = (toss) => (throws.isInTheAir() ? "" : !toss ? "…" : toss.problem ? "no toss" : `${isFinal ? "final: " : ""}${toss.outcome}`);
+  stage.show(played ? [played] : shown, (played ? [played] : shown).map(told), fresh,
     throws.isInTheAir() || played ? undefined : one.times[state.after]); // the touch that the map shows
   byId("energy").hidden = hundred.isShown();
-}
-
-function outcomeText({ outcome, count, end_time, ending }) {
-  return `${outcome}${count ? ` after ${counted(count, "impact")} in` : " after"} ${end_time.toFixed(4)} s. ${ending}`;
 }
 
 // What was thrown has come down: nobody knew its face before.
@@ -248,7 +257,7 @@ async function count() {
   if (state.hand === null) return;
   byId("share").textContent = "The hand tosses …";
   try {
-    await countHeads(workers, state, ({ share, low, high, count, isWhole }) => {
+    await countHeads(workers, { ...state, scenario: spun(state.scenario) }, ({ share, low, high, count, isWhole }) => {
       const when = state.after === null ? "" : ` at touch ${state.after + 1}`;
       byId("share").textContent = `Of ${counted(count, "toss", "tosses")} by this hand ${percent(share)} % show heads${when} ` +
         `[${percent(low)}, ${percent(high)}; 99 % interval]. Dashed: one standard deviation.`;
@@ -268,41 +277,25 @@ function valuesText(x, y) {
 // What is hatched: of a final outcome that it is not certain, of a touch that it is not trusted.
 const doubtText = () => (state.after === null ? "not certain" : "not trusted");
 
-function placeText({ x, y, code, trusted }) {
+function placeText({ x, y, code, trusted, known }) {
   const parts = [valuesText(x, y)];
   if (code !== -1) parts.push(code === -2 ? "no scenario" : outcomes[code].label);
   if (trusted === 0) parts.push(doubtText());
+  if (known) parts.push(known);
   return parts.join("; ");
 }
 
 // What is on the map.
 function legend() {
   const codes = new Set(map.seen().codes), entries = Object.entries(outcomes).filter(([code]) => codes.has(Number(code))).map(([, { label, color }]) => [label, color]);
+  if (saved?.shows(state) && !saved.isWhole) entries.push(["not tossed", "var(--untossed)"]);
   if (state.trust) entries.push([`${doubtText()}: rounding errors may have decided the face`, "repeating-linear-gradient(135deg, #fff 0 2px, var(--soft) 2px 6px)"]);
   if (byId("legend").dataset.shows === String(entries)) return;
   byId("legend").dataset.shows = String(entries);
   byId("legend").replaceChildren(...legendOf(entries));
 }
 
-async function measured() {
-  byId("measure").disabled = true;
-  byId("measurements").replaceChildren();
-  try {
-    await measure(bytes, workers, (what, value) => {
-      const row = element("tr");
-      row.append(...[what, value].map((text) => element("td", "", text)));
-      byId("measurements").append(row);
-    });
-  } catch (problem) {
-    say(problem.message);
-  }
-  byId("measure").disabled = false;
-}
-
-function say(message) {
-  byId("problem").textContent = message;
-  byId("problem").hidden = !message;
-}
+const say = (message) => Object.assign(byId("problem"), { textContent: message, hidden: !message });
 
 begin().catch((problem) => {
   say(`The lab cannot toss: ${problem.message}.`);

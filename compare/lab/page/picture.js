@@ -1,6 +1,6 @@
 // The picture of a map while it is tossed: smooth from the first tosses, and each row in its own colours when all of it is tossed.
 
-import { colorsOf } from "./pixels.js";
+import { style } from "./map_view.js";
 import { reconstruct } from "./reconstruct.js";
 
 // A picture of a map over axes as in axes.js. Of each pixel it has the code, whether it is trusted, and whether it was tossed;
@@ -55,12 +55,15 @@ export function makePicture({ x, y, outcomes, trust }) {
 
   // The canvases of the picture and, where doubts were asked for, of their mask.
   made.drawn = () => {
-    if (!isDrawn) {
-      image.getContext("2d").putImageData(pixels, 0, 0);
-      if (hatch) hatch.getContext("2d").putImageData(lines, 0, 0);
-    }
+    for (const [canvas, data] of isDrawn ? [] : [[image, pixels], [hatch, lines]]) if (canvas) canvas.getContext("2d").putImageData(data, 0, 0);
     isDrawn = true;
     return { image, hatch };
   };
   return made;
+}
+
+// The colours of outcomes by their codes, of -1 for what is not tossed; `outcomes` has { color } by code.
+function colorsOf(outcomes) {
+  const named = [["-1", style("--untossed")], ...Object.entries(outcomes).map(([code, { color }]) => [code, color])];
+  return Object.fromEntries(named.map(([code, color]) => [code, [1, 3, 5].map((at) => parseInt(color.slice(at, at + 2), 16))]));
 }

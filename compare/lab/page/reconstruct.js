@@ -49,12 +49,8 @@ function add(sums, wide, high, u, v, [red, green, blue], doubt) {
 function disorder(codes, wide, high) {
   const found = new Float32Array(2 * wide * high); // pairs that differ, and all
   for (let at = 0; at < wide * high; at++) {
-    if (at % wide < wide - 1) {
-      found[2 * at] += Number(codes[at] !== codes[at + 1]);
-      found[2 * at + 1] += 1;
-    }
-    if (at + wide < wide * high) {
-      found[2 * at] += Number(codes[at] !== codes[at + wide]);
+    for (const next of [...(at % wide < wide - 1 ? [at + 1] : []), ...(at + wide < wide * high ? [at + wide] : [])]) {
+      found[2 * at] += Number(codes[at] !== codes[next]);
       found[2 * at + 1] += 1;
     }
   }

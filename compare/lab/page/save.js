@@ -3,19 +3,11 @@
 import { valueAt } from "./axes.js";
 import { toml } from "./toml.js";
 
-export function saveToml(state, fields) {
-  save("coin.toml", new Blob([toml(state.scenario, fields)], { type: "text/plain" }));
-}
-
-export function savePng(canvas) {
-  canvas.toBlob((picture) => save("coin.png", picture), "image/png");
-}
+export const saveToml = (scenario, fields) => save("coin.toml", new Blob([toml(scenario, fields)], { type: "text/plain" }));
+export const savePng = (canvas) => canvas.toBlob((picture) => save("coin.png", picture), "image/png");
+export const saveCsv = (job, trust, outcomes) => save("coin.csv", new Blob([csv(job, trust, outcomes)], { type: "text/csv" }));
 
 // A row for each pixel that was tossed: both values and the outcome, and with trust whether it can be trusted.
-export function saveCsv(job, trust, outcomes) {
-  save("coin.csv", new Blob([csv(job, trust, outcomes)], { type: "text/csv" }));
-}
-
 export function csv({ x, y, codes, trusted, isTossed }, trust, outcomes) {
   const rows = [[x.field, y.field, "outcome", ...(trust ? ["trusted"] : [])].join(",")];
   for (let j = 0; j < y.count; j++) {
@@ -41,9 +33,7 @@ export async function copied(text, box) {
 }
 
 function save(name, blob) {
-  const link = document.createElement("a");
-  link.download = name;
-  link.href = URL.createObjectURL(blob);
+  const link = Object.assign(document.createElement("a"), { download: name, href: URL.createObjectURL(blob) });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1e4);
 }

@@ -31,9 +31,9 @@ export function address(state, fields) {
   return `#${found.toString().replaceAll("%3A", ":")}`;
 }
 
-// The state of an address; `fields` are those of a scenario, `fault` says what is wrong with one, or null, and `own` is
-// that of the page. An address that names a stop of the tour and nothing else is that stop.
-export function fromAddress(hash, fields, fault, own) {
+// The state of an address; `fields` are those of a scenario, `fault` says what is wrong with one, or null, and `start` is
+// the state of the page. An address that names a stop of the tour and nothing else is that stop.
+export function fromAddress(hash, fields, fault, start) {
   const given = new Map(new URLSearchParams(hash.replace(/^#/, "")));
   const taken = (name) => {
     const text = given.get(name);
@@ -43,7 +43,7 @@ export function fromAddress(hash, fields, fault, own) {
   const tour = taken("tour"), stop = tour === undefined ? null : STOPS.find(({ name }) => name === stopNamed(tour));
   if (stop === undefined) throw new StateError(`tour: ${shortened(tour)}; accepted: ${NAMES.join(", ")}`);
   if (stop && !given.size) return stop.state;
-  const state = { ...START, scenario: own, tour: stop && stop.name };
+  const state = { ...start, tour: stop && stop.name };
   for (const name of ["x", "y"]) {
     const text = taken(name);
     if (text !== undefined) state[name] = axisOf(name, text, fields);
@@ -51,7 +51,7 @@ export function fromAddress(hash, fields, fault, own) {
   if (state.x.field === state.y.field) throw new StateError(`y: ${state.y.field}; accepted: another field than that of x`);
   const map = taken("map"), touch = Number(map);
   if (map === "final") state.after = null;
-  else if (map === undefined) state.after = START.after;
+  else if (map === undefined) state.after = start.after;
   else if (Number.isInteger(touch) && touch >= 1 && touch <= MOST_TOUCH) state.after = touch - 1;
   else throw new StateError(`map: ${shortened(map)}; accepted: final, or the number of a touch from 1 to ${MOST_TOUCH}`);
   state.trust = taken("trust") === "1";
@@ -59,9 +59,8 @@ export function fromAddress(hash, fields, fault, own) {
   if (hand !== undefined) state.hand = within("hand", hand, 0, 0.3);
   if (hair !== undefined) state.hair = within("hair", hair, THINNEST, WIDEST);
   if (before !== undefined) {
-    const place = before.split(":");
-    if (place.length !== 2) throw new StateError(`before: ${shortened(before)}; accepted: two numbers`);
-    state.before = place.map((text) => within("before", text, -1e9, 1e9));
+    state.before = before.split(":").map((text) => within("before", text, -1e9, 1e9));
+    if (state.before.length !== 2) throw new StateError(`before: ${shortened(before)}; accepted: two numbers`);
   }
   if (given.size) state.scenario = {};
   for (const [field, text] of given) {

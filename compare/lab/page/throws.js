@@ -20,10 +20,7 @@ export function makeThrows({ handle, box, told, curve, again }, lab) {
     waiting = thrown;
     lab.change({ scenario: changed(scenario, { [SPEED]: thrown.speed, [SPIN]: thrown.spin }), before: null });
   });
-  again.addEventListener("click", () => {
-    throws = [];
-    lab.change({ hand: null });
-  });
+  again.addEventListener("click", () => ((throws = []), lab.change({ hand: null })));
 
   // The outcome of the toss that was thrown last.
   function landed(outcome) {

@@ -1,5 +1,7 @@
 // What is plotted of the motion of tosses, each a plot of plot.js.
 
+import { makePlot, makeSpan } from "./plot.js";
+
 export const LABELS = { analytic: "analytic", mujoco: "MuJoCo" };
 
 // What a toss is called: by its own label, or by its engine.
@@ -38,7 +40,15 @@ export function spinOf(tosses) {
 }
 
 export function energyOf(tosses) {
-  const text = "least energy to turn over", same = tosses.every(({ coin }) => coin.barrier === tosses[0].coin.barrier);
+  const text = "least energy to turn over", same = tosses.every(({ coin }) => Math.abs(coin.barrier / tosses[0].coin.barrier - 1) < 1e-9);
   const levels = (same ? [tosses[0]] : tosses).map((toss) => ({ value: 1e3 * toss.coin.barrier, text: same ? text : `${text}: ${nameOf(toss)}` }));
   return { title: "energy", unit: "mJ", log: true, levels, lines: linesOf(tosses, (path) => path.energy.map((each) => 1e3 * each)) };
+}
+
+// Plots the energies of tosses, and returns what is to be called with the time that is played.
+export function showEnergy(box, tosses, height = 230) {
+  const there = tosses.filter((toss) => toss?.path), span = there.length ? makeSpan(there) : null;
+  box.replaceChildren();
+  if (span) makePlot(box, { ...energyOf(there), height }, span);
+  return (time) => span?.play(time);
 }

@@ -28,15 +28,11 @@ export function makePlayer(onTime) {
     onTime(time, before);
   }
 
-  function stop() {
-    playing = false;
-    last = null;
-  }
+  const stop = () => ([playing, last] = [false, null]);
 
   function play() {
     if (time >= end) time = 0;
-    playing = true;
-    last = null;
+    [playing, last] = [true, null];
     requestAnimationFrame(tick);
   }
 
@@ -66,8 +62,7 @@ export function makePlayer(onTime) {
       }
       told();
     },
-    seek,
-    redraw: () => onTime(time, null),
+    seek, redraw: () => onTime(time, null),
   };
 }
 

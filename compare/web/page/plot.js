@@ -21,9 +21,8 @@ export function numberText(value) {
 // with a time that is clicked. Its ends are places on the axis of timeline.js, and so is what changes them.
 export function makeSpan(tosses) {
   const axis = makeTimeline(tosses), { end } = axis, plots = [];
-  const span = { axis, end, low: 0, high: end, pointed: null, played: null, pick: () => {} };
+  const span = { axis, end, low: 0, high: end, pointed: null, played: null, pick: () => {}, add: (plot) => plots.push(plot) };
   const all = (how) => plots.forEach((plot) => plot[how]());
-  span.add = (plot) => plots.push(plot);
   span.show = (low, high) => {
     const wide = Math.min(Math.max(high - low, SHORTEST * end), end);
     span.low = Math.min(Math.max((low + high - wide) / 2, 0), end - wide);
@@ -65,6 +64,7 @@ export function makePlot(box, about, span) {
     const part = about.log ? Math.log(Math.max(value, low) / low) / Math.log(high / low) : (value - low) / (high - low);
     return height - BOTTOM - part * (height - TOP - BOTTOM);
   };
+  const upright = (kind, time) => shape("line", { class: kind, x1: x(time), x2: x(time), y1: TOP, y2: height - BOTTOM });
   const visible = (time) => axis.placeOf(time) >= span.low && axis.placeOf(time) <= span.high;
 
   // The samples of a line that are in sight, and one more on each side.
@@ -92,14 +92,8 @@ export function makePlot(box, about, span) {
 
   function scale(parts) {
     if (about.range?.length === 2) return ([low, high] = about.range);
-    let least = Infinity, most = -Infinity;
-    for (const { values } of parts) {
-      for (const value of values) {
-        least = Math.min(least, value);
-        most = Math.max(most, value);
-      }
-    }
-    if (!(least <= most)) [least, most] = [0, 1];
+    const all = parts.flatMap(({ values }) => values);
+    let [least, most] = all.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], all.length ? [Infinity, -Infinity] : [0, 1]);
     if (about.log) {
       for (const { value } of levels) [least, most] = [Math.min(Math.max(least, value / 20), value), Math.max(most, value)];
       return ([low, high] = [least / 1.3, most * 1.3]);
@@ -117,24 +111,17 @@ export function makePlot(box, about, span) {
     scale(parts);
     const frame = shape("svg", { x: LEFT, y: TOP, width: right - LEFT, height: foot - TOP, viewBox: `${LEFT} ${TOP} ${right - LEFT} ${foot - TOP}` });
     const rows = about.at ?? (about.log ? logTicks(low, high, Math.min((height - TOP - BOTTOM) / HIGH, 7)) : ticks(low, high, 5).values).map((value) => [value, numberText(value)]);
-    for (const [value, text] of rows) {
-      made.push(shape("line", { class: "grid", x1: LEFT, x2: right, y1: y(value), y2: y(value) }));
-      made.push(shape("text", { x: LEFT - 7, y: y(value) + 5, "text-anchor": "end" }, text));
-    }
-    made.push(...squeezed(foot));
-    for (const time of times()) {
-      made.push(shape("text", { x: x(time), y: foot + 20, "text-anchor": "middle" }, String(time)));
-    }
+    const level = (kind, value) => shape("line", { class: kind, x1: LEFT, x2: right, y1: y(value), y2: y(value) });
+    for (const [value, text] of rows) made.push(level("grid", value), shape("text", { x: LEFT - 7, y: y(value) + 5, "text-anchor": "end" }, text));
+    made.push(...squeezed(foot), ...times().map((time) => shape("text", { x: x(time), y: foot + 20, "text-anchor": "middle" }, String(time))));
     made.push(shape("text", { x: right, y: height - 5, "text-anchor": "end" }, span.high > axis.bend ? "t [s], shaded: on a scale of its own" : "t [s]"));
     const near = marks.filter(visible);
     if (near.length) {
       const all = near.map((time) => `M${x(time).toFixed(1)} ${TOP}V${foot}`).join("");
       frame.append(shape("path", { class: "marks", d: all, opacity: Math.min(1, CLEAR_MARKS / near.length) }));
     }
-    for (const { value, text } of levels) {
-      frame.append(shape("line", { class: "level", x1: LEFT, x2: right, y1: y(value), y2: y(value) }));
-      named.push(shape("text", { x: LEFT + 5, y: y(value) - 5 }, text));
-    }
+    frame.append(...levels.map(({ value }) => level("level", value)));
+    named.push(...levels.map(({ value, text }) => shape("text", { x: LEFT + 5, y: y(value) - 5 }, text)));
     lines.forEach(({ kind }, i) => {
       const { time, values } = parts[i];
       const points = time.map((each, k) => `${x(each).toFixed(1)},${y(values[k]).toFixed(1)}`);
@@ -146,12 +133,10 @@ export function makePlot(box, about, span) {
       for (const [each, value] of shown) frame.append(shape("circle", { class: kind, cx: x(each), cy: y(value), r: 2.8 }));
     }
     for (const { time, text, kind = "" } of bars.filter((bar) => visible(bar.time))) {
-      frame.append(shape("line", { class: `bar ${kind}`, x1: x(time), x2: x(time), y1: TOP, y2: foot }));
+      frame.append(upright(`bar ${kind}`, time));
       made.push(shape("text", { class: "bar", x: Math.min(Math.max(x(time), LEFT + 30), right - 30), y: TOP - 6, "text-anchor": "middle" }, text));
     }
-    for (const { engine, time } of axis.proofs.filter((proof) => visible(proof.time))) {
-      frame.append(shape("line", { class: `proof ${engine}`, x1: x(time), x2: x(time), y1: TOP, y2: foot }));
-    }
+    frame.append(...axis.proofs.filter((proof) => visible(proof.time)).map(({ engine, time }) => upright(`proof ${engine}`, time)));
     const proofs = axis.proofs.map(({ time }) => time).filter(visible).map(x);
     if (proofs.length) {
       const isRight = proofs.at(-1) > (LEFT + right) / 2, at = isRight ? proofs[0] - 7 : proofs.at(-1) + 7;
@@ -164,14 +149,13 @@ export function makePlot(box, about, span) {
 
   function mark() {
     const made = [], foot = height - BOTTOM;
-    const upright = (kind, time) => made.push(shape("line", { class: kind, x1: x(time), x2: x(time), y1: TOP, y2: foot }));
     if (drag && drag.to !== drag.from) {
       const [from, to] = [drag.from, drag.to].sort((a, b) => a - b);
       made.push(shape("rect", { class: "chosen", x: from, y: TOP, width: to - from, height: foot - TOP }));
     }
-    if (span.played !== null && visible(span.played)) upright("now", span.played);
+    if (span.played !== null && visible(span.played)) made.push(upright("now", span.played));
     if (span.pointed !== null) {
-      upright("pointed", span.pointed);
+      made.push(upright("pointed", span.pointed));
       for (const { kind, time, values } of lines) {
         const value = valueAt(time, values, span.pointed);
         if (value !== null && value <= high) made.push(shape("circle", { class: kind, cx: x(span.pointed), cy: y(value), r: 4 }));
@@ -199,9 +183,7 @@ export function makePlot(box, about, span) {
     if (drag) drag.to = placed(event);
     span.point(axis.timeAt(placeAt(placed(event))));
   });
-  svg.addEventListener("pointerleave", () => {
-    if (!drag) span.point(null);
-  });
+  svg.addEventListener("pointerleave", () => drag || span.point(null));
   svg.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
     drag = { from: placed(event), to: placed(event) };

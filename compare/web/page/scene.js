@@ -1,7 +1,7 @@
 // Tosses in 3D, side by side: gold with an H is heads, blue with a T is tails, as in the films.
 
 import * as THREE from "./three.module.min.js";
-import { placeIn } from "./sampled.js";
+import { colorOf, dispose, drawOn, light, poseAt } from "./posed.js";
 
 const TRAIL = "#7d8894", PIN = "#d6006c";
 const FAINT = 0.35; // of the path that is still to come
@@ -13,7 +13,6 @@ const MOST = 0.16; // the coin is at most so far above the middle of the close v
 export function makeScene(canvas) {
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
   renderer.setScissorTest(true);
-  const style = (name) => new THREE.Color(getComputedStyle(document.documentElement).getPropertyValue(name).trim());
   let panels = [], looks = "close", turn = -0.5, drag = null;
 
   function show(tosses) {
@@ -24,11 +23,7 @@ export function makeScene(canvas) {
 
   function makePanel(toss, tosses) {
     const scene = new THREE.Scene(), r = toss.coin.radius, half = toss.coin.thickness / 2;
-    scene.add(new THREE.HemisphereLight("#ffffff", "#cfd6dd", 2.6));
-    const lamp = new THREE.DirectionalLight("#ffffff", 1.4);
-    lamp.position.set(0.4, -1, 1.6);
-    scene.add(lamp);
-
+    light(scene, 2.6, 1.4);
     const coin = new THREE.Group(), body = new THREE.Group();
     const side = new THREE.MeshStandardMaterial({ color: "#9aa1ab", roughness: 0.45, metalness: 0.3 });
     const shape = new THREE.CylinderGeometry(r, r, 2 * half, 72).rotateX(Math.PI / 2);
@@ -53,12 +48,9 @@ export function makeScene(canvas) {
     const box = boxOf(tosses.filter((one) => one?.path), r);
     const tile = Math.max(2 * r, box.size / 12);
     const wide = 2 * tile * Math.ceil(Math.max(box.wide + 6 * r, 16 * r, box.high / 2) / (2 * tile));
-    const checks = new THREE.CanvasTexture(document.createElement("canvas"));
-    checks.wrapS = checks.wrapT = THREE.RepeatWrapping;
+    const checks = new THREE.CanvasTexture(document.createElement("canvas"), undefined, THREE.RepeatWrapping, THREE.RepeatWrapping, THREE.NearestFilter);
     checks.repeat.set(wide / tile / 2, wide / tile / 2);
-    checks.magFilter = THREE.NearestFilter;
-    checks.colorSpace = THREE.SRGBColorSpace;
-    checks.anisotropy = 4;
+    Object.assign(checks, { colorSpace: THREE.SRGBColorSpace, anisotropy: 4 });
     const edge = new THREE.MeshBasicMaterial(), top = new THREE.MeshBasicMaterial({ map: checks }), thick = tile / 4;
     const floor = new THREE.Mesh(new THREE.BoxGeometry(wide, wide, thick), [edge, edge, edge, edge, top, edge]);
     floor.position.set(box.middle.x, box.middle.y, -0.03 * r - thick / 2);
@@ -76,7 +68,7 @@ export function makeScene(canvas) {
   }
 
   function recolor() {
-    const colors = ["--floor-light", "--floor-dark", "--shadow"].map(style);
+    const colors = ["--floor-light", "--floor-dark", "--shadow"].map(colorOf);
     for (const panel of panels.filter(Boolean)) {
       const image = panel.checks.image, pen = image.getContext("2d");
       image.width = image.height = 2;
@@ -91,30 +83,22 @@ export function makeScene(canvas) {
   }
 
   function draw(time) {
-    const { width, height } = canvas.getBoundingClientRect();
-    if (!width || !height) return;
-    renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
-    renderer.setSize(width, height, false);
-    const part = width / Math.max(panels.length, 1);
-    panels.forEach((panel, i) => {
+    drawOn(renderer, canvas, (width, height) => panels.forEach((panel, i) => {
+      const part = width / panels.length;
       renderer.setViewport(i * part, 0, part, height);
       renderer.setScissor(i * part, 0, part - (i < panels.length - 1 ? 1 : 0), height);
-      renderer.setClearColor(style("--sky"), 1);
       renderer.clear();
       if (!panel) return;
       pose(panel, time);
       aim(panel, part / height);
       renderer.render(panel.scene, panel.camera);
-    });
+    }));
   }
 
   function pose(panel, time) {
-    const { path } = panel.toss, { at, part } = placeIn(path.time, time), next = Math.min(at + 1, path.time.length - 1);
-    const vector = (k) => new THREE.Vector3().fromArray(path.position, 3 * k);
-    // Scalar first, as everywhere in cointoss; three.js has it last.
-    const attitude = (k) => new THREE.Quaternion(...[1, 2, 3, 0].map((each) => path.quaternion[4 * k + each])).normalize();
-    panel.coin.position.copy(vector(at).lerp(vector(next), part));
-    panel.coin.quaternion.copy(attitude(at).slerp(attitude(next), part));
+    const { position, attitude, at, next, part } = poseAt(panel.toss.path, time);
+    panel.coin.position.copy(position);
+    panel.coin.quaternion.copy(attitude);
     panel.coin.updateMatrixWorld(true);
     panel.shadow.matrix.makeScale(1, 1, 0).multiply(panel.body.matrixWorld);
     panel.trail.geometry.setDrawRange(0, at + 1);
@@ -136,9 +120,7 @@ export function makeScene(canvas) {
     drag = { x: event.clientX, turn };
     canvas.setPointerCapture(event.pointerId);
   });
-  canvas.addEventListener("pointermove", (event) => {
-    if (drag) turn = drag.turn - (event.clientX - drag.x) / 120;
-  });
+  canvas.addEventListener("pointermove", (event) => (turn = drag ? drag.turn - (event.clientX - drag.x) / 120 : turn));
   for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => (drag = null));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", recolor);
   return { show, draw, look: (how) => (looks = how) };
@@ -186,13 +168,8 @@ function turningAxis(r, half) {
   const rod = (side) => new THREE.CylinderGeometry(0.025 * r, 0.025 * r, 0.25 * r, 8).translate(0, 1.125 * side * r, 0);
   const rods = [-1, 1].map((side) => new THREE.Mesh(rod(side), new THREE.MeshBasicMaterial({ color: TRAIL })));
   const image = Object.assign(document.createElement("canvas"), { width: 64, height: 64 }), pen = image.getContext("2d");
-  pen.font = "bold 46px serif";
-  pen.textAlign = "center";
-  pen.textBaseline = "middle";
-  pen.lineWidth = 8;
-  pen.strokeStyle = "#fff";
+  Object.assign(pen, { font: "bold 46px serif", textAlign: "center", textBaseline: "middle", lineWidth: 8, strokeStyle: "#fff", fillStyle: "#2a333d" });
   pen.strokeText("η", 32, 30);
-  pen.fillStyle = "#2a333d";
   pen.fillText("η", 32, 30);
   const letter = new THREE.Sprite(new THREE.SpriteMaterial({ map: new THREE.CanvasTexture(image) }));
   letter.scale.setScalar(0.5 * r);
@@ -201,14 +178,10 @@ function turningAxis(r, half) {
 }
 
 function faceMaterial(color, ink, letter) {
-  const image = document.createElement("canvas"), size = 256;
-  image.width = image.height = size;
-  const pen = image.getContext("2d");
+  const size = 256, image = Object.assign(document.createElement("canvas"), { width: size, height: size }), pen = image.getContext("2d");
   pen.fillStyle = color;
   pen.fillRect(0, 0, size, size);
-  pen.strokeStyle = pen.fillStyle = ink;
-  pen.globalAlpha = 0.35;
-  pen.lineWidth = 5;
+  Object.assign(pen, { strokeStyle: ink, fillStyle: ink, globalAlpha: 0.35, lineWidth: 5 });
   pen.beginPath();
   pen.arc(size / 2, size / 2, 0.46 * size, 0, 2 * Math.PI);
   pen.stroke();
@@ -219,14 +192,4 @@ function faceMaterial(color, ink, letter) {
   const texture = new THREE.CanvasTexture(image);
   texture.colorSpace = THREE.SRGBColorSpace;
   return new THREE.MeshStandardMaterial({ map: texture, roughness: 0.5, metalness: 0.1 });
-}
-
-function dispose(scene) {
-  scene?.traverse((part) => {
-    part.geometry?.dispose();
-    for (const material of [part.material].flat().filter(Boolean)) {
-      material.map?.dispose();
-      material.dispose();
-    }
-  });
 }

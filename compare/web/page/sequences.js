@@ -49,8 +49,8 @@ function row(label, kind, toss, after) {
   found.append(element("b", `${kind}${trusted === 0 && count ? " horizon" : ""}`, label));
   [...sequence].forEach((face, i) => {
     // The bar stands in the gap, so that columns stay below each other.
-    const kinds = [face, ...(i >= trusted ? ["beyond"] : []), ...(i === trusted - 1 && trusted < count ? ["horizon"] : [])];
-    const cell = element("span", [...kinds, ...(i === after ? ["mapped"] : [])].join(" "), face);
+    const kinds = [face, i >= trusted && "beyond", i === trusted - 1 && trusted < count && "horizon", i === after && "mapped"];
+    const cell = element("span", kinds.filter(Boolean).join(" "), face);
     cell.dataset.touch = String(i);
     if (kind) cell.dataset.engine = toss.engine;
     found.append(cell);

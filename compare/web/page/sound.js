@@ -35,9 +35,7 @@ export function makeSound(button) {
   }
 
   return {
-    load(tosses) {
-      touches = tosses.filter((toss) => toss?.path).flatMap(loudnesses);
-    },
+    load: (tosses) => (touches = tosses.filter((toss) => toss?.path).flatMap(loudnesses)),
     // The hardest touch between two times that are played is heard.
     play(from, to) {
       if (!isOn()) return;

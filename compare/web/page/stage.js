@@ -27,22 +27,20 @@ const MARKUP = `
   <button id="sound" type="button" aria-pressed="false">Sound</button>
 </div>`;
 
-// Fills a box with the stage. `hint` stands in it until there are tosses; `without` says what works without WebGL.
+// Fills a box with the stage; `without` says what works without WebGL.
 // `labels` names the coins by the engine of their tosses, and `shown` says what the picture shows. While `isBusy` says that
 // the page computes something else, a browser that draws slowly, without a graphics card, draws few pictures.
-export function makeStage(box, { hint = "", without, labels = LABELS, shown = "The coin as tossed by each engine", isBusy = () => false, onTime }) {
+export function makeStage(box, { without, labels = LABELS, shown = "The coin as tossed by each engine", isBusy = () => false, onTime }) {
   box.innerHTML = MARKUP;
   const byId = (id) => document.getElementById(id);
   byId("coins").setAttribute("aria-label", shown);
   const states = Object.entries(labels).map(([engine, label], _, all) => {
-    const panel = element("div", `panel ${engine}`), name = element("b", "", label), state = element("span");
+    const panel = element("div", `panel ${engine}`), state = Object.assign(element("span"), { id: `state-${engine}` });
     panel.style.setProperty("--part", String(1 / all.length));
-    state.id = `state-${engine}`;
-    panel.append(name, " ", state);
+    panel.append(element("b", "", label), " ", state);
     byId("hint").before(panel);
     return state;
   });
-  byId("hint").textContent = hint;
   let scene = null;
   try {
     scene = makeScene(byId("coins"));
@@ -71,15 +69,12 @@ export function makeStage(box, { hint = "", without, labels = LABELS, shown = "T
   new ResizeObserver(() => player.redraw()).observe(byId("stage"));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => requestAnimationFrame(() => player.redraw()));
 
-  // No hint stands over the coins, but that there are none.
-  const clear = () => (byId("hint").hidden = scene !== null);
   return {
-    clear,
     seek: player.seek,
     // Tosses, null for one that is missing, and what each panel says; `fresh` plays them from the start, or shows
     // the moment `still`, by default the end, where motion is unwanted.
     show(tosses, told, fresh, still) {
-      clear();
+      byId("hint").hidden = scene !== null; // no hint stands over the coins, but that there are none
       scene?.show(tosses);
       states.forEach((state, i) => {
         state.textContent = told[i] ?? "";

@@ -170,6 +170,9 @@ export class Engine {
   tossEach(scenario: Scenario, changes: Record<string, ArrayLike<number>>, wanted?: Wanted): Outcomes;
 }
 
+/** A scenario in which the components of the angular velocity have the size "release.spin", if it is given, about their own axis. */
+export function spun(scenario: Scenario): Scenario;
+
 /**
  * A scenario with other values of some fields; the angles and the quaternion of a release take the place of each other.
  */

@@ -9,6 +9,7 @@ const MOST_BYTES = 2 ** 31; // that the engine is asked for at once
 const ROOM = { impacts: 256, pieces: 512 }; // for one toss at first
 const AT_ONCE = 4096; // scenarios that are passed at a time
 const WANTED = ["outcome", "trust", "certain"];
+const SPIN = "release.spin", SPINS = ["xi", "eta", "zeta"].map((axis) => `release.angular_velocity.${axis}`);
 const LISTS = { "release.angles": 0, "release.quaternion": null, "coin.inertia": null }; // each whole or not at all; what is missing
 
 export class EngineError extends Error {}
@@ -22,24 +23,14 @@ export async function unpacked(text) {
 /** Load engine.wasm; `version` is that of the page, if it asks for its own. */
 export async function load(bytes, version) {
   if (typeof WebAssembly === "undefined") throw new EngineError("this browser has no WebAssembly");
-  let module;
-  try {
-    module = bytes instanceof WebAssembly.Module ? bytes : await WebAssembly.compile(bytes);
-  } catch (problem) {
-    throw new EngineError(`engine.wasm: cannot be read (${problem.message})`);
-  }
+  const tried = (made, what) => made.catch((problem) => Promise.reject(new EngineError(`engine.wasm: cannot be ${what} (${problem.message})`)));
+  const module = bytes instanceof WebAssembly.Module ? bytes : await tried(WebAssembly.compile(bytes), "read");
   const [section] = WebAssembly.Module.customSections(module, SECTION);
   if (!section) throw new EngineError("engine.wasm: is no engine of cointoss");
   const about = JSON.parse(new TextDecoder().decode(section));
-  if (version !== undefined && about.version !== version)
-    throw new EngineError(`engine.wasm: of version ${about.version}; accepted: ${version}`);
-  let instance;
-  try {
-    instance = await WebAssembly.instantiate(module);
-  } catch (problem) {
-    throw new EngineError(`engine.wasm: cannot be started (${problem.message})`);
-  }
-  return new Engine(instance.exports, about, module);
+  if (version !== undefined && about.version !== version) throw new EngineError(`engine.wasm: of version ${about.version}; accepted: ${version}`);
+  const { exports } = await tried(WebAssembly.instantiate(module), "started");
+  return new Engine(exports, about, module);
 }
 
 export class Engine {
@@ -60,17 +51,16 @@ export class Engine {
   /** What is wrong with a scenario, in the package's words; null where it is one. */
   fault(scenario) {
     try {
-      this.row(scenario);
+      return this.row(scenario) && null;
     } catch (problem) {
       if (problem instanceof EngineError) return problem.message;
       throw problem;
     }
-    return null;
   }
 
   /** A scenario as a row of numbers; what is none is an EngineError. */
-  row(scenario) {
-    const { fields } = this.about, wrong = problems(scenario, fields);
+  row(given) {
+    const { fields } = this.about, scenario = spun(given), wrong = problems(scenario, fields);
     if (wrong.length) {
       const others = [...new Set(wrong.slice(1).map(({ shown }) => shown))];
       throw new EngineError(wrong[0].message + (others.length ? ` (also wrong: ${others.join(", ")})` : ""));
@@ -83,11 +73,6 @@ export class Engine {
     const found = this.about.faults[fault];
     if (found) throw new EngineError(faultText(found, this.#examine(row).limit, scenario, fields));
     return row;
-  }
-
-  /** Toss a coin and keep its impacts and its path; see engine.d.ts. */
-  toss(scenario) {
-    return this.tossRow(this.row(scenario));
   }
 
   /** Toss many scenarios that differ in some fields; see engine.d.ts. */
@@ -108,10 +93,11 @@ export class Engine {
     const start = performance.now(), max = this.#place("ending.max_impacts"), base = Float64Array.from(row);
     if (after !== null) base[max] = Math.min(after + 1, base[max] || Infinity);
     const wanted = trust ? (after === null ? "certain" : "trust") : "outcome";
-    const [[across, ofX], [up, ofY]] = [x, y].map(({ field, values }) => [this.#place(field), this.#within(field, values)]);
-    const found = this.#each(ofX.length, base, (made, i) => {
-      made[across] = ofX[i];
-      made[up] = ofY[i];
+    const parts = directed(SPINS.map((field) => base[this.#place(field)]));
+    const columns = [x, y].flatMap(({ field, values }) => (field === SPIN
+      ? SPINS.map((each, i) => [this.#place(each), values.map((value) => value * parts[i])]) : [[this.#place(field), this.#within(field, values)]]));
+    const found = this.#each(x.values.length, base, (made, i) => {
+      for (const [at, values] of columns) made[at] = values[i];
     }, wanted);
     const { outcome, impacts, lastFace, trustedImpacts, outcomeCertain } = found;
     const isTouch = (i) => after !== null && impacts[i] > after;
@@ -128,9 +114,9 @@ export class Engine {
     return values.map((value) => (value < (least ?? -Infinity) || value > (most ?? Infinity) ? Infinity : value));
   }
 
-  /** Toss a row of numbers. */
-  tossRow(row) {
-    const { answer: names, impact, piece } = this.about, wide = impact.length;
+  /** Toss a coin and keep its impacts and its path; see engine.d.ts. */
+  toss(scenario) {
+    const { answer: names, impact, piece } = this.about, wide = impact.length, row = this.row(scenario);
     for (let room = ROOM; ; ) {
       const { impacts: most, pieces: length } = room;
       const found = this.#run([row, names.length, most * wide, length * piece, 2], (at, call) => {
@@ -152,20 +138,12 @@ export class Engine {
     });
     const [ending, sentence] = this.about.endings[of("ending")], at = (field) => row[this.#place(field)];
     return {
-      outcome: this.about.outcomes[of("outcome")],
-      ending,
-      sentence,
-      endTime: of("end_time"),
-      pathEnd: path[path.length - this.about.piece],
-      laterTimes: bouncesAfter(of("end_time"), path, this.about.piece),
-      impacts,
-      sequence: impacts.map(({ face }) => face).join(""),
-      trustedImpacts: of("trusted_impacts"),
-      outcomeCertain: of("outcome_certain") === 1,
+      outcome: this.about.outcomes[of("outcome")], ending, sentence, endTime: of("end_time"),
+      pathEnd: path[path.length - this.about.piece], laterTimes: bouncesAfter(of("end_time"), path, this.about.piece),
+      impacts, sequence: impacts.map(({ face }) => face).join(""),
+      trustedImpacts: of("trusted_impacts"), outcomeCertain: of("outcome_certain") === 1,
       coin: {
-        radius: at("coin.radius"),
-        thickness: at("coin.thickness"),
-        center: ["xi", "eta", "zeta"].map((axis) => at(`coin.center_of_mass.${axis}`)),
+        radius: at("coin.radius"), thickness: at("coin.thickness"), center: ["xi", "eta", "zeta"].map((axis) => at(`coin.center_of_mass.${axis}`)),
         barrier: this.#examine(row).barrier,
       },
       path: (times) => this.#sample(row, path, times),
@@ -180,11 +158,7 @@ export class Engine {
     return this.#run([row, path, times, count * STATE, count * 4], (at, call) => {
       call("sample_path", line(at[0], row.length), table(at[1], path.length / piece, piece), line(at[2], count), table(at[3], count, STATE), table(at[4], count, 4));
       const more = this.#read(at[4], count * 4);
-      return {
-        states: this.#read(at[3], count * STATE),
-        energies: more.filter((_, i) => i % 4 === 0),
-        forces: more.filter((_, i) => i % 4 !== 0),
-      };
+      return { states: this.#read(at[3], count * STATE), energies: more.filter((_, i) => i % 4 === 0), forces: more.filter((_, i) => i % 4 !== 0) };
     });
   }
 
@@ -215,11 +189,8 @@ export class Engine {
     }
     const column = (name, Kind) => Kind.from({ length: count }, (_, i) => answers[i * wide + names.indexOf(name)]);
     return {
-      outcome: column("outcome", Int8Array),
-      ending: column("ending", Int8Array),
-      impacts: column("impacts", Int32Array),
-      lastFace: column("last_face", Int8Array),
-      endTime: column("end_time", Float64Array),
+      outcome: column("outcome", Int8Array), ending: column("ending", Int8Array), impacts: column("impacts", Int32Array),
+      lastFace: column("last_face", Int8Array), endTime: column("end_time", Float64Array),
       trustedImpacts: level > 0 ? column("trusted_impacts", Int32Array) : null,
       outcomeCertain: level > 1 ? column("outcome_certain", Int8Array) : null,
     };
@@ -261,6 +232,15 @@ export class Engine {
     }
   }
 }
+
+/** A scenario in which the components of the angular velocity have the size "release.spin", if it is given, about their own axis. */
+export function spun(scenario) {
+  if (scenario?.[SPIN] === undefined) return scenario;
+  const { [SPIN]: size, ...others } = scenario, parts = directed(SPINS.map((field) => others[field] ?? 0));
+  return { ...others, ...Object.fromEntries(SPINS.map((field, i) => [field, size * parts[i]])) };
+}
+
+const directed = (parts) => parts.map((part) => part / Math.hypot(...parts));
 
 /** A scenario with other values of some fields; the angles and the quaternion of a release take the place of each other. */
 export function changed(scenario, values) {
@@ -382,17 +362,8 @@ export function played(toss, samples) {
   const times = [...new Set([...even, ...hits, pathEnd])].filter((time) => time <= pathEnd).sort((a, b) => a - b);
   const { states, energies } = toss.path(times), part = (first, count) => times.flatMap((_, i) => [...states.subarray(13 * i + first, 13 * i + first + count)]);
   return {
-    engine: "analytic",
-    outcome: toss.outcome,
-    certain: toss.outcomeCertain,
-    ending: toss.sentence,
-    end_time: endTime,
-    count: impacts.length,
-    sequence: toss.sequence.slice(0, shown.length),
-    times: shown.map(({ time }) => time),
-    trusted: toss.trustedImpacts,
-    notes: [],
-    coin: toss.coin,
+    engine: "analytic", outcome: toss.outcome, certain: toss.outcomeCertain, ending: toss.sentence, end_time: endTime, count: impacts.length,
+    sequence: toss.sequence.slice(0, shown.length), times: shown.map(({ time }) => time), trusted: toss.trustedImpacts, notes: [], coin: toss.coin,
     path: { time: times, position: part(0, 3), quaternion: part(6, 4), energy: [...energies] },
     ...(pathEnd > endTime ? { later_times: later } : {}),
   };

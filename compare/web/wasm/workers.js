@@ -12,9 +12,8 @@ const LONGEST = 16; // workers
 /** Start the workers; see engine.d.ts. */
 export async function startWorkers(bytes, version) {
   const engine = await load(bytes, version);
-  const count = Math.min(Math.max(globalThis.navigator?.hardwareConcurrency ?? 1, 1), LONGEST);
   const workers = new Workers(engine);
-  await workers.start(count, bytes);
+  await workers.start(Math.min(Math.max(globalThis.navigator?.hardwareConcurrency ?? 1, 1), LONGEST), bytes);
   return workers;
 }
 
@@ -35,9 +34,9 @@ export class Workers {
     return this.#all.size;
   }
 
-  async start(count, bytes) {
+  start(count, bytes) {
     this.#bytes = bytes;
-    await Promise.all(Array.from({ length: count }, () => this.#add()));
+    return Promise.all(Array.from({ length: count }, () => this.#add()));
   }
 
   async #add() {
@@ -66,7 +65,8 @@ export class Workers {
   /** A map, coarse pixels first; see engine.d.ts. */
   async map(scenario, x, y, { after = null, trust = false } = {}, onPart, signal) {
     // Pixels that are no scenario are answered as such.
-    const own = ({ field, start }) => ({ [field]: scenario[field] ?? start }), row = this.engine.row(changed(scenario, { ...own(x), ...own(y) }));
+    const { "release.spin": _, ...others } = scenario, own = ({ field, start }) => (field === "release.spin" ? {} : { [field]: scenario[field] ?? start });
+    const row = this.engine.row(changed(others, { ...own(x), ...own(y) }));
     const asked = { row, x, y, after, trust }, kind = `${after} ${trust}`;
     return this.tossMap ? this.#mapThere(asked, kind, onPart, signal) : this.#mapHere(asked, kind, onPart, signal);
   }
@@ -177,7 +177,6 @@ class Thread {
   }
 
   end() {
-    this.#worker.terminate();
     this.#die("");
   }
 
@@ -191,8 +190,7 @@ class Thread {
   #settle(problem, answer) {
     const waits = this.#waits;
     this.#waits = null;
-    if (problem) waits?.reject(problem);
-    else waits?.resolve(answer);
+    problem ? waits?.reject(problem) : waits?.resolve(answer);
   }
 }
 

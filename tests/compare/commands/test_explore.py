@@ -1,26 +1,26 @@
-"""`cointoss explore`: what it refuses, where it listens, and how it ends."""
+"""`cointoss explore`, and `lab` of a map: what it refuses, where it listens, and how it ends."""
 
 import json
 import shutil
 import signal
 import socket
 import webbrowser
+from base64 import b64decode
 
 import numpy as np
 import pytest
 
 from cointoss import read_map
 from cointoss.compare.engines import Engine
-from cointoss.compare.explorer.page_map import page_map
-from cointoss.compare.explorer.server import Explorer
 from cointoss.compare.film.back_end import BackEndError
+from cointoss.compare.lab.saved import saved_map
+from cointoss.compare.lab.served import ServedLab
 from cointoss.compare.sweep import reading
 from cointoss.compare.sweep.maps import thinned
 from cointoss.compare.sweep.store import Store
-from cointoss.models.devices import Device
-from tests.helpers.cards import with_card, without_card
+from tests.helpers.cards import without_card
 from tests.helpers.command_line import cointoss, refused
-from tests.helpers.explored import got, serving, small_map
+from tests.helpers.explored import got, small_map
 from tests.helpers.processes import answered, ask, started
 
 
@@ -81,7 +81,8 @@ def test_an_unfinished_map_is_shown_as_far_as_it_is(tmp_path, monkeypatch):
     outcome = found.cointoss.codes
     assert 0 < (outcome == -1).mean() < 0.8
     assert np.array_equal(outcome[outcome != -1], before[outcome != -1])
-    assert page_map(found, "")["tossed"] == pytest.approx(np.mean(outcome != -1))
+    held = np.frombuffer(b64decode(saved_map(found, "map.zarr")["arrays"]["outcome"]), np.int8)
+    assert np.array_equal(held, outcome.ravel())
 
 
 def test_a_port_in_use_is_refused(map_path):
@@ -92,13 +93,19 @@ def test_a_port_in_use_is_refused(map_path):
 
 
 @pytest.mark.parametrize(
-    ("opens", "options", "asked"), [(True, [], 1), (False, [], 1), (True, ["--no-browser"], 0)]
+    ("words", "opens", "asked"),
+    [
+        ("explore MAP", True, 1),
+        ("lab MAP", False, 1),
+        ("lab MAP --no-browser", True, 0),
+        ("lab --device auto", True, 1),
+    ],
 )
-def test_the_address_is_printed_and_opened(map_path, monkeypatch, opens, options, asked):
+def test_the_address_is_printed_and_opened(map_path, monkeypatch, words, opens, asked):
     opened = []
     monkeypatch.setattr(webbrowser, "open", lambda url: opened.append(url) or opens)
-    monkeypatch.setattr(Explorer, "serve_forever", lambda _: None)
-    answered = cointoss("explore", map_path, *options)
+    monkeypatch.setattr(ServedLab, "serve_forever", lambda _: None)
+    answered = cointoss(*(map_path if word == "MAP" else word for word in words.split()))
     assert answered.exit_code == 0
     assert answered.stdout.startswith("http://127.0.0.1:")
     assert len(opened) == asked
@@ -112,14 +119,6 @@ def test_a_device_that_cannot_be_used_is_refused(map_path, copy, monkeypatch):
     changed(copy, engine=Engine.MUJOCO, engine_settings=Engine.MUJOCO.package.MANY.as_dict())
     told = refused("explore", copy, "--device", "cuda")
     assert told == f"cointoss: {copy}: --device cuda: accepted by the MuJoCo engine: cpu, auto\n"
-
-
-def test_a_card_that_is_lost_is_told_to_the_page(map_path, monkeypatch):
-    with_card(monkeypatch, calls=0)
-    with serving(Explorer(map_path, 0, Device.CUDA)) as explorer:
-        status, _, body = got(explorer.port, "/tile?level=3&column=2&row=1")
-        assert (status, body) == (503, b"`device` cuda: the card was lost; accepted: cpu, auto\n")
-        assert got(explorer.port, "/map")[0] == 200
 
 
 def test_ctrl_c_ends_it(map_path):

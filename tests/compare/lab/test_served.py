@@ -1,23 +1,31 @@
-"""The lab's server: the map that its page asks for, what it refuses, and the command that serves it."""
+"""The lab's server: what its page asks for, and what it refuses."""
 
+import json
 import threading
-import webbrowser
+from base64 import b64decode
+from contextlib import suppress
+from dataclasses import replace
 from urllib.parse import urlencode
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import cointoss
+from cointoss import analytic, coin_mj
 from cointoss.analytic.entries import toss_each
 from cointoss.compare.lab import served
+from cointoss.compare.lab.saved import saved_map
+from cointoss.compare.lab.tosses import toss_by_mujoco
 from cointoss.models.answers import ANSWER
 from cointoss.models.batch import rows_of
 from cointoss.models.devices import Device
 from cointoss.models.fields import FIELDS
+from cointoss.models.reading import parse
 from cointoss.models.rows import row_of
 from tests.helpers.cards import with_card
-from tests.helpers.command_line import cointoss as command
-from tests.helpers.explored import asked, got, serving
+from tests.helpers.explored import FIELDS as SHOWN
+from tests.helpers.explored import SCENARIO, asked, got, sent, serving, small_map
 
 CASE = cointoss.load("fig24a").replace("ending.max_impacts", 4)
 SPIN, RESTITUTION = "release.angular_velocity.eta", "floor.restitution"
@@ -29,11 +37,21 @@ def _server():
         yield lab
 
 
+@pytest.fixture(name="of_map")
+def _of_map(map_path):
+    with serving(map_path) as lab:
+        yield lab
+
+
+def numbers(*more, row=None):
+    """Return a scenario's row and more numbers as a page sends them."""
+    return np.array([*(row_of(CASE) if row is None else row), *more], dtype="<f8").tobytes().hex()
+
+
 def target(*ends, row=None, **more):
     """Return what a page asks for."""
-    numbers = np.array([*(row_of(CASE) if row is None else row), *(ends or (20, 60, 0.5, 0.9))], dtype="<f8")
-    given = {"numbers": numbers.tobytes().hex(), "x": SPIN, "y": RESTITUTION, "columns": 7, "rows": 5}
-    return f"/map?{urlencode({**given, 'after': '1', 'trust': '0', **more})}"
+    given = {"numbers": numbers(*(ends or (20, 60, 0.5, 0.9)), row=row), "x": SPIN, "y": RESTITUTION}
+    return f"/map?{urlencode({**given, 'columns': 7, 'rows': 5, 'after': '1', 'trust': '0', **more})}"
 
 
 @pytest.mark.parametrize("after", ["final", "0", "2"])
@@ -60,14 +78,69 @@ def test_a_map_is_that_of_the_entry_that_a_page_calls(server, after, trust):
         assert 1 in trusted[0]
 
 
+def test_a_map_by_mujoco_is_finer_by_mujoco(tmp_path):
+    options = ("--engine", "mujoco", "--contact", "spring")
+    with serving(small_map(tmp_path, *options, size=(2, 2))) as lab:
+        codes = np.frombuffer(got(lab.port, target(after="3"))[2], np.int8)
+        assert got(lab.port, target(trust=1))[0] == 400
+    spins, restitutions = np.meshgrid(np.linspace(20, 60, 7), np.linspace(0.5, 0.9, 5))
+    rows = rows_of(CASE, 35, {SPIN: spins.ravel(), RESTITUTION: restitutions.ravel()})
+    due, one_step = (
+        coin_mj.toss_rows(rows, settings=replace(coin_mj.MANY, contact=contact)).after(3)
+        for contact in ("spring", "one_step")
+    )
+    assert np.array_equal(codes, due)
+    assert not np.array_equal(codes, one_step)
+    assert not np.array_equal(codes, analytic.toss_rows(rows).after(3))
+
+
+def test_a_spin_is_about_the_axis_of_its_scenario(server):
+    """As the page has it, whose engine knows the components."""
+    plain = got(server.port, target())[2]
+    assert got(server.port, target(x="release.spin"))[2] == plain
+    still = CASE.replace("release.angular_velocity", [0, 0, 0])
+    assert got(server.port, target(row=row_of(still), x="release.spin"))[0] == 400
+
+
+@pytest.mark.parametrize("is_reversed", [False, True])
+def test_a_map_is_told_pixel_by_pixel(of_map, map_path, is_reversed):
+    _, _, body = got(of_map.port, "/saved")
+    told = json.loads(body)
+    found = cointoss.read_map(map_path)
+    assert told == saved_map(found.isel(x=slice(None, None, -1)) if is_reversed else found, "map.zarr")
+    with xr.open_dataset(map_path, engine="zarr") as store:
+        for name, kind in (("outcome", "<i1"), ("impacts", "<i4")):
+            array = np.frombuffer(b64decode(told["arrays"][name]), kind).reshape(18, 24)
+            assert np.array_equal(array, store[name].to_numpy())
+        x, y = told["axes"]
+        assert (x["values"], y["values"]) == tuple(store[field].values.tolist() for field in SHOWN)
+    assert (x["field"], x["word"], x["unit"]) == (SPIN, "spin about η", "rad/s")
+    assert (told["after"], told["stride"], told["margin"], told["title"]) == (1, 1, None, "coin: 2 g, 25 mm")
+
+
+def test_a_toss_by_mujoco_goes_on_to_its_end(of_map):
+    case = parse(SCENARIO, "here").replace("ending.max_impacts", 1000)
+    found = json.loads(got(of_map.port, f"/toss?numbers={numbers(row=row_of(case))}")[2])
+    toss = coin_mj.toss(case)
+    assert (found["engine"], found["sequence"], found["outcome"]) == ("mujoco", toss.sequence, toss.outcome)
+    assert found["path"]["time"][-1] > found["end_time"] + 0.05
+    assert min(found["later_times"]) >= found["end_time"] - 1e-6
+    first = np.array(found["path"]["time"]) < toss.impacts.time[0]
+    states = toss.sample(np.array(found["path"]["time"])[first])
+    assert np.allclose(np.reshape(found["path"]["position"], (-1, 3))[first], states.position, atol=1e-6)
+    assert analytic.toss(case).sequence[:2] == found["sequence"][:2]
+    knurled = toss_by_mujoco(case.replace("floor.contact", "knurled"), None)
+    assert 'floor.contact = "knurled": accepted by the MuJoCo engine' in knurled["problem"]
+
+
 NO_ROW = np.where(np.arange(len(FIELDS)) == 1, -1.0, row_of(CASE))
 WRONG = [
-    *("/map", "/map?x=1", f"{target()}&more=1"),
+    *("/map", "/map?", "/map?x=1", f"{target()}&more=1", f"{target()}&x={SPIN}", "/map?x&y", "/saved?x=1"),
     *(target(**{name: text}) for name in ("x", "y") for text in ("", "spin", "floor.contact", "nothing")),
     *(
         target(**{name: text})
         for name in ("columns", "rows")
-        for text in ("", "1", "4097", "-5", "1e3", "9" * 12)
+        for text in ("", "1", "4097", "-5", "1e3", "9" * 12, "٤٠", "7 ", "<script>")
     ),
     *(target(after=text) for text in ("", "-1", "1000000", "none")),
     *(target(trust=text) for text in ("", "2", "true")),
@@ -79,27 +152,62 @@ WRONG = [
         target(y=SPIN),
         target(x="ending.max_impacts"),
     ),
+    *("/toss", "/toss?numbers=", f"/toss?numbers={numbers(1)}", f"/toss?numbers={numbers(row=NO_ROW)}"),
+    f"/map?{'&'.join(f'x{i}=1' for i in range(50))}",
 ]
 
 
-@pytest.mark.parametrize("wrong", WRONG)
-def test_what_is_no_map_is_refused_in_a_line(server, wrong):
-    status, headers, body = got(server.port, wrong)
-    assert (status, headers["content-type"]) == (400, "text/plain; charset=utf-8")
+def is_refused(answer, status):
+    found, headers, body = answer
+    assert (found, headers["content-type"]) == (status, "text/plain; charset=utf-8"), body
+    assert "default-src 'none'" in headers["content-security-policy"]
     assert body.count(b"\n") == 1
     assert b"accepted" in body
+    assert b"<script>" not in body
+    assert b"root:" not in body
+    return headers
 
 
-def test_the_page_may_ask_its_server_and_nobody_else(server):
-    status, headers, body = got(server.port, "/")
+@pytest.mark.parametrize("wrong", WRONG)
+def test_what_is_no_query_is_refused_in_a_line(of_map, wrong):
+    is_refused(got(of_map.port, wrong), 400)
+
+
+NOT_FOUND = r"""
+/nothing /zarr.json /map.zarr/zarr.json /../zarr.json /../../../../etc/passwd /..%2f..%2fetc%2fpasswd
+/%2e%2e/%2e%2e/etc/passwd /..\..\etc\passwd //etc/passwd /etc/passwd /lab.js /./index.html /index.html/
+/index.html?x=1 /index.html%00 /INDEX.HTML /served.py /map/ /toss/ /#map * index.html http://127.0.0.1/map
+file:///etc/passwd ~/.ssh/id_rsa
+"""
+HOSTS = " evil.example 127.0.0.1 localhost 127.0.0.1:1 {}.evil.example 127.0.0.1:{}0 [::1]:{}"
+NOISE = [b"", b"\x00\xff\x16\x03\x01", b"GET", b"GET / HTTP/9.9", b"GET / FTP/1.1"]
+
+
+def test_only_the_page_may_ask_and_nothing_but_what_there_is(of_map):
+    port = of_map.port
+    for path in NOT_FOUND.split():
+        is_refused(got(port, path), 404)
+    for method in ["POST", "HEAD", "PUT", "DELETE", "OPTIONS", "TRACE", "CONNECT", "FOO", "get"]:
+        assert is_refused(got(port, "/", "Content-Length: 3", method=method), 405)["allow"] == "GET"
+    for path in ("/", "/saved", "/toss?numbers=00", "/nothing"):
+        for host in HOSTS.split(" "):
+            is_refused(got(port, path, host=host.replace("{}", str(port)) or " "), 403)
+        for site in ("cross-site", "same-site"):
+            is_refused(got(port, path, f"Sec-Fetch-Site: {site}"), 403)
+    is_refused(sent(port, b"GET / HTTP/1.1\r\n\r\n"), 403)
+    for more in ("evil.example", f"127.0.0.1:{port}"):
+        is_refused(got(port, "/", f"Host: {more}"), 403)
+    is_refused(got(port, "/toss?numbers=" + "1" * 2000), 414)
+    for noise in NOISE:
+        with suppress(IndexError, ValueError):  # it may also hang up without a word
+            sent(port, noise + b"\r\n\r\n")
+    is_refused(got(port, "/", *(f"X-{i}: 1" for i in range(200))), 431)
+    status, headers, body = got(port, "/", host=f"localhost:{port}")
     assert status == 200
+    assert (headers["x-content-type-options"], headers["cache-control"]) == ("nosniff", "no-store")
     for policy in (headers["content-security-policy"], body.decode()):
         assert "default-src 'none'" in policy
         assert "connect-src 'self'" in policy
-    assert got(server.port, target(), host="evil.example")[0] == 403
-    assert got(server.port, target(), "Sec-Fetch-Site: cross-site")[0] == 403
-    assert got(server.port, target(), method="POST")[0] == 405
-    assert got(server.port, "/nothing")[0] == 404
 
 
 def test_a_map_that_nobody_waits_for_any_more_is_given_up(server, monkeypatch):
@@ -116,12 +224,14 @@ def test_a_map_that_nobody_waits_for_any_more_is_given_up(server, monkeypatch):
     monkeypatch.setattr(served, "pieces", slow)
     with asked(server.port, target(columns=600, rows=400)):
         begun.wait()
+    for _ in range(20):  # which wait for their turn
+        asked(server.port, target(columns=500, rows=400)).close()
     may_go_on.set()
     assert got(server.port, target())[0] == 200
     assert made == [240_000, 35]
 
 
-def test_a_map_is_tossed_on_the_card(monkeypatch):
+def test_a_map_is_tossed_on_the_card(map_path, monkeypatch):
     with serving(served.ServedLab(CASE, 0, Device.CPU)) as lab:
         _, _, due = got(lab.port, target(columns=80, rows=60))
     card = with_card(monkeypatch)
@@ -131,16 +241,7 @@ def test_a_map_is_tossed_on_the_card(monkeypatch):
             assert got(lab.port, target(columns=80, rows=60))[2] == due
         assert sum(card.given) == 4800
     card.left = 0
-    with serving(served.ServedLab(CASE, 0, Device.CUDA)) as lab:
-        status, _, body = got(lab.port, target())
-    assert (status, body) == (503, b"`device` cuda: the card was lost; accepted: cpu, auto\n")
-
-
-def test_the_command_serves_the_page_where_a_device_is_named(monkeypatch):
-    opened = []
-    monkeypatch.setattr(webbrowser, "open", lambda url: opened.append(url) or True)
-    monkeypatch.setattr(served.ServedLab, "serve_forever", lambda _: None)
-    answered = command("lab", "--device", "auto")
-    assert (answered.exit_code, answered.stderr) == (0, "")
-    assert answered.stdout == f"{opened[0]}\n"
-    assert opened[0].startswith("http://127.0.0.1:")
+    for shown in (CASE, map_path):
+        with serving(served.ServedLab(shown, 0, Device.CUDA)) as lab:
+            status, _, body = got(lab.port, target())
+        assert (status, body) == (503, b"`device` cuda: the card was lost; accepted: cpu, auto\n")

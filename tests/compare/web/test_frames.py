@@ -1,15 +1,16 @@
 """Tosses and maps in the frames of a notebook: they play, quiet and apart from each other."""
 
 import time
+from base64 import b64decode
 
 import numpy as np
 import pytest
 
 from cointoss import analytic, coin_mj, read_map
-from cointoss.compare.explorer import static
-from cointoss.models.reading import load
+from cointoss.compare.lab import static
+from cointoss.models.reading import load, parse
 from tests.helpers.coins_shown import UNNAMED, faces, picture, set_time
-from tests.helpers.explored import FIELDS
+from tests.helpers.explored import FIELDS, SCENARIO
 from tests.helpers.processes import HANGS
 
 STAGE = 300
@@ -131,40 +132,39 @@ def test_frames_leave_each_other_and_the_notebook_alone(page, notebook, fig24a, 
     assert_quiet(page, first, second)
 
 
-@pytest.fixture
-def _few_tosses(monkeypatch):
-    """Let few pixels be tossed, where the engine for a browser was not built; tests/site has it."""
-    monkeypatch.setattr(static, "TOSSED_IN_FRAME", (2, 2))
-    monkeypatch.setattr(static, "engine_data", lambda *_: None)
-
-
-@pytest.mark.usefixtures("_few_tosses")
 @pytest.mark.parametrize(("width", "scheme"), [(1280, "light"), (420, "dark")])
-def test_a_map_is_explored_in_a_frame(page, notebook, map_path, width, scheme):
+def test_a_map_is_explored_in_a_frame(page, notebook, map_path, monkeypatch, width, scheme):
+    monkeypatch.setattr(static, "TOSSED_IN_FRAME", (1, 1))
     found = read_map(map_path)
-    (frame,) = notebook(static.explore(found), width=width, scheme=scheme)
-    frame.value("document.getElementById('map').focus()")
-    frame.value(
-        "document.getElementById('map').dispatchEvent(new KeyboardEvent('keydown', { key: 'Enter' }))"
-    )
+    (frame,) = notebook(found.cointoss.page(), width=width, scheme=scheme)
     frame.wait_for("document.querySelectorAll('#sequences .row[role=img]').length === 2")
-    x, y = found[FIELDS[0]].values[6], found[FIELDS[1]].values[4]
-    case = found.cointoss.scenario.replace(FIELDS[0], x, FIELDS[1], y)
+    press = "document.getElementById('map').dispatchEvent(new KeyboardEvent('keydown', {{ key: '{}' }}))"
+    x, y = (found[field].values[at] for field, at in zip(FIELDS, (12, 9), strict=True))
+    case = parse(SCENARIO, "here").replace(FIELDS[0], x, FIELDS[1], y)
     assert frame.value(SEQUENCES)[0] == row(analytic.toss(case), "analytic", "analytic")
+    frame.value(press.format("ArrowLeft"))
+    frame.wait_for("document.getElementById('outcome').textContent.includes('MuJoCo: tossed only')")
+    toss = analytic.toss(case.replace(FIELDS[0], found[FIELDS[0]].values[11]))
+    told = f"{toss.outcome} after {len(toss.impacts)} impacts in {toss.end_time:.4f} s."
+    assert told in frame.text("outcome")
     assert frame.value("document.documentElement.scrollWidth <= innerWidth")
     assert frame.value("location.href") == "about:srcdoc"
     assert_quiet(page, frame)
 
 
-@pytest.mark.usefixtures("_few_tosses")
 def test_a_large_map_is_thinned(map_path, monkeypatch):
     monkeypatch.setattr(static, "MOST_PIXELS", 24 * 18 // 4)
-    found = read_map(map_path)
+    monkeypatch.setattr(static, "TOSSED_IN_FRAME", (1, 1))
     shown = []
-    monkeypatch.setattr(static, "page_map", lambda thinned, _: shown.append(thinned) or {})
-    static.explore(found)
-    assert shown[0].attrs["stride"] == 2
-    assert shown[0].equals(found[{"x": slice(None, None, 2), "y": slice(None, None, 2)}])
+    monkeypatch.setattr(static, "lab_page", lambda _, **more: shown.append(more) or "")
+    found = read_map(map_path)
+    found.cointoss.page()
+    saved = shown[-1]["saved"]
+    assert saved["stride"] == 2
+    values = [found[field].values[::2].tolist() for field in FIELDS]
+    assert [axis["values"] for axis in saved["axes"]] == values
+    told = np.frombuffer(b64decode(saved["arrays"]["impacts"]), "<i4")
+    np.testing.assert_array_equal(told, found["impacts"].values[::2, ::2].ravel())
 
 
 @pytest.mark.slow

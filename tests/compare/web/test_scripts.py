@@ -1,4 +1,4 @@
-"""Names and comments that are HTML or JavaScript stay text: in the report, the explorer, and notebooks."""
+"""Names and comments that are HTML or JavaScript stay text: in a report, the page of a map, a notebook."""
 
 import json
 import shutil
@@ -7,9 +7,7 @@ from html.parser import HTMLParser
 import pytest
 
 from cointoss import analytic, read_map
-from cointoss.compare.explorer import static
-from cointoss.compare.explorer.page_files import page_files
-from cointoss.compare.explorer.static import write_static
+from cointoss.compare.lab import static
 from cointoss.compare.report.comparison import Comparison
 from cointoss.compare.report.map_section import MapSection
 from cointoss.compare.report.page import render
@@ -99,56 +97,42 @@ def named(map_path, tmp_path_factory):
 
 
 @pytest.fixture
-def static_page(tmp_path, monkeypatch):
-    """Return what writes the static page of a map whose tosses all fail in those words."""
+def failing(monkeypatch):
+    """Return what lets MuJoCo fail in some words."""
 
-    def made(path, words):
-        def toss_pixel(_sweep, _x, _y, engine, **_):
-            return {"engine": engine.value, "problem": words}
+    def fails(words):
+        monkeypatch.setattr(static, "toss_by_mujoco", lambda *_, **__: {"engine": "mujoco", "problem": words})
 
-        monkeypatch.setattr(static, "toss_pixel", toss_pixel)
-        monkeypatch.setattr(static, "engine_data", lambda *_: None)
-        write_static(path, tmp_path / "page.html")
-        return tmp_path / "page.html"
-
-    return made
+    return fails
 
 
 @pytest.mark.parametrize("words", HOSTILE)
-def test_a_static_page_holds_them_as_data(map_path, named, static_page, words):
-    expected = Parsed(static_page(map_path, "out of reach").read_text("utf-8"))
-    found = Parsed(static_page(named, words).read_text("utf-8"))
+def test_a_static_page_holds_them_as_data(map_path, named, tmp_path, failing, words):
+    pages = []
+    for path, told in ((map_path, "out of reach"), (named, words)):
+        failing(told)
+        static.write_static(path, tmp_path / "page.html")
+        pages.append(Parsed((tmp_path / "page.html").read_text("utf-8")))
+    expected, found = pages
     assert found.elements == expected.elements
     assert found.comments == expected.comments
     data = json.loads(found.scripts["data"])
-    assert data["map"]["name"] == NAME
-    assert {toss["problem"] for pair in data["tosses"].values() for toss in pair} == {words}
+    assert data["saved"]["name"] == NAME
+    assert {each["toss"]["problem"] for each in data["tosses"]} == {words}
 
 
-def test_the_server_answers_them_as_data(named):
-    with serving(named) as explorer:
-        status, headers, body = got(explorer.port, "/map")
-        page = got(explorer.port, "/")[2]
+def test_the_server_answers_them_as_data(named, map_path):
+    with serving(named) as lab, serving(map_path) as plain:
+        status, headers, body = got(lab.port, "/saved")
+        assert got(lab.port, "/")[2] == got(plain.port, "/")[2]
     assert (status, headers["content-type"]) == (200, "application/json")
     assert headers["x-content-type-options"] == "nosniff"
     assert json.loads(body)["name"] == NAME
-    assert page == page_files()["index.html"]
 
 
-def test_a_browser_runs_none_of_them(page, named, static_page):
-    words = "".join(HOSTILE)
-    page.open(f"{static_page(named, words).as_uri()}#x=40&y=0.4")
-    page.wait_for("document.getElementById('outcome').textContent.includes('MuJoCo: <script>')")
-    assert page.value("document.title") == f"{NAME}: 2 g, 25 mm: cointoss explore"
-    assert page.text("name") == f"{NAME}: 2 g, 25 mm"
-    assert page.text("outcome").count(words) == 2
-    assert page.value("document.querySelectorAll('img, #outcome script, #name *').length") == 0
-
-
-def test_a_frame_of_a_notebook_keeps_them_inside(page, named, tmp_path, monkeypatch):
-    monkeypatch.setattr(static, "toss_pixel", lambda *_, **__: {"engine": "analytic", "problem": HOSTILE[1]})
-    monkeypatch.setattr(static, "engine_data", lambda *_: None)
-    frame = static.explore(read_map(named))
+def test_a_browser_runs_none_of_them_and_a_frame_keeps_them_inside(page, named, tmp_path, failing):
+    failing(words := "".join(HOSTILE))
+    frame = read_map(named).cointoss.page()
     found = Parsed(frame._repr_html_())
     attributes = ("title", "sandbox", "loading", "style", "srcdoc")
     assert found.elements == [("iframe", attributes), ("iframe", "end")]
@@ -158,6 +142,9 @@ def test_a_frame_of_a_notebook_keeps_them_inside(page, named, tmp_path, monkeypa
     assert page.value("document.querySelector('iframe').srcdoc") == frame.page
     assert page.value("document.querySelector('iframe').title") == f"map of {NAME}: 2 g, 25 mm"
     assert page.value("document.querySelectorAll('img, script').length") == 0
+    inside.wait_for("document.getElementById('outcome').textContent.includes('MuJoCo: <script>')")
+    assert inside.value("document.title") == f"{NAME}: 2 g, 25 mm: the coin lab"
     assert inside.text("name") == f"{NAME}: 2 g, 25 mm"
-    assert inside.value("document.querySelectorAll('img').length") == 0
+    assert inside.text("outcome").count(words) == 1
+    assert inside.value("document.querySelectorAll('img, #outcome script, #name *').length") == 0
     assert inside.complaints() == []

@@ -1,7 +1,6 @@
 // One or two tosses that are played: the coins, their sequences, how they ended, and their energy.
 
-import { showEnergy } from "./energy.js";
-import { nameOf } from "./motion.js";
+import { nameOf, showEnergy } from "./motion.js";
 import { outcomeLine } from "./outcome.js";
 import { horizonText, markTouch, showSequences } from "./sequences.js";
 import { makeStage } from "./stage.js";
