@@ -5,7 +5,7 @@ from base64 import b64encode
 from typing import TYPE_CHECKING, Any
 
 from cointoss.compare.engines import Engine, EngineSettings
-from cointoss.compare.sweep.maps import field_along, settings_of
+from cointoss.compare.sweep.maps import field_along, outcomes_in, settings_of
 from cointoss.compare.sweep.words import in_codes
 from cointoss.models.reading import parse
 from cointoss.models.scenario import Scenario
@@ -46,9 +46,13 @@ def saved_map(found: "xr.Dataset", name: str) -> dict[str, Any]:
     Args:
         found: as of `cointoss.read_map`.
         name: of its folder.
+
+    Raises:
+        ValueError: for an outcome's code that is none.
     """
     about, fields = found.attrs, [field_along(found, dim) for dim in ("x", "y")]
-    coded = in_codes(found).sortby(fields)
+    outcome = found["outcome"].dims, outcomes_in(found)
+    coded = in_codes(found).assign(outcome=outcome).sortby(fields)
     return {
         "name": name,
         "title": title_of_toss(scenario_of(found), about["name"], varied=fields),
