@@ -21,14 +21,25 @@ def test_statements_are_counted_and_not_lines_imports_or_docstrings():
     assert ceilings.statements(SOURCE.replace("; ", "\n    ")) == 6
 
 
-def test_a_folder_above_its_ceiling_is_named_with_both_numbers(tmp_path):
+def test_what_is_above_its_ceiling_or_sum_is_named_with_both_numbers(tmp_path):
     (tmp_path / "folder").mkdir()
     (tmp_path / "folder" / "half.py").write_text(SOURCE)
-    counts = {"folder": ceilings.counted("folder", tmp_path)}
-    (line,) = ceilings.exceeded({"folder": 5}, counts)
-    assert line.startswith("folder: 6 statements, accepted: 5, its ceiling in ceilings.toml; ")
-    assert ceilings.exceeded({"folder": 6}, counts) == []
+    (tmp_path / "folder" / "page.js").write_text("let one\nlet two\n")
+    (tmp_path / "folder" / "library.min.js").write_text("let three\n")
+    assert ceilings.lines("folder", tmp_path) == 2
+    counts = {"houses": {"folder": ceilings.counted("folder", tmp_path)}}
+    line, total = ceilings.exceeded({"sums": {"houses": 4}, "houses": {"folder": 5}}, counts)
+    assert line.startswith("folder: 6, accepted: 5, its ceiling in ceilings.toml; ")
+    assert total == "houses: ceilings of 5 in all, accepted: 4, their sum in ceilings.toml"
+    assert ceilings.exceeded({"sums": {"houses": 6}, "houses": {"folder": 6}}, counts) == []
 
 
-def test_a_ceiling_sinks_to_what_is_there_and_never_rises():
-    assert ceilings.sunk({"one": 7, "two": 5}, {"one": 6, "two": 6}).endswith('"one" = 6\n"two" = 5\n')
+def test_a_ceiling_and_a_sum_sink_to_what_is_there_and_never_rise():
+    now = {"sums": {"houses": 13}, "houses": {"one": 7, "two/three": 5}}
+    found = ceilings.sunk(now, {"houses": {"one": 6, "two/three": 6}})
+    assert found.endswith('[sums]\nhouses = 11\n\n[houses]\n"one" = 6\n"two/three" = 5\n')
+    history = "-houses = 12\n+houses = 11\n+houses = 12\n"
+    assert ceilings.risen({"houses": 11}, history) == []
+    assert ceilings.risen({"houses": 12}, history) == [
+        "houses: a sum of 12, accepted: 11, which it was; a sum never rises"
+    ]
