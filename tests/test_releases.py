@@ -117,8 +117,8 @@ def test_a_scenario_is_tossed_as_it_was(toss):
     then = read(toss)
     assert then["trusted_impacts"] == len(then["impacts"])
     if toss.stem in ("sharp_edge", "knurled", "perfectly_rough", "slip_preserving"):
-        for impact in then["impacts"]:  # laws without a friction cone were said to leave it
-            impact["flags"].remove("leaves_cone")
+        for impact in then["impacts"]:  # 0.1.0 said of laws without a friction cone that they leave it
+            impact["flags"] = [flag for flag in impact["flags"] if flag != "leaves_cone"]
     now = cointoss("toss", toss.parents[1] / "given" / f"{toss.stem}.toml", "--json")
     assert unlike(then, json.loads(now.stdout)) == []
 
@@ -219,7 +219,8 @@ def test_a_store_of_tosses_means_what_it_meant(release, tmp_path):
         xarray.open_zarr(release / "made" / "tosses.zarr", consolidated=False) as then,
         package.toss_many(coin, vary, trust="certain", out=tmp_path / "tosses.zarr") as now,
     ):
-        assert (then.attrs["cointoss_tosses"], now.attrs["cointoss_tosses"]) == (1, 2)
+        form = then.attrs["cointoss_tosses"], now.attrs["cointoss_tosses"]
+        assert form == ({"0.1.0": 1}.get(release.name, 2), 2)
         assert parse(then.attrs["scenario"], "store") == coin
         for name, array in then.variables.items():
             assert array.dims == now[name].dims == ("toss",)
