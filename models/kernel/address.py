@@ -114,4 +114,4 @@ def call_at(address: int, M: Matrix, a: Vector, b: Vector, s: float, t: float) -
     copy_into(numbers[:_GIVEN], M[0] + M[1] + M[2] + a + b + (s, t))
     start = numbers.ctypes.data
     call_c(address, (start, start + _GIVEN * numbers.itemsize))
-    return numbers[_GIVEN], numbers[_GIVEN + 1], numbers[_GIVEN + 2]
+    return float(numbers[_GIVEN]), float(numbers[_GIVEN + 1]), float(numbers[_GIVEN + 2])
