@@ -1,5 +1,6 @@
 """The lab's page of a map as one file, with the tosses of some pixels by MuJoCo; it needs no server."""
 
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -28,6 +29,8 @@ TOSSED_IN_FRAME = 8, 6
 notebook."""
 SAMPLES = 300
 """Samples of the path of each toss."""
+TITLE = "<title>Is a coin toss random? The coin lab"
+"""The lab's; a map's page has its own before any script runs, too."""
 HEIGHT = 860
 """Height of its frame in a notebook [px]."""
 
@@ -66,7 +69,8 @@ def _page(found: "xr.Dataset", name: str, most: tuple[int, int]) -> str:
         case = scenario.replace(x["field"], place[0], y["field"], place[1])
         toss = toss_by_mujoco(case, contact, samples=SAMPLES, most_symbols=SAMPLES // 4)
         tosses.append({"place": place, "toss": toss})
-    return lab_page(scenario, saved=saved, tosses=tosses)
+    page = lab_page(scenario, saved=saved, tosses=tosses)
+    return page.replace(TITLE, f"<title>{escape(saved['title'])}: the coin lab", 1)
 
 
 def _spread(values: list[float], most: int) -> list[float]:
