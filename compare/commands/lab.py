@@ -1,5 +1,6 @@
 """`cointoss lab`: a page in which one tosses coins, and that opens a map."""
 
+import re
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -31,13 +32,14 @@ class LabPage(ServedPage):
 
 
 class _OfScenarioOrMap(click.Command):
-    """Takes a map in place of a scenario: the command is `explore` then, with its options."""
+    """Takes a map in place of a scenario: the command is `explore` then, whose `--static` is `--out` too."""
 
     def make_context(
         self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
     ) -> click.Context:
         if any(Path(word).suffix == ".zarr" and before != "--out" for before, word in pairwise(["", *args])):
-            return explore.make_context(info_name, args, parent, **extra)
+            named = [re.sub("^--out(=|$)", r"--static\1", word) for word in args]
+            return explore.make_context(info_name, named, parent, **extra)
         return super().make_context(info_name, args, parent, **extra)
 
 
@@ -51,7 +53,7 @@ def lab(source: Source, asked: LabPage) -> None:
 
     The page is one file with the analytic engine in it; it needs no server and no network. It begins with
     SCENARIO, by default with its tour. With --device the page is served, and its map is tossed here. A
-    MAP.zarr in place of SCENARIO is opened as by cointoss explore, with its options.
+    MAP.zarr in place of SCENARIO is opened as by cointoss explore, with its options; --out is its --static.
     """
     is_given = click.get_current_context().get_parameter_source("scenario") is not ParameterSource.DEFAULT
     is_tour = not (is_given or source.settings)
