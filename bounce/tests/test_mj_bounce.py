@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from cointoss_bounce.quantities import in_si
-from tests.helpers.command_line import mj_bounce
+from tests.helpers.command_line import mj_bounce, python
 from tests.helpers.golden import BOUNCE, assert_alike, replayed
 
 HERE = Path(__file__).parent
@@ -42,14 +42,15 @@ def shown(command):
 
 def test_the_example_of_readme_prints_what_readme_has(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (model,) = re.findall(r"```xml\n(.*?)```", README, re.DOTALL)
-    (asked, table), (asked_for, settings) = shown("bounce"), shown("solref")
+    blocks = (re.findall(rf"```{kind}\n(.*?)```", README, re.DOTALL) for kind in ("xml", "python"))
+    ((model,), (code,)), (asked, table), (asked_for, settings) = blocks, shown("bounce"), shown("solref")
     Path(asked[1]).write_text(model)
     assert {*table} <= {*mj_bounce(*asked).stdout.splitlines()}
-    option, geom = mj_bounce(*asked_for).stdout.splitlines()[:2]
-    assert [option, geom] == settings
-    pasted = re.sub(r"<option .*/>", option, re.sub(r'priority="1" solref[^/]*', geom[6:-2], model))
-    Path(asked[1]).write_text(pasted)
+    assert mj_bounce(*asked_for).stdout.splitlines()[:2] == settings
+    assert re.fullmatch(r".*solref=.*\n1\.124\d*\n", python("-c", code, folder=tmp_path).stdout)
+    Path(asked[1]).write_text(
+        re.sub(r"<option .*/>", settings[0], re.sub(r'priority="1" solref[^/]*', settings[1][6:-2], model))
+    )
     assert re.findall(r"^    ( +1  0\.84.*)$", README, re.MULTILINE)[0] in mj_bounce(*asked).stdout
 
 
