@@ -59,11 +59,11 @@ def friction_of(scenario: Any, refused: Iterable[str] = BEYOND, rough: float = 1
     for what in (*OF_COINTOSS, *refused):
         if value := attrgetter(what)(scenario):
             raise NotImplementedError(f"{what}: {value}, accepted: 0")
-    floor = scenario.floor
-    laws = {"smooth": 0.0, "coulomb": floor.friction, "perfectly_rough": rough}
-    if floor.contact not in laws:
-        raise NotImplementedError(f"floor.contact: {floor.contact}, accepted: {', '.join(laws)}")
-    return laws[floor.contact]
+    laws = {"smooth": 0.0, "coulomb": scenario.floor.friction, "perfectly_rough": rough}
+    law = str(scenario.floor.contact)  # a law of cointoss equals its word, but has another hash
+    if law not in laws:
+        raise NotImplementedError(f"floor.contact: {law}, accepted: {', '.join(laws)}")
+    return laws[law]
 
 
 def rotations(q: np.ndarray) -> np.ndarray:

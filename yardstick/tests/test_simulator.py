@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from adapters.shared import friction_of
 from cointoss import Ending, Outcome, UnsupportedError, UnusableEngineError, analytic, load
 from cointoss.study import attitude_angle, rotation_matrix
 from cointoss_yardstick.simulators.observed import ObservedToss, Samples
@@ -46,6 +47,11 @@ def changed(**how):
 @pytest.fixture
 def tumbling():
     return scenario(coin=IMPERFECT, release=TUMBLING, ending={"test": "lying"})
+
+
+@pytest.mark.parametrize(("law", "friction"), [("smooth", 0.0), ("coulomb", 0.3), ("perfectly_rough", 1e5)])
+def test_an_adapter_takes_a_scenario_of_cointoss_where_that_is_installed_too(law, friction):
+    assert friction_of(scenario(floor={"contact": law, "friction": 0.3}), rough=1e5) == friction
 
 
 @pytest.mark.parametrize("name", ["fig24a", "table"])
