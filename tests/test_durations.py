@@ -1,17 +1,14 @@
-"""Functions that take long are named; far too long ones fail the run where the machine is idle."""
+"""Functions that take long are named, and fail no run."""
 
 from types import SimpleNamespace
 
 from tests.conftest import pytest_collection_modifyitems
 from tests.helpers.command_line import python
-from tests.helpers.durations import is_busy
 
 PATCHED = """
-import os
 from tests.helpers import durations
 
-durations.REPORTED, durations.REFUSED = 0.1, 0.3
-os.getloadavg = lambda: (0.0, 0.0, 0.0)
+durations.REPORTED = 0.1
 """
 TESTS = """
 import subprocess, sys, time
@@ -45,7 +42,7 @@ def test_last():
 """
 
 
-def test_what_takes_long_is_named_and_fails_an_idle_machines_run(tmp_path):
+def test_what_takes_long_is_named_and_fails_no_run(tmp_path):
     (tmp_path / "conftest.py").write_text(PATCHED)
     (tmp_path / "test_long.py").write_text(TESTS)
     run = python("-m", "pytest", "-p", "tests.helpers.durations", "-p", "no:cacheprovider", folder=tmp_path)
@@ -53,15 +50,7 @@ def test_what_takes_long_is_named_and_fails_an_idle_machines_run(tmp_path):
         "test_long.py::test_child", "test_long.py::test_both_cases"
     ]  # fmt: skip
     assert "5 passed" in run.stdout
-    assert run.returncode == 1
-
-
-def test_a_machine_is_busy_where_more_runs_than_it_has_cores_and_the_run_has_workers():
-    loads = {2: (2.5, 3.0), 4: (2.5, 3.9, 4.0)}
-    assert [(load, n) for n, some in loads.items() for load in some if is_busy(load, n, 2)] == [
-        (3, 2),
-        (4, 4),
-    ]
+    assert run.returncode == 0
 
 
 def test_cases_after_the_first_are_slow_but_long_ones():
