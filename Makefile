@@ -23,7 +23,7 @@ STEP := .ci/step
 APT := $(STEP) "apt: installing what is missing" sh -c 'apt-get update && apt-get install -y --no-install-recommends "$$@"' apt
 PIP := $(BIN)/python -m pip install --quiet --no-compile
 
-.PHONY: report test slow check test-all installed bench docs examples pages screens paper results releasable release wheels lock lint sink emulated opengl chromium firefox engines clean
+.PHONY: report test slow check test-all installed bench docs examples pages screens paper results releasable release wheels lock lint damages sink emulated opengl chromium firefox engines clean
 
 report: $(READY) opengl engines
 	@mkdir -p out
@@ -161,6 +161,11 @@ lint: $(VENV)/.ready-lint
 	@$(STEP) "pyright: checking types" $(BIN)/pyright --pythonpath $(BIN)/python
 	PYTHONPATH=. $(BIN)/lint-imports
 	$(BIN)/python -m tests.helpers.ceilings
+
+# Damages the code in copies of this checkout: each must be seen by its test. RECENT=1 tries those of what the last
+# commits changed, as far as ten minutes go.
+damages: $(VENV)/.ready-slow opengl chromium engines
+	$(BIN)/python -m tests.helpers.damages $(if $(RECENT),--recent)
 
 # A ceiling sinks to the statements that its folder has.
 sink: $(TESTED)
