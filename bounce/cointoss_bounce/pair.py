@@ -147,7 +147,9 @@ def bounce(
     """
     loaded = model if isinstance(model, mujoco.MjModel) else load_model(model)
     require_measurable(loaded)
-    require("speeds", speeds, all(0 < speed < math.inf for speed in speeds), "finite speeds above 0")
+    require(
+        "speeds", speeds, len(speeds) > 0 and all(0 < v < math.inf for v in speeds), "finite speeds above 0"
+    )
     first, second = geom_of(loaded, one), geom_of(loaded, two)
     require("geoms", f"{one} and {two}", first != second, "two different geoms")
     with unlogged():

@@ -105,22 +105,3 @@ def test_no_formula_is_claimed_for_one_step_of_another_integrator():
 def test_every_integrator_is_measured(integrator):
     found = solref_of((0.02, 0.3), 1e-3, integrator=integrator)
     assert 0.2 < found.restitution < 0.6
-
-
-@pytest.mark.parametrize(
-    ("wrong", "named"),
-    [
-        ({"solref": (0.01, -1)}, "solref = .*: accepted: two numbers as in a <geom>"),
-        ({"solref": (0.01,)}, "solref = .*: accepted: two numbers"),
-        ({"solref": "0.01 1"}, "solref = .*: accepted: two numbers"),
-        ({"solref": (float("nan"), 1)}, "solref = .*: accepted: two numbers"),
-        ({"other": (-1, 1)}, "other = .*: accepted: two numbers"),
-        ({"timestep": 0}, "timestep = 0: accepted: a number of seconds"),
-        ({"integrator": "RK5"}, 'integrator = "RK5": accepted: Euler, RK4'),
-        ({"solimp": "soft"}, 'solimp = "soft": accepted: up to five numbers'),
-        ({"solimp": "1 2 3 4 5 6"}, "solimp = .*: accepted: up to five numbers"),
-    ],
-)
-def test_what_is_no_setting_is_refused(wrong, named):
-    with pytest.raises(ValueError, match=named):
-        solref_of(**{"solref": (0.02, 1), "timestep": 1e-3, **wrong})

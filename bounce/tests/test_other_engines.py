@@ -40,24 +40,3 @@ def test_newton_is_given_solref_and_solimp_as_they_are(spring):
 def test_the_threshold_of_physx_is_what_gravity_adds_in_two_steps():
     assert physx_bounce(0.8, 2e-3, gravity=1.62).threshold == pytest.approx(2 * 1.62 * 2e-3)
     assert "bounce_threshold_velocity=0.03924)" in physx_bounce(0.8, 2e-3).settings
-
-
-@pytest.mark.parametrize(
-    ("make", "said"),
-    [
-        (lambda: physx_bounce(1.2, 2e-3), "restitution = 1.2: accepted: a number from 0 to 1"),
-        (lambda: solref(1, 2e-3, backend="genesis"), "restitution = 1: accepted: .* 0.999 by genesis"),
-        (
-            lambda: solref(0, 2e-3, backend="genesis"),
-            "restitution = 0: accepted: .* 0.01 to 0.999",
-        ),
-        (lambda: solref(0.8, 2e-3, backend="brax"), "accepted: mujoco, mjx, warp, newton, genesis$"),
-        (
-            lambda: solref(0.8, 2e-3, backend="isaaclab"),
-            "genesis; physx_bounce has the settings of isaaclab$",
-        ),
-    ],
-)
-def test_what_an_engine_does_not_take_is_refused(make, said):
-    with pytest.raises(ValueError, match=said):
-        make()

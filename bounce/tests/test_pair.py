@@ -302,52 +302,6 @@ def test_a_contact_that_outlasts_the_measurement_is_no_rebound(monkeypatch):
     assert np.isnan(found.restitutions).all()
 
 
-HELD = (
-    '<body name="B" pos="0 0 1"><freejoint/><geom name="b" size="0.1"/></body></worldbody>'
-    '<equality><weld body1="B"/></equality><worldbody>'
-)
-
-
-@pytest.mark.parametrize(
-    ("bodies", "names", "said"),
-    [
-        (FLOOR + ball(""), ("a", "c"), "a geom of the model, by name or number: a, b"),
-        (FLOOR + ball(""), ("a", "2"), "a geom of the model"),
-        (FLOOR + ball(""), ("a", "a"), "two different geoms"),
-        (FLOOR + ball('contype="0" conaffinity="0"'), ("a", "b"), "MuJoCo lets them pass"),
-        (FLOOR + '<geom name="b" size="1" pos="0 0 2"/>', ("a", "b"), "no joint brings them together"),
-        (
-            FLOOR + '<body pos="0 0 2"><joint type="slide" axis="1 0 0"/><geom name="b" size="1"/></body>',
-            ("a", "b"),
-            "no joint brings them together",
-        ),
-        (
-            FLOOR + '<body pos="0 0 2"><joint axis="1 0 0"/><geom name="b" size="0.1" pos="0 1 0"/></body>',
-            ("a", "b"),
-            "no joint brings them together",
-        ),
-        (FLOOR + ball("", "0 0 5000"), ("a", "b"), "further apart than 1000 m"),
-        (
-            '<geom name="a" type="plane" size="0 0 1"/><geom name="b" type="plane" size="0 0 1"/>',
-            ("a", "b"),
-            "at least one is no plane",
-        ),
-        (
-            FLOOR + ball('margin="-0.11"'),
-            ("a", "b"),
-            "margin is -0.11 m, and the contact would push only from",
-        ),
-        (FLOOR + ball('solref="0.02 -1"'), ("a", "b"), "geom b solref = .0.02 -1.: accepted: two numbers"),
-        (FLOOR + HELD, ("a", "b"), "equality constraints hold them"),
-        (FLOOR + ball('solref="nan 1"'), ("a", "b"), "geom b solref = nan: accepted: finite numbers"),
-        (FLOOR + ball('solimp="0.9 inf 1"'), ("a", "b"), "geom b solimp = inf: accepted: finite numbers"),
-    ],
-)
-def test_geoms_that_do_not_exist_or_touch_are_refused(bodies, names, said):
-    with pytest.raises(ValueError, match=said):
-        bounce(model(bodies), *names)
-
-
 @pytest.mark.parametrize("v", [1.0, 5.0])
 def test_a_plate_beyond_the_middle_of_another_after_a_step_goes_through(v):
     """Plain steps, with the touch anywhere within one, say for how many phases."""

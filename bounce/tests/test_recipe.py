@@ -144,27 +144,3 @@ def test_a_floor_lets_a_body_through_whose_contact_is_deeper_than_half_of_both(b
         data.qvel[2] = -SPEED
         mujoco.mj_step(model, data, nstep=100)
         assert (data.qpos[2] < 0) == (part < 1), part
-
-
-@pytest.mark.parametrize(
-    ("wrong", "named"),
-    [
-        (
-            {"restitution": 1e-3, "spring": True},
-            "restitution = 0.001: accepted: a number from 0.01 to 1 by a spring",
-        ),
-        ({"restitution": "x"}, 'restitution = "x": accepted: a number'),
-        ({"restitution": True}, "restitution = True: accepted: a number"),
-        ({"timestep": None}, "timestep = None: accepted: a number"),
-        ({"steps": 7.5, "spring": True}, "steps = 7.5: accepted: a whole number from 5 to 500"),
-        ({"timestep": float("nan")}, "timestep = nan: accepted"),
-        ({"body": "box 0.1"}, 'body = "box 0.1": accepted: a type and its size'),
-        ({"body": "plane 1 1 1"}, 'body = "plane 1 1 1": accepted: a type and its size'),
-        ({"body": "sphere -1"}, 'body = "sphere -1": accepted: a type and its size'),
-        ({"backend": "brax"}, 'backend = "brax": accepted: mujoco, mjx, warp'),
-        ({"body": ""}, 'body = "": accepted: a type and its size'),
-    ],
-)
-def test_what_cannot_be_is_refused(wrong, named):
-    with pytest.raises(ValueError, match=named):
-        solref(**{"restitution": 0.5, "timestep": 1e-3, **wrong})
