@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from cointoss.models.contact_laws import perfectly_rough, sliding_friction, smooth
+from cointoss.models.contact_laws import perfectly_rough
 from cointoss.models.contact_laws.coulomb import (
     NO_SLIP,
     SIZE,
@@ -20,7 +20,7 @@ from tests.helpers.impacts import asked, draw_contact
 from tests.helpers.tuples import matrix, vector
 
 KINEMATIC, ENERGETIC = RestitutionKind
-COUNT = 200
+COUNT = 100
 
 
 def after(K, v, S):
@@ -102,24 +102,16 @@ def test_friction_stays_in_its_cone_and_the_floor_never_pulls(kind):
             assert after(K, v, S)[2] == pytest.approx(-chi * v[2], abs=1e-12 * float(np.linalg.norm(v)))
 
 
-@pytest.mark.slow
 def test_energetic_restitution_never_adds_energy_and_kinematic_may():
     rng = np.random.default_rng(4)
     gained = {kind: [] for kind in RestitutionKind}
-    for _ in range(1000):
+    for _ in range(100):
         K, v = draw_contact(rng)
         chi, mu = rng.uniform(0, 1), rng.uniform(0, 2)
         for kind in RestitutionKind:
             gained[kind].append(work_of(K, v, coulomb(K, v, chi, mu, kind)) / (v[2] ** 2 / K[2][2]))
     assert max(gained[ENERGETIC]) < 1e-12
     assert max(gained[KINEMATIC]) > 0.01
-
-
-def test_without_friction_it_is_the_smooth_law():
-    rng = np.random.default_rng(5)
-    for kind in RestitutionKind:
-        K, v = draw_contact(rng)
-        assert coulomb(K, v, 0.7, 0.0, kind) == pytest.approx(smooth.impulse(asked(K, v, 0.7))[0], rel=1e-11)
 
 
 def test_with_much_friction_it_is_the_perfectly_rough_law():
@@ -132,36 +124,40 @@ def test_with_much_friction_it_is_the_perfectly_rough_law():
         assert np.array(S) == pytest.approx(stopping, abs=1e-10 * float(np.linalg.norm(S)))
 
 
-def test_while_slip_does_not_turn_it_is_sliding_friction():
-    """In a plane of symmetry, K_ty = 0 and v_y = 0, and with too little friction to stop."""
-    K = ((1500.0, 0.0, -300.0), (0.0, 1400.0, 0.0), (-300.0, 0.0, 1000.0))
-    v, chi, mu = (1.0, 0.0, -0.5), 0.6, 0.1
-    expected, possible = sliding_friction.impulse(asked(K, v, chi, mu))
-    assert possible
-    assert coulomb(K, v, chi, mu, KINEMATIC) == pytest.approx(expected, rel=1e-11)
+STOP = 0.1 / (900 + 0.3 * 1500)
+"""The impulse that stops a slip of 0.1 m/s with μ = 0.3."""
+DEEPEST = -1 + (1000 - 900 * 1.2) / (1.2 * 1500 - 900)
+"""The normal velocity where slip of 1 m/s stops in Painlevé's attitude: it has fallen on."""
+TAKEN = (1 - DEEPEST) / 2 / (1.2 * 1500 - 900) + DEEPEST**2 / (2 * 460)
+"""The work that compression takes there: sliding, then sticking at the rate K_zz - K_xz²/K_xx = 460."""
+IN_A_PLANE = {
+    # dv_x/dp = K_xz - μ K_xx and dv_z/dp = K_zz - μ K_xz while it slips along x, up to v_z' = 0.5 |v_z|.
+    "without friction": (-300, (1.0, -0.5), 0.0, KINEMATIC, (1 - 300 * 0.75 / 1000, 0.25)),
+    "slips throughout": (-300, (1.0, -0.5), 0.1, KINEMATIC, (1 - 450 * 0.75 / 1030, 0.25)),
+    # Friction -K_xz/K_xx = 0.6 holds the point.
+    "stops and sticks": (-900, (0.1, -1.0), 0.7, KINEMATIC, (0.0, 0.5)),
+    "stops and reverses": (
+        -900,
+        (0.1, -1.0),
+        0.3,
+        KINEMATIC,
+        (-450 * (0.5 + 1 - STOP * 1270) / 730, 0.5),
+    ),
+    "never slips": (-900, (0.0, -1.0), 0.7, KINEMATIC, (0.0, 0.5)),
+    "begins to slip": (-900, (0.0, -1.0), 0.3, KINEMATIC, (-450 * 1.5 / 730, 0.5)),
+    "begins to slip, energetic": (-900, (0.0, -1.0), 0.3, ENERGETIC, (-450 * 1.5 / 730, 0.5)),
+    "Painleve's attitude": (900, (1.0, -1.0), 1.2, KINEMATIC, (0.0, 0.5)),
+    "Painleve's attitude, energetic": (900, (1.0, -1.0), 1.2, ENERGETIC, (0.0, 0.5 * (920 * TAKEN) ** 0.5)),
+}
 
 
-def test_slip_that_stops_may_stick_or_reverse():
-    """In a plane: after it stops, friction -K_xz/K_xx = 0.6 would hold the point, if mu allows that."""
-    v, chi = (0.1, 0.0, -1.0), 0.5
-    K = ((1500.0, 0.0, -900.0), (0.0, 1400.0, 0.0), (-900.0, 0.0, 1000.0))
+@pytest.mark.parametrize(("K_xz", "v", "mu", "kind", "expected"), IN_A_PLANE.values(), ids=IN_A_PLANE)
+def test_in_a_plane_of_symmetry_an_impact_is_its_closed_form(K_xz, v, mu, kind, expected):
+    K = ((1500.0, 0.0, float(K_xz)), (0.0, 1400.0, 0.0), (float(K_xz), 0.0, 1000.0))
+    start = (v[0], 0.0, v[1])
+    found = after(K, start, coulomb(K, start, 0.5, mu, kind))
     # Slip below 1e-11 of the speed counts as stopped.
-    assert np.abs(after(K, v, coulomb(K, v, chi, 0.7, KINEMATIC))[:2]).max() < 1e-11
-    reverses = after(K, v, coulomb(K, v, chi, 0.3, KINEMATIC))
-    # From v_x = 0 on, dv_x/dp = -900 + 0.3 1500 = -450 and dv_z/dp = 1000 - 0.3 900 = 730.
-    stop = 0.1 / (900 + 0.3 * 1500)
-    v_z = -1 + stop * (1000 + 0.3 * 900)
-    assert reverses[0] == pytest.approx(-450 * (0.5 - v_z) / 730, rel=1e-10)
-
-
-def test_an_impact_without_slip_starts_it_only_beyond_the_cone():
-    K = ((1500.0, 0.0, -900.0), (0.0, 1400.0, 0.0), (-900.0, 0.0, 1000.0))
-    assert (
-        np.abs(after(K, (0.0, 0.0, -1.0), coulomb(K, (0.0, 0.0, -1.0), 0.5, 0.7, KINEMATIC))[:2]).max()
-        < 1e-15
-    )
-    slips = after(K, (0.0, 0.0, -1.0), coulomb(K, (0.0, 0.0, -1.0), 0.5, 0.3, KINEMATIC))
-    assert slips[0] == pytest.approx(-450 * 1.5 / 730, rel=1e-12)
+    assert found == pytest.approx((expected[0], 0.0, expected[1]), rel=1e-10, abs=1e-11)
 
 
 def test_slip_that_starts_keeps_its_direction():
@@ -180,21 +176,6 @@ def test_slip_that_starts_keeps_its_direction():
         # Friction opposes the slip that it allows to start.
         assert gained[:2] / np.hypot(*gained[:2]) == pytest.approx(-f / mu, abs=1e-8)
     assert started > 20
-
-
-def test_painleves_attitude_compresses_and_ends():
-    """While it slips the normal velocity falls on, dv_z/dp = 1000 - 900 mu < 0; it must stop first."""
-    K = ((1500.0, 0.0, 900.0), (0.0, 1500.0, 0.0), (900.0, 0.0, 1000.0))
-    v, mu = (1.0, 0.0, -1.0), 1.2
-    for kind in RestitutionKind:
-        S = np.array(coulomb(K, v, 0.5, mu, kind))
-        assert S[2] > 0
-        assert after(K, v, S)[2] > 0
-        assert abs(after(K, v, S)[0]) < 1e-11
-    assert after(K, v, coulomb(K, v, 0.5, mu, KINEMATIC))[2] == pytest.approx(0.5, rel=1e-12)
-    stop = 1.0 / (mu * 1500 - 900)
-    deepest = -1 + stop * (1000 - 900 * mu)
-    assert deepest < -1
 
 
 def test_a_turn_about_the_vertical_turns_the_impulse():
@@ -229,15 +210,6 @@ def test_slip_that_hardly_grows_or_dies_goes_straight(kind, seed):
     end = brute_impulse(K, v, chi, mu, kind, stopped=0, method="Radau", rtol=1e-8, atol=1e-11)
     S = coulomb(K, v, chi, mu, kind)
     assert S == pytest.approx(end, abs=1e-6 * float(np.linalg.norm(S)))
-
-
-def test_an_impact_whose_slip_dies_a_million_times_slower_than_it_turns_takes_few_steps():
-    """Its step by step integration took most of a minute; the test would not end in time."""
-    rng = np.random.default_rng(8)
-    for _ in range(200):
-        K, v, mu = draw_critical(rng)
-        S = coulomb(K, v, 0.7, mu, KINEMATIC)
-        assert after(K, v, S)[2] == pytest.approx(-0.7 * v[2])
 
 
 @pytest.mark.parametrize("kind", list(RestitutionKind))
