@@ -49,7 +49,7 @@ LOSSES = {
     "shrinking, four checks": (SHRINKING, 4, 60, 60 * SHRINKING[-1]),
     # Of the last three: an older one that grew does not count unless all have shrunk.
     "grew once": ([1e-3, 1e-3, 1e-3, 2e-3, 1e-3], 6, 3, 1e-3 * (2 + 4 + 8)),
-    "grew before": ([1e-3, 2e-3, 1e-3, 1e-3, 1e-3], 6, 3, 3e-3),
+    "grew before": ([1e-3, 1e-3, 2e-3, 1e-3, 1e-3], 6, 3, 3e-3),
     "none": ([NONE / 2] * 5, 6, 60, 0.0),
     "none in the end": ([1e-3, 1e-4, 1e-6, -NONE / 2, NONE / 2], 6, 60, 0.0),
     "a gain": ([0, 0, 0, -2 * NONE, 0], 6, 60, np.inf),
@@ -85,7 +85,7 @@ def watched(case, share_at, until, v=STILL, w=STILL):
 
 ROUGH = {"floor": {"contact": "coulomb", "friction": 0.3}}
 SLIDE, SPIN = {"v": (1.0, 0.0, 0.0)}, {"w": (0.0, 0.0, 100.0)}
-OFF_BALANCE = {"coin": {**ZLOTY, "center_of_mass": [0.0, 0.0, 4e-4]}}
+OFF_BALANCE = {**ROUGH, "coin": {**ZLOTY, "center_of_mass": [0.0, 0.0, 4e-4]}}
 """The passes are at 12.58 and 12.51 mm, 50.3 and 50.1 % of twice the radius."""
 WATCHED = {
     "loses nothing": ({}, lambda _: 1.0, {}, 8 * FIRST_CHECK),

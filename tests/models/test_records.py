@@ -82,13 +82,17 @@ def test_flags_name_what_no_passive_floor_does():
     assert weaker.flags[0] == {Flag.LEAVES_CONE}
 
 
-def test_the_end_of_trust_has_a_name_and_says_which_impact_it_is():
+@pytest.mark.parametrize(
+    ("trusted", "before_contact", "end"),
+    [(3, 3, "none"), (3, 2, "none"), (2, 2, "contact"), (1, 2, "errors"), (1, 3, "errors")],
+)
+def test_the_trust_ends_at_the_last_impact_in_contact_or_by_errors(trusted, before_contact, end):
+    assert TrustEnd.of(trusted, before_contact=before_contact, count=3) == end
+
+
+def test_the_end_of_trust_says_which_impact_it_is():
     tossed = analytic.toss(scenario())
     count = len(tossed.impacts)
-    assert TrustEnd.of(count, before_contact=count, count=count) == TrustEnd.NONE
-    assert TrustEnd.of(2, before_contact=2, count=3) == TrustEnd.CONTACT
-    assert TrustEnd.of(1, before_contact=2, count=3) == TrustEnd.ERRORS
-    assert TrustEnd.of(1, before_contact=3, count=3) == TrustEnd.ERRORS
     for end in TrustEnd:
         told = replace(tossed, trusted_impacts=1, trust_end=end).trust
         assert told.startswith(f"1 of {count} impacts")

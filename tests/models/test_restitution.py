@@ -25,22 +25,37 @@ def rules_with(**floor: Any) -> Rules:
 POWER, VISCOUS = {"restitution_exponent": 0.25}, {"restitution": 1.0, "restitution_viscous": 0.3}
 
 
-def test_a_restitution_without_exponent_and_loss_is_that_of_the_scenario_at_any_speed():
-    for speed in (-1.0, 0.0, 1e-9, 1.0, 20.0):
-        assert restitution_at_speed(rules_with(restitution_speed=3.0), speed) == 0.5
-    assert restitution_at_speed(rules_with(restitution=0.0, **POWER), 0.0) == 0.0
+SLOWEST = 2.0 * 0.5**4
+"""Up to this speed the power law of exponent 1/4, 0.5 at 2 m/s, has the restitution 1 [m/s]."""
+LAW = {**POWER, "restitution_speed": 2.0}
+BOTH = {**POWER, "restitution_threshold": 0.2, "restitution_viscous": 0.1}
+
+
+@pytest.mark.parametrize(
+    ("floor", "speed", "expected"),
+    [
+        *(({"restitution_speed": 3.0}, speed, 0.5) for speed in (-1.0, 0.0, 1e-9, 1.0, 20.0)),
+        ({**POWER, "restitution": 0.0}, 0.0, 0.0),
+        (LAW, 2.0, 0.5),
+        (LAW, 4.0, 0.5 * 2**-0.25),
+        (LAW, 1.001 * SLOWEST, 1.001**-0.25),
+        *((LAW, speed, 1.0) for speed in (SLOWEST * (1 - 1e-12), SLOWEST / 9, 0.0, -1.0)),
+        ({**LAW, "restitution_exponent": 1.0}, 4.0, 0.25),
+        ({**LAW, "restitution_exponent": 0.1}, 4.0, 0.5 * 2**-0.1),
+        # Both factors act above the threshold.
+        (BOTH, 0.2, 0.0),
+        (BOTH, 0.3, 0.5 * 0.3**-0.25 * viscous_restitution(0.1, 0.3)),
+    ],
+)
+def test_the_restitution_at_a_speed_is_that_of_the_law(floor, speed, expected):
+    """min(1, χ (v/v₀)^-p) V(v), and 0 up to the threshold."""
+    assert restitution_at_speed(rules_with(**floor), speed) == pytest.approx(expected, rel=1e-12)
 
 
 @pytest.mark.parametrize("p", [0.1, 0.25, 1.0])
-def test_the_power_law_has_its_restitution_at_its_speed_its_slope_and_1_at_low_speeds(p):
+def test_the_power_law_has_the_restitution_1_up_to_its_elastic_speed(p):
     rules = rules_with(restitution_exponent=p, restitution_speed=2.0)
-    slowest = elastic_speed(rules)
-    assert slowest == pytest.approx(2.0 * 0.5 ** (1 / p), rel=1e-14)
-    assert restitution_at_speed(rules, 2.0) == 0.5
-    assert restitution_at_speed(rules, 4.0) == pytest.approx(0.5 * 2**-p, rel=1e-14)
-    assert restitution_at_speed(rules, 1.001 * slowest) == pytest.approx(1.001**-p, rel=1e-12)
-    for speed in (slowest * (1 - 1e-12), slowest / 9, 0.0, -1.0):
-        assert restitution_at_speed(rules, speed) == 1.0
+    assert elastic_speed(rules) == pytest.approx(2.0 * 0.5 ** (1 / p), rel=1e-14)
 
 
 def of_hertz(A: float) -> float:
@@ -75,13 +90,6 @@ def test_the_viscous_law_has_the_series_of_its_source():
             assert abs(found - (1 - x + 0.6 * x * x)) < 0.5 * x**2.5
 
 
-def test_both_factors_act_above_the_threshold():
-    rules = rules_with(restitution_threshold=0.2, restitution_viscous=0.1, **POWER)
-    assert restitution_at_speed(rules, 0.2) == 0.0
-    expected = 0.5 * 0.3**-0.25 * viscous_restitution(0.1, 0.3)
-    assert restitution_at_speed(rules, 0.3) == pytest.approx(expected, rel=1e-14)
-
-
 def test_impacts_by_the_power_law_slow_down_to_the_elastic_speed_and_never_end():
     """v(n) = v_e (v(0)/v_e)^((1 - p)^n)."""
     rules = rules_with(**POWER)
@@ -101,12 +109,18 @@ def test_impacts_by_the_viscous_law_slow_down_as_the_fifth_power_of_their_number
     assert speed == pytest.approx((5 / (0.3 * n)) ** 5, rel=1e-3)
 
 
-def test_a_toss_is_given_up_early_where_the_largest_restitution_takes_no_energy():
-    def most(**floor: Any) -> int:
-        return rules_with(**floor).max_impacts
+SLOWEST_OF_1 = 0.5**4
 
-    assert most() == most(restitution_viscous=0.1) == MOST_IMPACTS
-    assert most(**POWER) == MOST_LOSSLESS
-    slowest = elastic_speed(rules_with(**POWER))
-    assert most(restitution_threshold=1.01 * slowest, **POWER) == MOST_IMPACTS
-    assert most(restitution_threshold=0.99 * slowest, **POWER) == MOST_LOSSLESS
+
+@pytest.mark.parametrize(
+    ("floor", "most"),
+    [
+        ({}, MOST_IMPACTS),
+        ({"restitution_viscous": 0.1}, MOST_IMPACTS),
+        (POWER, MOST_LOSSLESS),
+        ({**POWER, "restitution_threshold": 1.01 * SLOWEST_OF_1}, MOST_IMPACTS),
+        ({**POWER, "restitution_threshold": 0.99 * SLOWEST_OF_1}, MOST_LOSSLESS),
+    ],
+)
+def test_a_toss_is_given_up_early_where_the_largest_restitution_takes_no_energy(floor, most):
+    assert rules_with(**floor).max_impacts == most
