@@ -160,26 +160,19 @@ def test_every_xml_of_the_page_is_among_them():
     assert chart.geom_solref[1] == pytest.approx(solref(0.8, 2e-3).solref, rel=1e-12)
 
 
-@pytest.mark.parametrize("name", QUICK)
-def test_a_hundred_bounces_of_what_is_printed(name):
-    check_bounces(printed(name), 100)
+LONG = [pytest.param(name, True, marks=pytest.mark.long) for name in (*PRINTED, *COMMANDS)]
+CASES = [*((name, False) for name in QUICK), *LONG]
+"""Of each model that is printed, whether it bounces a thousand times and rests for an hour."""
 
 
-@pytest.mark.parametrize("name", QUICK)
-def test_a_while_at_rest_of_what_is_printed(name):
-    check_rest(printed(name), 20.0)
+@pytest.mark.parametrize(("name", "long"), CASES)
+def test_what_is_printed_bounces_as_it_says(name, long):
+    check_bounces(printed(name), 1000 if long else 100)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("name", [*PRINTED, *COMMANDS])
-def test_a_thousand_bounces_of_what_is_printed(name):
-    check_bounces(printed(name), 1000)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("name", [*PRINTED, *COMMANDS])
-def test_an_hour_at_rest_of_what_is_printed(name):
-    check_rest(printed(name), 3600.0)
+@pytest.mark.parametrize(("name", "long"), CASES)
+def test_what_is_printed_comes_to_rest(name, long):
+    check_rest(printed(name), 3600.0 if long else 20.0)
 
 
 @pytest.mark.long

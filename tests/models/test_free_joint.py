@@ -59,24 +59,45 @@ def test_states_go_to_mujoco_and_back():
         np.testing.assert_allclose(back, getattr(states, name), atol=1e-13)
 
 
-def test_one_state_is_one_release_and_other_shapes_are_refused():
-    qpos, qvel = random_joint(1)
-    assert as_array(coin_mj.release_fields(qpos[0], qvel[0], "fig24a")).shape == (1, 13)
-    for bad in ("abc", [[0.0, 1.0], [2.0]], {"a": 1}):
-        with pytest.raises(ValueError, match=r"^qpos: .*, accepted: numbers, \(7,\) or \(n, 7\)"):
-            coin_mj.release_fields(bad, qvel, COIN)  # pyright: ignore[reportArgumentType]
-    with pytest.raises(ValueError, match=r"^qvel: shape \(1, 7\), accepted: numbers, \(6,\) or \(n, 6\)"):
-        coin_mj.release_fields(qpos, qpos, COIN)
-    with pytest.raises(ValueError, match=r"^qvel: shape \(2, 6\), accepted: \(1, 6\)"):
-        coin_mj.release_fields(qpos, np.vstack([qvel, qvel]), COIN)
-    for wrong in (2.0, np.nan):
-        with pytest.raises(ValueError, match=r"^qpos: row 1: Euler parameters \[.*norm 1 within"):
-            coin_mj.release_fields(np.vstack([qpos, wrong * qpos]), np.vstack([qvel, qvel]), COIN)
-    below = qpos * [1, 1, -1, 1, 1, 1, 1]
-    with pytest.raises(ScenarioError, match=r"above the floor.* \(row 1\)$"):
-        coin_mj.release_fields(np.vstack([qpos, below]), np.vstack([qvel, qvel]), COIN)
-    with pytest.raises(ScenarioError, match=r"release\.velocity"):
-        coin_mj.release_fields(qpos, qvel * [np.inf, 1, 1, 1, 1, 1], COIN)
+QPOS, QVEL = random_joint(1)
+TWO, BELOW = np.vstack([QVEL, QVEL]), QPOS * [1, 1, -1, 1, 1, 1, 1]
+
+
+@pytest.mark.parametrize(
+    ("qpos", "qvel", "error", "said"),
+    [
+        *(
+            (bad, QVEL, ValueError, r"^qpos: .*, accepted: numbers, \(7,\) or \(n, 7\)")
+            for bad in ("abc", [[0.0, 1.0], [2.0]], {"a": 1})
+        ),
+        (QPOS, QPOS, ValueError, r"^qvel: shape \(1, 7\), accepted: numbers, \(6,\) or \(n, 6\)"),
+        (QPOS, TWO, ValueError, r"^qvel: shape \(2, 6\), accepted: \(1, 6\)"),
+        *(
+            (
+                np.vstack([QPOS, wrong * QPOS]),
+                TWO,
+                ValueError,
+                r"^qpos: row 1: Euler .*norm 1 within",
+            )
+            for wrong in (2.0, np.nan)
+        ),
+        (
+            np.vstack([QPOS, QPOS * [1, 1, -1, 1, 1, 1, 1]]),
+            TWO,
+            ScenarioError,
+            r"above the floor.* \(row 1\)$",
+        ),
+        (QPOS, QVEL * [np.inf, 1, 1, 1, 1, 1], ScenarioError, r"release\.velocity"),
+    ],
+    ids=range(9),
+)
+def test_what_is_no_state_of_the_joint_is_refused(qpos, qvel, error, said):
+    with pytest.raises(error, match=said):
+        coin_mj.release_fields(qpos, qvel, COIN)
+
+
+def test_one_state_is_one_release():
+    assert as_array(coin_mj.release_fields(QPOS[0], QVEL[0], "fig24a")).shape == (1, 13)
 
 
 def test_euler_parameters_are_brought_to_norm_1_as_those_of_one_release():

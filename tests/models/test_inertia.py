@@ -57,22 +57,28 @@ def test_offset_obeys_the_parallel_axis_theorem():
     assert np.allclose(J_C + mass * skew.T @ skew, J_B, rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize(("part", "positive"), [(0.499, True), (0.501, False)])
-def test_inertia_stops_being_positive_at_half_the_radius(part, positive):
-    J_C = inertia_about_mass_center(cylinder_inertia(2e-3, 1.25e-2, 0.0), 2e-3, (part * 1.25e-2, 0.0, 0.0))
-    assert is_positive_definite(J_C) is positive
+THIN = cylinder_inertia(2e-3, 1.25e-2, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("J", "positive"),
+    [
+        (inertia_about_mass_center(THIN, 2e-3, (0.499 * 1.25e-2, 0.0, 0.0)), True),
+        (inertia_about_mass_center(THIN, 2e-3, (0.501 * 1.25e-2, 0.0, 0.0)), False),
+        (matrix(np.full((3, 3), np.inf)), False),
+        (matrix(np.full((3, 3), np.nan)), False),
+    ],
+    ids=["within half the radius", "beyond", "infinite", "not a number"],
+)
+def test_inertia_is_positive_up_to_half_the_radius_and_where_it_is_finite(J, positive):
+    assert is_positive_definite(J) is positive
 
 
 def test_thin_coins_stand_on_the_triangle_equality():
     rng = np.random.default_rng(3)
     for _ in range(200):
         c = rng.uniform(-4e-3, 4e-3, 2)
-        J = inertia_about_mass_center(cylinder_inertia(2e-3, 1.25e-2, 0.0), 2e-3, (c[0], c[1], 0.0))
+        J = inertia_about_mass_center(THIN, 2e-3, (c[0], c[1], 0.0))
         turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
         assert obeys_triangle_inequality(matrix(turn @ J @ turn.T))
     assert not obeys_triangle_inequality(matrix(np.diag([1.0, 1.0, 2.0 + 1e-6])))
-
-
-def test_what_is_not_finite_is_not_positive():
-    assert not is_positive_definite(matrix(np.full((3, 3), np.inf)))
-    assert not is_positive_definite(matrix(np.full((3, 3), np.nan)))
