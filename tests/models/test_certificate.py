@@ -1,5 +1,6 @@
 """What a toss measures of itself: rounding where the engine is exact, and the damage done to a record."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -52,7 +53,7 @@ def again(toss: Toss, impacts: Impacts | None = None, **parts: Any) -> dict[str,
     return {line.name: float(line.value) for line in lines}
 
 
-def outside(toss: Toss, bounds: dict[str, tuple[float, float]]) -> dict[str, float]:
+def outside(toss: Toss, bounds: Mapping[str, tuple[float, float]]) -> dict[str, float]:
     """Return the measured lines that are not between their bounds."""
     found = measured(toss)
     return {name: found[name] for name, (low, high) in bounds.items() if not low < abs(found[name]) < high}
