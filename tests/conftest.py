@@ -13,6 +13,7 @@ from cointoss.compare.film.back_end import drawing_problem
 from cointoss.models.records import Outcome
 from tests.helpers.basin_runs import SCENARIO
 from tests.helpers.browser import Page, browser
+from tests.helpers.engine_page import engine_page
 from tests.helpers.explored import serving, small_map
 
 # Runs in the background ignore Ctrl-C, and what they start would too.
@@ -84,6 +85,17 @@ def page(tab):
     """A tab whose pages give the browser nothing to complain of."""
     yield tab
     assert tab.complaints() == []
+
+
+@pytest.fixture(scope="module")
+def loaded(chromium, tmp_path_factory):
+    """A page of one file that has loaded the engine."""
+    file = tmp_path_factory.mktemp("engine") / "page.html"
+    file.write_text(engine_page())
+    with Page(chromium) as page:
+        page.open(file.as_uri())
+        yield page
+        assert page.complaints() == []
 
 
 @pytest.fixture

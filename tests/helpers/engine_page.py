@@ -5,7 +5,7 @@ from base64 import b64encode
 from pathlib import Path
 
 from cointoss.compare.web import wasm
-from cointoss.compare.web.scripts import ENGINE_POLICY, import_map
+from cointoss.compare.web.scripts import ENGINE_POLICY, files_of, import_map
 from cointoss.compare.web.wasm.carried import engine_scripts
 from cointoss.models.batch import STATE
 from cointoss.models.rows import fields_of
@@ -14,9 +14,11 @@ ENGINE = Path(wasm.__file__).parent / "engine.wasm"
 
 
 def engine_page() -> str:
-    """Return a page of one file whose window has the engine, its workers, and how to start others."""
+    """Return a page of one file whose window has the engine, its workers, the scenario's fields, and how to
+    start others; all scripts of the lab can be imported."""
     engine = b64encode(ENGINE.read_bytes()).decode()
-    scripts = import_map({name: text.decode() for name, text in engine_scripts().items()})
+    files = {**files_of("cointoss.compare.lab"), **engine_scripts()}
+    scripts = import_map({name: text.decode() for name, text in files.items() if name.endswith(".js")})
     return f"""<!doctype html><meta charset="utf-8">
         <meta http-equiv="Content-Security-Policy" content="{ENGINE_POLICY}"><title>engine</title><body>
         {scripts}<script type="module">
@@ -28,7 +30,8 @@ def engine_page() -> str:
         }};
         const workers = await startWorkers(bytes);
         const {{ engine }} = workers;
-        Object.assign(window, {{ load, bytes, message, startWorkers, workers, engine }});
+        const fields = Object.fromEntries(engine.about.fields.map((field) => [field.name, field]));
+        Object.assign(window, {{ load, bytes, message, startWorkers, workers, engine, fields }});
         document.body.dataset.ready = "true";
         </script>"""
 

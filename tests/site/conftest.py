@@ -5,7 +5,6 @@ import pytest
 from cointoss.compare.lab import lab
 from tests.helpers.browser import Page
 from tests.helpers.command_line import printed
-from tests.helpers.engine_page import engine_page
 from tests.helpers.lab import WHOLE
 
 
@@ -24,16 +23,5 @@ def kept(chromium, lab_path):
     with Page(chromium) as page:
         page.open(lab_path.as_uri(), width=420)
         page.wait_for(WHOLE)
-        yield page
-        assert page.complaints() == []
-
-
-@pytest.fixture(scope="module")
-def loaded(chromium, tmp_path_factory):
-    """A page of one file that has loaded the engine."""
-    file = tmp_path_factory.mktemp("engine") / "page.html"
-    file.write_text(engine_page())
-    with Page(chromium) as page:
-        page.open(file.as_uri())
         yield page
         assert page.complaints() == []

@@ -1,4 +1,4 @@
-"""The engine in a browser against the package, beside the numbers of test_libm; and errors in a line."""
+"""The engine in a browser is the package's, to the last bit; and errors in a line."""
 
 import json
 from importlib.metadata import version
@@ -8,16 +8,26 @@ import pytest
 
 import cointoss
 from cointoss import analytic
+from cointoss.compare.web.playable import playable
 from cointoss.models.certificate import energies
 from cointoss.models.errors import ScenarioError
 from cointoss.models.fields import put
 from cointoss.models.records import Outcome
 from cointoss.models.scenario import Scenario
+from tests.helpers.bits import MANY, cases, numbers_of, numbers_of_many
+from tests.helpers.corpus import CLASSES
 from tests.helpers.draws import LONG_TRANSIENT, ZLOTY, scenario
-from tests.helpers.engine_page import ENGINE, written
+from tests.helpers.engine_page import ENGINE, changes, written
 
 LARGEST = 640_000
 """Bytes of the engine, by gzip less than half."""
+INERT = scenario(
+    coin={**ZLOTY, "inertia": [[9e-8, 1e-9, 0.0], [1e-9, 8e-8, 0.0], [0.0, 0.0, 1.5e-7]]},
+    release={"angular_velocity": [3.0, 30.0, 2.0]},
+)
+RESTITUTIONS = "{ field: 'floor.restitution', start: -0.5, stop: 1.5, count: 5 }"
+SPINS = "{{ field: 'release.angular_velocity.eta', start: 20, stop: 60, count: {} }}"
+HEIGHTS = "{{ field: 'release.position.z', start: 0.2, stop: 0.6, count: {} }}"
 
 
 def test_the_engine_is_small_and_says_what_made_it(loaded):
@@ -26,14 +36,61 @@ def test_the_engine_is_small_and_says_what_made_it(loaded):
     assert loaded.value("engine.about.outcomes[3]") == str(Outcome.EDGE)
 
 
-def test_one_toss_has_the_words_and_the_energies_of_the_package(loaded):
-    case = cointoss.load("fig24a")
+@pytest.mark.slow
+def test_every_number_of_a_toss_is_the_same(loaded):
+    """Impacts, states, horizon and ending: by every law, in every air, with resistance, in contact."""
+    differing = []
+    for name, case in cases().items():
+        found, due = in_page(loaded, case), numbers_of(case)
+        if found | {"end": due["end"]} != due:
+            differing.append(name)
+    assert differing == []
+
+
+def in_page(loaded, case):
+    """Return the numbers of a toss by the engine in a page, as `numbers_of` returns them."""
+    return loaded.value(
+        f"""(() => {{
+          const toss = engine.toss({written(case)}), end = toss.endTime;
+          const times = Array.from({{ length: 11 }}, (_, i) => (i === 10 ? end : i * (end / 10)));
+          return {{
+            ending: toss.ending, outcome: toss.outcome, certain: toss.outcomeCertain,
+            trusted: toss.trustedImpacts, time: end,
+            impacts: toss.impacts.map(({{ time, energy, impulse }}) => [time, energy, ...impulse]),
+            states: [...toss.path(times).states],
+          }};
+        }})()"""
+    )
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        pytest.param(cointoss.load("fig24a"), id="a toss"),
+        pytest.param(cointoss.load("fig24a").replace("ending.until", 3.0), id="followed to a time"),
+        pytest.param(cointoss.load("table").replace("ending.until", 3.0), id="of a thick coin"),
+        pytest.param(cointoss.load("fig2").replace("ending.until", "rest"), id="followed to rest"),
+        pytest.param(cointoss.load("zloty"), id="more impacts than there is room for at first"),
+        pytest.param(scenario(**LONG_TRANSIENT, ending={"max_time": 2.0}), id="a long contact"),
+        pytest.param(INERT, id="a given inertia"),
+    ],
+)
+def test_a_toss_and_its_path_are_those_of_the_package(loaded, case):
     toss = analytic.toss(case)
-    times = np.linspace(0, toss.impacts.time[2], 40)
-    toss_here = f"const toss = engine.toss({written(case)}), path = toss.path({times.tolist()});"
-    found = loaded.value(f"(() => {{ {toss_here} return {{ ...toss, energies: [...path.energies] }}; }})()")
-    assert (found["sentence"], found["sequence"]) == (toss.ending.sentence, toss.sequence)
-    assert found["energies"] == pytest.approx(energies(case.body, toss.path.sample(times)), rel=1e-12)
+    times = np.unique([*np.linspace(0, toss.path_end, 40), toss.end_time])
+    taken = "states: [...path.states], energies: [...path.energies]"
+    found = loaded.value(
+        f"(() => {{ const toss = engine.toss({written(case)}), path = toss.path({times.tolist()});"
+        f" return {{ ...toss, {taken} }}; }})()"
+    )
+    states = toss.sample(times)
+    assert found["sentence"] == toss.ending.sentence
+    assert found["sequence"] == toss.sequence
+    assert [each["time"] for each in found["impacts"]] == toss.impacts.time.tolist()
+    assert (found["endTime"], found["pathEnd"]) == (toss.end_time, toss.path_end)
+    assert found["laterTimes"] == toss.later_times.tolist()
+    assert np.reshape(found["states"], (-1, 13))[:, :3].tolist() == states.position.tolist()
+    assert found["energies"] == pytest.approx(energies(case.body, states), rel=1e-12)
 
 
 def test_the_floor_holds_the_coin_where_it_stays_in_contact_and_nowhere_else(loaded):
@@ -41,24 +98,42 @@ def test_the_floor_holds_the_coin_where_it_stays_in_contact_and_nowhere_else(loa
     toss = analytic.toss(case)
     start, end = toss.contacts[0]
     times = np.array([start / 2, start + (end - start) / 3, start + (end - start) / 2])
-    path = loaded.value(f"(() => [...engine.toss({written(case)}).path({times.tolist()}).forces])()")
-    forces = np.reshape(path, (3, 3))
-    assert np.array_equal(forces[0], np.zeros(3))
-    assert forces[1:] == pytest.approx(toss.path.floor_force(times[1:]), rel=1e-5, abs=1e-7)
-    assert (forces[1:, 2] > 0).all()
+    found = loaded.value(f"[...engine.toss({written(case)}).path({times.tolist()}).forces]")
+    assert found[:3] == [0, 0, 0]
+    assert found[3:] == pytest.approx(toss.path.floor_force(times[1:]).ravel(), rel=1e-5, abs=1e-7)
+    assert min(found[5], found[8]) > 0
 
 
-def test_a_toss_with_more_impacts_than_there_is_room_for_is_whole(loaded):
-    case = cointoss.load("zloty")
-    found = loaded.value(f"engine.toss({written(case)})")
-    assert len(found["impacts"]) == len(found["sequence"]) > 512
-    assert found["endTime"] > found["impacts"][-1]["time"]
+@pytest.mark.parametrize("until", [3.0, None])
+def test_a_page_plays_the_toss_that_the_package_plays(loaded, until):
+    case = cointoss.load("fig24a").replace("ending.until", until)
+    told = playable(analytic.toss(case), 400)
+    found = json.loads(loaded.value(f"workers.toss({written(case)}, 400).then(JSON.stringify)"))
+    assert set(told) ^ set(found) == {"certain"}
+    for name in ("end_time", "times", "trusted", "sequence", "count", "outcome", "ending", "engine"):
+        assert found[name] == pytest.approx(told[name], rel=1e-6) if name == "times" else told[name], name
+    assert found.get("later_times", []) == pytest.approx(told.get("later_times", []), rel=1e-6)
+    assert found["coin"].pop("center") == told["coin"].pop("center")
+    assert found["coin"] == pytest.approx(told["coin"])
+    heights = [np.interp(1.0, toss["path"]["time"], toss["path"]["position"][2::3]) for toss in (told, found)]
+    assert heights[0] == pytest.approx(heights[1], rel=1e-3)
+
+
+@pytest.mark.slow
+def test_many_tosses_are_the_same(loaded):
+    names = {"outcome": "outcome", "impacts": "impacts", "end_time": "endTime"}
+    names |= {"trusted_impacts": "trustedImpacts", "outcome_certain": "outcomeCertain"}
+    taken = ", ".join(f"{ours}: [...all.{theirs}]" for ours, theirs in names.items())
+    for kind in CLASSES[::3]:
+        given = f"{written(kind.scenario)}, {changes(kind.starts(MANY))}, 'certain'"
+        found = loaded.value(f"workers.tossEach({given}).then((all) => ({{ {taken} }}))")
+        assert found == numbers_of_many(kind), kind.name
 
 
 def test_memory_is_given_back(loaded):
     case = written(cointoss.load("fig24a"))
     values = "{ 'release.position.z': Array.from({ length: 200 }, () => 0.4) }"
-    many, toss = f"engine.tossEach({case}, {values}, 'certain')", f"engine.toss({case})"
+    many, toss = f"engine.tossEach({case}, {values})", f"engine.toss({case})"
     once = f"(() => {{ {many}; {toss}.path([0, 1]); return engine.memory; }})()"
     again = f"(() => {{ for (let i = 0; i < 20; i++) {{ {many}; {toss}; }} return engine.memory; }})()"
     assert loaded.value(once) == loaded.value(again)
@@ -85,6 +160,10 @@ def test_memory_is_given_back(loaded):
         ("engine.toss(S).path([0.2, 0.1])", "times: 0.1 at 1; accepted: increasing from 0 to "),
         ("engine.toss(S).path([NaN])", "times: NaN at 0; accepted: increasing from 0 to "),
         ("engine.toss(S).path([99])", "times: 99 at 0; accepted: increasing from 0 to "),
+        (
+            "engine.toss({ ...S, 'coin.inertia.xi.xi': 1 })",
+            "coin.inertia: accepted: all its 9 numbers, or none",
+        ),
         ("workers.toss({ ...S, 'coin.radius': -1 }, 10)", "coin.radius = -1: accepted: a number >= 1e-09"),
         (
             "workers.map({ ...S, 'coin.radius': -1 }, X, Y, {}, () => {})",
@@ -97,25 +176,10 @@ def test_memory_is_given_back(loaded):
     ],
 )
 def test_what_cannot_be_is_told_in_a_line(loaded, asked, told):
-    given = f"const S = {written(cointoss.load('fig24a'))};"
-    given += (
-        f"const X = {RESTITUTIONS}, Y = {{ field: 'release.position.z', start: 0.2, stop: 0.6, count: 5 }};"
-    )
-    found = loaded.value(f"(() => {{ {given} return message(async () => {asked}); }})()")
+    given = f"S = {written(cointoss.load('fig24a'))}, X = {RESTITUTIONS}, Y = {HEIGHTS.format(5)}"
+    found = loaded.value(f"(() => {{ const {given}; return message(async () => {asked}); }})()")
     assert found.startswith(told)
     assert "\n" not in found
-
-
-RESTITUTIONS = "{ field: 'floor.restitution', start: -0.5, stop: 1.5, count: 5 }"
-
-
-def test_pixels_beyond_a_field_s_bounds_are_no_scenario(loaded):
-    case = written(cointoss.load("fig24a").replace("ending.max_impacts", 3))
-    spins = "{ field: 'release.angular_velocity.eta', start: 20, stop: 60, count: 2 }"
-    take = "({ pixels, codes }) => pixels.forEach((pixel, i) => (found[pixel] = codes[i]))"
-    asked = f"await workers.map({case}, {RESTITUTIONS}, {spins}, {{}}, {take})"
-    found = loaded.value(f"(async () => {{ const found = []; {asked}; return found; }})()")
-    assert np.array_equal(np.reshape(found, (2, 5)) == -2, [[True, False, False, False, True]] * 2)
 
 
 @pytest.mark.parametrize(
@@ -159,33 +223,14 @@ def test_a_scenario_is_refused_in_the_words_of_the_package(loaded, changed):
     assert loaded.value(f"engine.fault({{ ...{written(case)}, {values} }})") == str(refused.value)
 
 
-def test_a_given_inertia_is_taken_and_refused_as_by_the_package(loaded):
-    J = [[9e-8, 1e-9, 0.0], [1e-9, 8e-8, 0.0], [0.0, 0.0, 1.5e-7]]
-    case = scenario(coin={**ZLOTY, "inertia": J})
-    toss = analytic.toss(case)
-    found = loaded.value(f"engine.toss({written(case)})")
-    assert (found["sequence"], found["endTime"]) == (toss.sequence, toss.end_time)
-    tables = case.as_tables()
-    tables["coin"]["inertia"][2][2] = 2.5e-7
-    with pytest.raises(ScenarioError) as refused:
-        Scenario(**tables)
-    told = loaded.value(f"engine.fault({{ ...{written(case)}, 'coin.inertia.zeta.zeta': 2.5e-7 }})")
-    assert told == str(refused.value)
-    missing = loaded.value(f"engine.fault({{ ...{written(case)}, 'coin.inertia.zeta.zeta': null }})")
-    assert missing == "coin.inertia: accepted: all its 9 numbers, or none"
-
-
-@pytest.mark.parametrize("after", [2, None])
+@pytest.mark.parametrize("after", [2, pytest.param(None, marks=pytest.mark.slow)])
 def test_a_map_has_each_pixel_once_coarse_ones_first_and_is_that_of_the_package(loaded, after):
     case, nx, ny = cointoss.load("fig24a"), 37, 22
-    axes = (
-        f"{{ field: 'release.angular_velocity.eta', start: 20, stop: 60, count: {nx} }},"
-        f"{{ field: 'release.position.z', start: 0.2, stop: 0.6, count: {ny} }}"
-    )
     found = loaded.value(
         f"""(async () => {{
           const parts = [];
-          await workers.map({written(case)}, {axes}, {{ after: {json.dumps(after)}, trust: true }},
+          const given = {{ after: {json.dumps(after)}, trust: true }};
+          await workers.map({written(case)}, {SPINS.format(nx)}, {HEIGHTS.format(ny)}, given,
             ({{ stride, pixels, codes, trusted, finished }}) =>
               parts.push([stride, [...pixels], [...codes], [...trusted], finished]));
           return parts;
@@ -197,41 +242,24 @@ def test_a_map_has_each_pixel_once_coarse_ones_first_and_is_that_of_the_package(
         assert (codes[pixels] == -9).all()
         codes[pixels], trusted[pixels] = some, sure
         if finished:
-            columns, rows = -(-nx // finished), -(-ny // finished)
             tossed = np.flatnonzero(codes != -9)
             squares = {(at // nx // finished, at % nx // finished) for at in tossed.tolist()}
-            assert len(squares) == columns * rows
-    codes, trusted = codes.reshape(ny, nx), trusted.reshape(ny, nx)
+            assert len(squares) == -(-nx // finished) * -(-ny // finished)
     assert (codes != -9).all()
-    assert max(strides) >= 2
-    assert strides[0] == max(strides)
+    assert strides[0] == max(strides) >= 2
     assert found[-1][-1] == 1
-    more = {"after": after} if after is not None else {}
-    made = cointoss.basin(
-        case,
-        x=f"release.angular_velocity.eta=20:60:{nx}",
-        y=f"release.position.z=0.2:0.6:{ny}",
-        trust=True,
-        **more,
-    )
-    assert made.cointoss.untrusted is not None
-    assert np.array_equal(codes, made.cointoss.codes)
-    assert np.array_equal(trusted != 1, made.cointoss.untrusted)
+    x, y = f"release.angular_velocity.eta=20:60:{nx}", f"release.position.z=0.2:0.6:{ny}"
+    made = cointoss.basin(case, x=x, y=y, trust=True, **({} if after is None else {"after": after}))
+    assert np.array_equal(codes.reshape(ny, nx), made.cointoss.codes)
+    assert np.array_equal(trusted.reshape(ny, nx) != 1, made.cointoss.untrusted)
 
 
-def test_a_pixel_beyond_the_bounds_of_its_field_is_no_scenario(loaded):
-    codes = loaded.value(
-        f"""(async () => {{
-          const codes = [];
-          const x = {{ field: "floor.restitution", start: 0.5, stop: 1.5, count: 5 }};
-          const y = {{ field: "release.position.z", start: 0.3, stop: 0.4, count: 2 }};
-          await workers.map({written(cointoss.load("fig24a"))}, x, y, {{ after: 0 }},
-            (part) => codes.push([...part.codes]));
-          return codes;
-        }})()"""
-    )
-    (first,) = codes
-    assert [code == -2 for code in first] == [False, False, False, True, True] * 2
+def test_pixels_beyond_a_field_s_bounds_are_no_scenario(loaded):
+    case = written(cointoss.load("fig24a").replace("ending.max_impacts", 3))
+    take = "({ pixels, codes }) => pixels.forEach((pixel, i) => (found[pixel] = codes[i]))"
+    asked = f"await workers.map({case}, {RESTITUTIONS}, {SPINS.format(2)}, {{}}, {take})"
+    found = loaded.value(f"(async () => {{ const found = []; {asked}; return found; }})()")
+    assert np.array_equal(np.reshape(found, (2, 5)) == -2, [[True, False, False, False, True]] * 2)
 
 
 def test_a_map_that_is_given_up_ends_at_once(loaded):
