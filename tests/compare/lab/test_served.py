@@ -17,6 +17,7 @@ from cointoss.analytic.entries import toss_each
 from cointoss.compare.lab import served
 from cointoss.compare.lab.saved import saved_map
 from cointoss.compare.lab.tosses import toss_by_mujoco
+from cointoss.compare.web.server import LONGEST_TARGET
 from cointoss.models.answers import ANSWER
 from cointoss.models.batch import rows_of
 from cointoss.models.devices import Device
@@ -31,15 +32,9 @@ CASE = cointoss.load("fig24a").replace("ending.max_impacts", 4)
 SPIN, RESTITUTION = "release.angular_velocity.eta", "floor.restitution"
 
 
-@pytest.fixture(name="server")
-def _server():
+@pytest.fixture(name="lab", scope="module")
+def _lab():
     with serving(served.ServedLab(CASE, 0, Device.CPU)) as lab:
-        yield lab
-
-
-@pytest.fixture(name="of_map")
-def _of_map(map_path):
-    with serving(map_path) as lab:
         yield lab
 
 
@@ -56,9 +51,9 @@ def target(*ends, row=None, **more):
 
 @pytest.mark.parametrize("after", ["final", "0", "2"])
 @pytest.mark.parametrize("trust", [0, 1])
-def test_a_map_is_that_of_the_entry_that_a_page_calls(server, after, trust):
+def test_a_map_is_that_of_the_entry_that_a_page_calls(lab, after, trust):
     """Values that are none are answered as such."""
-    status, headers, body = got(server.port, target(20, 60, 0.3, 1.5, after=after, trust=trust))
+    status, headers, body = got(lab.port, target(20, 60, 0.3, 1.5, after=after, trust=trust))
     assert (status, headers["content-type"]) == (200, "application/octet-stream")
     spins, restitutions = np.meshgrid(np.linspace(20, 60, 7), np.linspace(0.3, 1.5, 5))
     is_scenario = restitutions.ravel() <= 1
@@ -94,17 +89,17 @@ def test_a_map_by_mujoco_is_finer_by_mujoco(tmp_path):
     assert not np.array_equal(codes, analytic.toss_rows(rows).after(3))
 
 
-def test_a_spin_is_about_the_axis_of_its_scenario(server):
+def test_a_spin_is_about_the_axis_of_its_scenario(lab):
     """As the page has it, whose engine knows the components."""
-    plain = got(server.port, target())[2]
-    assert got(server.port, target(x="release.spin"))[2] == plain
+    plain = got(lab.port, target())[2]
+    assert got(lab.port, target(x="release.spin"))[2] == plain
     still = CASE.replace("release.angular_velocity", [0, 0, 0])
-    assert got(server.port, target(row=row_of(still), x="release.spin"))[0] == 400
+    assert got(lab.port, target(row=row_of(still), x="release.spin"))[0] == 400
 
 
 @pytest.mark.parametrize("is_reversed", [False, True])
-def test_a_map_is_told_pixel_by_pixel(of_map, map_path, is_reversed):
-    _, _, body = got(of_map.port, "/saved")
+def test_a_map_is_told_pixel_by_pixel(server, map_path, is_reversed):
+    _, _, body = got(server.port, "/saved")
     told = json.loads(body)
     found = cointoss.read_map(map_path)
     assert told == saved_map(found.isel(x=slice(None, None, -1)) if is_reversed else found, "map.zarr")
@@ -118,9 +113,9 @@ def test_a_map_is_told_pixel_by_pixel(of_map, map_path, is_reversed):
     assert (told["after"], told["stride"], told["margin"], told["title"]) == (1, 1, None, "coin: 2 g, 25 mm")
 
 
-def test_a_toss_by_mujoco_goes_on_to_its_end(of_map):
+def test_a_toss_by_mujoco_goes_on_to_its_end(server):
     case = parse(SCENARIO, "here").replace("ending.max_impacts", 1000)
-    found = json.loads(got(of_map.port, f"/toss?numbers={numbers(row=row_of(case))}")[2])
+    found = json.loads(got(server.port, f"/toss?numbers={numbers(row=row_of(case))}")[2])
     toss = coin_mj.toss(case)
     assert (found["engine"], found["sequence"], found["outcome"]) == ("mujoco", toss.sequence, toss.outcome)
     assert found["path"]["time"][-1] > found["end_time"] + 0.05
@@ -157,52 +152,64 @@ WRONG = [
 ]
 
 
-def is_refused(answer, status):
-    found, headers, body = answer
-    assert (found, headers["content-type"]) == (status, "text/plain; charset=utf-8"), body
-    assert "default-src 'none'" in headers["content-security-policy"]
-    assert body.count(b"\n") == 1
-    assert b"accepted" in body
-    assert b"<script>" not in body
-    assert b"root:" not in body
-    return headers
-
-
-@pytest.mark.parametrize("wrong", WRONG)
-def test_what_is_no_query_is_refused_in_a_line(of_map, wrong):
-    is_refused(got(of_map.port, wrong), 400)
-
-
 NOT_FOUND = r"""
 /nothing /zarr.json /map.zarr/zarr.json /../zarr.json /../../../../etc/passwd /..%2f..%2fetc%2fpasswd
 /%2e%2e/%2e%2e/etc/passwd /..\..\etc\passwd //etc/passwd /etc/passwd /lab.js /./index.html /index.html/
 /index.html?x=1 /index.html%00 /INDEX.HTML /served.py /map/ /toss/ /#map * index.html http://127.0.0.1/map
 file:///etc/passwd ~/.ssh/id_rsa
 """
-HOSTS = " evil.example 127.0.0.1 localhost 127.0.0.1:1 {}.evil.example 127.0.0.1:{}0 [::1]:{}"
-NOISE = [b"", b"\x00\xff\x16\x03\x01", b"GET", b"GET / HTTP/9.9", b"GET / FTP/1.1"]
+METHODS = "POST HEAD PUT DELETE OPTIONS TRACE CONNECT FOO get"
+HOSTS = [
+    " ",
+    "evil.example",
+    "127.0.0.1",
+    "localhost",
+    "127.0.0.1:1",
+    "127.0.0.1:{}0",
+    "[::1]:{}",
+    "{}.x.org",
+]
+PATHS = ("/", "/saved", "/toss?numbers=00", "/nothing")
+ASKED = [
+    *((400, wrong, [], {}) for wrong in WRONG),
+    *((404, path, [], {}) for path in NOT_FOUND.split()),
+    *((405, "/", ["Content-Length: 3"], {"method": method}) for method in METHODS.split()),
+    *((403, path, [], {"host": host}) for path in PATHS for host in HOSTS),
+    *((403, path, [f"Sec-Fetch-Site: {site}"], {}) for path in PATHS for site in ("cross-site", "same-site")),
+    (403, "/", ["Host: evil.example"], {}),
+    (403, "/", ["Host: 127.0.0.1:{}"], {}),
+    (414, "/toss?numbers=" + "1" * 2000, [], {}),
+    (431, "/", [f"X-{i}: 1" for i in range(200)], {}),
+]
+"""What is refused: status, and what is asked for with which headers, method and host; `{}` is the port."""
 
 
-def test_only_the_page_may_ask_and_nothing_but_what_there_is(of_map):
-    port = of_map.port
-    for path in NOT_FOUND.split():
-        is_refused(got(port, path), 404)
-    for method in ["POST", "HEAD", "PUT", "DELETE", "OPTIONS", "TRACE", "CONNECT", "FOO", "get"]:
-        assert is_refused(got(port, "/", "Content-Length: 3", method=method), 405)["allow"] == "GET"
-    for path in ("/", "/saved", "/toss?numbers=00", "/nothing"):
-        for host in HOSTS.split(" "):
-            is_refused(got(port, path, host=host.replace("{}", str(port)) or " "), 403)
-        for site in ("cross-site", "same-site"):
-            is_refused(got(port, path, f"Sec-Fetch-Site: {site}"), 403)
-    is_refused(sent(port, b"GET / HTTP/1.1\r\n\r\n"), 403)
-    for more in ("evil.example", f"127.0.0.1:{port}"):
-        is_refused(got(port, "/", f"Host: {more}"), 403)
-    is_refused(got(port, "/toss?numbers=" + "1" * 2000), 414)
-    for noise in NOISE:
+@pytest.mark.parametrize(
+    ("status", "target", "headers", "more"),
+    ASKED,
+    ids=[f"{each[0]} {number}" for number, each in enumerate(ASKED)],
+)
+def test_what_is_no_query_of_the_page_is_refused_in_a_line(server, status, target, headers, more):
+    at = {name: text.replace("{}", str(server.port)) for name, text in more.items()}
+    lines = [line.replace("{}", str(server.port)) for line in headers]
+    found, told, body = got(server.port, target, *lines, **at)
+    assert (found, told["content-type"]) == (status, "text/plain; charset=utf-8"), body
+    assert "default-src 'none'" in told["content-security-policy"]
+    assert told["allow"] == "GET"
+    assert body.count(b"\n") == 1
+    assert b"accepted" in body
+    assert b"<script>" not in body
+    assert b"root:" not in body
+
+
+def test_the_page_is_served_after_noise_and_loads_nothing_from_elsewhere(server):
+    for noise in (b"", b"\x00\xff\x16\x03\x01", b"GET", b"GET / HTTP/9.9", b"GET / FTP/1.1"):
         with suppress(IndexError, ValueError):  # it may also hang up without a word
-            sent(port, noise + b"\r\n\r\n")
-    is_refused(got(port, "/", *(f"X-{i}: 1" for i in range(200))), 431)
-    status, headers, body = got(port, "/", host=f"localhost:{port}")
+            sent(server.port, noise + b"\r\n\r\n")
+    assert sent(server.port, b"GET / HTTP/1.1\r\n\r\n")[0] == 403
+    # As long as a target may be, but for the map's query.
+    assert got(server.port, f"/{'x' * (LONGEST_TARGET - 1)}")[0] == 404
+    status, headers, body = got(server.port, "/", host=f"localhost:{server.port}")
     assert status == 200
     assert (headers["x-content-type-options"], headers["cache-control"]) == ("nosniff", "no-store")
     for policy in (headers["content-security-policy"], body.decode()):
@@ -210,7 +217,7 @@ def test_only_the_page_may_ask_and_nothing_but_what_there_is(of_map):
         assert "connect-src 'self'" in policy
 
 
-def test_a_map_that_nobody_waits_for_any_more_is_given_up(server, monkeypatch):
+def test_a_map_that_nobody_waits_for_any_more_is_given_up(lab, monkeypatch):
     made, begun, may_go_on, pieces = [], threading.Event(), threading.Event(), served.pieces
 
     def slow(batch, how):
@@ -222,12 +229,12 @@ def test_a_map_that_nobody_waits_for_any_more_is_given_up(server, monkeypatch):
             yield piece
 
     monkeypatch.setattr(served, "pieces", slow)
-    with asked(server.port, target(columns=600, rows=400)):
+    with asked(lab.port, target(columns=600, rows=400)):
         begun.wait()
     for _ in range(20):  # which wait for their turn
-        asked(server.port, target(columns=500, rows=400)).close()
+        asked(lab.port, target(columns=500, rows=400)).close()
     may_go_on.set()
-    assert got(server.port, target())[0] == 200
+    assert got(lab.port, target())[0] == 200
     assert made == [240_000, 35]
 
 
