@@ -136,7 +136,8 @@ ROWS = [
     # Between two states.
     (
         "glide",
-        f"[m.between({STATE}, {OTHER}, 0.25, {THIRD})].flatMap(({{ x, scenario }}) => [x.from, x.to, scenario.c])",
+        f"[m.between({STATE}, {OTHER}, 0.25, {THIRD})].flatMap(({{ x, scenario }}) =>"
+        " [x.from, x.to, scenario.c])",
         [1, 3, 1.5],
     ),
     ("glide", f"m.between({STATE}, {{ ...{OTHER}, after: 2 }}, 0.25, {THIRD})", None),
@@ -501,9 +502,11 @@ def test_a_slider_sets_the_field_to_what_it_shows(loaded):
           for (const name of ["map", "release", "coin", "floor", "hand", "hair"])
             boxes[name] = document.createElement("div");
           let state = {{ scenario: {written(CASE)}, ...axes, hand: 0.02, hair: null }};
-          const change = (more) => show((state = {{ ...state, ...more }})), {{ show }} = makeControls(boxes, fields, change);
+          const change = (more) => show((state = {{ ...state, ...more }}));
+          const {{ show }} = makeControls(boxes, fields, change);
           show(state);
-          const inputs = Object.values(boxes).flatMap((box) => [...box.querySelectorAll("input[type=range]")]);
+          const sliders = (box) => [...box.querySelectorAll("input[type=range]")];
+          const inputs = Object.values(boxes).flatMap(sliders);
           return inputs.map((input) => {{
             input.value = Number(input.min) + 0.375 * (input.max - input.min);
             input.dispatchEvent(new Event("input"));
@@ -570,3 +573,94 @@ def test_a_map_is_chosen_from_stepped_through_zoomed_and_moved(loaded):
         told, found = loaded.value("[told.pop() ?? null, Object.values(view.window())]")
         assert told == (due and [due[0], pytest.approx(due[1]), pytest.approx(due[2])])
         assert found == pytest.approx(window)
+
+
+PLACED = """
+import("live_map.js").then(({ makeLiveMap }) => {
+  const canvas = document.createElement("canvas"), chosen = [], nothing = () => {};
+  canvas.style = "position: fixed; left: 0; top: 0; width: 148px; height: 142px";
+  document.body.append(canvas);
+  const map = async (scenario, x, y, _, onPart) => {
+    const pixels = Int32Array.from({ length: x.count * y.count }, (_, i) => i);
+    onPart({ stride: 1, pixels, codes: Int8Array.from(pixels, (i) => i % 100), trusted: null, finished: 1 });
+  };
+  const told = { place: nothing, choose: (place) => chosen.push(place), moved: nothing, end: nothing };
+  Object.assign(told, { nearest: nothing, progress: nothing, problem: nothing });
+  const more = { outcomes: {}, saved: null, marks: () => [] };
+  const shown = makeLiveMap({ canvas, workers: { map }, fields, told, ...more });
+  const x = { field: "coin.radius", from: 0, to: 3 }, y = { field: "coin.mass", from: 0, to: 8 };
+  shown.update({ x, y, home: { x, y }, scenario: {}, after: 1, trust: false, hand: null, before: null });
+  canvas.dispatchEvent(new MouseEvent("click", { clientX: 74 + 41, clientY: 10 + 25 }));
+  canvas.remove();
+  return chosen;
+})
+"""
+"""A map of 30 by 40 pixels of two on the screen, of which each has its number, less hundreds, as its code."""
+
+
+def test_a_click_chooses_the_pixel_below_it(loaded):
+    (found,) = loaded.value(PLACED)
+    column, row = 20, 40 - 1 - 12
+    assert found["code"] == (30 * row + column) % 100
+    assert found["x"] == pytest.approx(3 * (column + 0.5) / 30)
+    assert found["y"] == pytest.approx(8 * (row + 0.5) / 40)
+
+
+HEADS, TAILS = np.array([200, 100, 0]), np.array([0, 20, 160])
+COLUMNS, ROWS_UP = 72, 48
+
+
+def reconstructed(page, codes, stride, trusted=None):
+    """Return the part of heads and the doubts of a map, rows upwards, of a toss in each square."""
+    random = np.random.default_rng(1)
+    known = np.full(codes.shape, -1)
+    for corner in np.ndindex(ROWS_UP // stride, COLUMNS // stride):
+        at = tuple(stride * np.array(corner) + random.integers(stride, size=2))
+        known[at] = codes[at]
+    given = {"columns": COLUMNS, "rows": ROWS_UP, "stride": stride}
+    given |= {
+        "codes": known.ravel().tolist(),
+        "trusted": None if trusted is None else trusted.ravel().tolist(),
+    }
+    given |= {"colors": {"-1": [9, 9, 9], "1": HEADS.tolist(), "2": TAILS.tolist()}}
+    pixels, doubts = page.value(
+        f"import('reconstruct.js').then(({{ reconstruct }}) => reconstruct({json.dumps(given)}))"
+        ".then(({ pixels, doubts }) => [[...pixels], [...doubts]])"
+    )
+    colors, parts = np.reshape(pixels, (ROWS_UP, COLUMNS, 4)), (HEADS - TAILS)[[0, 2]]
+    share = (colors[:, :, [0, 2]] - TAILS[[0, 2]]) / parts
+    assert (colors[:, :, 3] == 255).all()
+    assert np.abs(share[:, :, 0] - share[:, :, 1]).max() < 0.02
+    return share[:, :, 0], np.reshape(doubts, (ROWS_UP, COLUMNS))
+
+
+@pytest.mark.parametrize("stride", [2, 3, 4, 6])
+@pytest.mark.parametrize("is_upright", [True, False])
+def test_both_halves_have_their_colours_and_a_boundary_between_them(loaded, stride, is_upright):
+    along = np.arange(COLUMNS) if is_upright else np.arange(ROWS_UP)[:, np.newaxis]
+    middle = along.size // 2
+    share, _ = reconstructed(
+        loaded, np.where(along < middle, 1, 2) * np.ones((ROWS_UP, COLUMNS), int), stride
+    )
+    across = share if is_upright else share.T
+    assert np.abs(across[:, : middle - 3 * stride] - 1).max() < 0.01
+    assert np.abs(across[:, middle + 3 * stride :]).max() < 0.01
+    # Halfway where the boundary is, but for the distance between tosses, without steps.
+    assert np.abs((across > 0.5).sum(axis=1) - middle).max() <= 1.5 * stride
+    assert np.abs(np.diff(across, axis=1)).max() < 0.75
+
+
+@pytest.mark.parametrize("stride", [2, 3, 4])
+def test_a_checkerboard_that_is_finer_than_the_tosses_is_grey(loaded, stride):
+    codes = 1 + np.add.outer(np.arange(ROWS_UP), np.arange(COLUMNS)) % 2
+    share, _ = reconstructed(loaded, codes, stride)
+    assert abs(share.mean() - 0.5) < 0.05
+    assert share.std() < 0.1
+
+
+def test_what_is_doubted_is_so_in_part_where_neighbours_disagree(loaded):
+    trusted = np.where(np.arange(COLUMNS) < COLUMNS // 2, 0, 1) * np.ones((ROWS_UP, 1), dtype=int)
+    _, doubts = reconstructed(loaded, np.ones((ROWS_UP, COLUMNS), dtype=int), 4, trusted)
+    assert (doubts[:, :24] == 255).all()
+    assert (doubts[:, 48:] == 0).all()
+    assert (np.diff(doubts.mean(axis=0)) <= 1e-9).all()
