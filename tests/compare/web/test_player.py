@@ -5,11 +5,12 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from cointoss import analytic
 from cointoss.compare.web.playable import playable
 from cointoss.compare.web.scripts import POLICY, files_of, one_file
-from tests.helpers.coins_shown import faces, picture, set_time
+from tests.helpers.coins_shown import BLUE, GOLD, faces, picture, set_time
 
 WOBBLE = 3.0
 """How long the coin lies after its proof, as a part of the time up to it."""
@@ -26,6 +27,14 @@ window.AudioContext = class {
 };
 """
 """Stands for the browser's sound, and keeps how loud each click is."""
+
+
+INSIDE = """
+(({ top, bottom }, out, box) => top >= out.top && bottom <= out.bottom && box.scrollWidth <= box.clientWidth)(
+  document.querySelector(".horizon").getBoundingClientRect(),
+  document.getElementById("sequences").getBoundingClientRect(), document.getElementById("sequences"))
+"""
+"""Whether the bar of the horizon and all faces are inside of their box."""
 
 
 def lying_on(toss):
@@ -122,6 +131,11 @@ def test_the_proof_is_marked_and_the_clock_tells_true_times(page, played, width,
     ticks = page.value(f"{texts}.map((one) => Number(one.textContent))")
     assert ticks == sorted(set(ticks))
     assert max(ticks) > shown["end_time"]
+    # The rows of faces wrap.
+    tops = page.value("[...document.querySelectorAll('#sequences [data-touch]')].map((one) => one.offsetTop)")
+    assert tops == sorted(tops)
+    assert (len(set(tops)) > 1) == (width == 420)
+    assert page.value(INSIDE)
     assert page.value("document.documentElement.scrollWidth <= innerWidth")
 
 
@@ -134,6 +148,14 @@ def test_coin_and_floor_are_both_seen_at_release_and_at_every_touch(page, played
         set_time(page, time)
         coins = picture(page, "coins").astype(int)
         assert min((np.abs(coins - color).max(axis=-1) <= 4).sum() for color in floor) > 1000
+    # The face that is up is seen from above.
+    path = shown["path"]
+    up = Rotation.from_quat(np.reshape(path["quaternion"], (-1, 4)), scalar_first=True).as_matrix()[:, 2, 2]
+    for at, (seen, other) in ((np.argmax(up), (GOLD, BLUE)), (np.argmin(up), (BLUE, GOLD))):
+        set_time(page, path["time"][at])
+        coins = picture(page, "coins")[48:].astype(int)
+        counts = [(np.abs(coins - color).max(axis=-1) <= 60).sum() for color in (seen, other)]
+        assert counts[0] > 500 > counts[1]
 
 
 def test_touches_are_heard_once_a_button_is_pressed(page, played):
@@ -159,17 +181,3 @@ def test_touches_are_heard_once_a_button_is_pressed(page, played):
     page.value("document.getElementById('play').click()")
     page.wait_for("Number(document.getElementById('time').value) > 0.5")
     assert page.value("tones.length") == len(loud)
-
-
-@pytest.mark.slow
-def test_the_rows_of_faces_wrap_with_the_bar_on_the_screen(page, played):
-    played(width=420)
-    box = "document.getElementById('sequences')"
-    assert page.value(f"{box}.scrollWidth <= {box}.clientWidth")
-    tops = page.value("[...document.querySelectorAll('#sequences [data-touch]')].map((one) => one.offsetTop)")
-    assert tops == sorted(tops)
-    assert len(set(tops)) > 1
-    assert page.value(
-        f"(({{ top, bottom }}, out) => top >= out.top && bottom <= out.bottom)"
-        f"(document.querySelector('.horizon').getBoundingClientRect(), {box}.getBoundingClientRect())"
-    )
