@@ -61,68 +61,64 @@ assert models.records.__spec__.name == models.records.__name__ == 'cointoss.mode
 bare = ('models', 'analytic', 'coin_mj', 'compare')
 print([m for m in sys.modules.values() if m.__name__.partition('.')[0] in bare])
 """
-PLOT = """
-import sys; from {} import toss; made = toss('fig24a'); print('matplotlib' in sys.modules)
-print(len(made.plot().get_lines()) > 1, 'matplotlib' in sys.modules, made.play().title)
-"""
 NEXT_TO_NOTHING = """
 import sys; before = set(sys.modules); import cointoss; new = set(sys.modules) - before
 print({name.partition('.')[0] for name in new} - sys.stdlib_module_names, 'importlib.metadata' in new)
+import cointoss.compare; print('numpy' in sys.modules)
 """
-PRINTED = {
-    "a star brings the public names": (
-        "from cointoss import *\nimport cointoss\nprint(*(n for n in dir(cointoss) if n not in globals()))",
-        "__version__",
+PLOT = """
+import sys; from cointoss.analytic import toss; made = toss('fig24a'); print('matplotlib' in sys.modules)
+print(len(made.plot().get_lines()) > 1, 'matplotlib' in sys.modules, made.play().title)
+"""
+STAR = "from cointoss import *\nimport cointoss\nprint(*(n for n in dir(cointoss) if n not in globals()))"
+ALIEN = "cannot be directly executed"
+PROCESSES = [
+    pytest.param(
+        ("-c", NEXT_TO_NOTHING), r"\{'cointoss'\} False\nFalse\n", "", id="next to nothing is imported"
     ),
-    "next to nothing is imported at first": (NEXT_TO_NOTHING, r"\{'cointoss'\} False"),
-    "compare is described without numpy": (
-        "import sys, cointoss.compare; print('numpy' in sys.modules)",
-        "False",
+    pytest.param(("-c", BARE), r"\[\]\n", "", id="a bare name in a checkout gives the same objects"),
+    pytest.param(("-m", "analytic"), "", f".*'analytic' is a package and {ALIEN}\n", id="no package is run"),
+    pytest.param(
+        ("-m", "analytic.tosses"), "", ".*No module named analytic.tosses\n", id="nor what is not there"
     ),
-    "only a plot brings matplotlib": (PLOT.format("cointoss"), "False\nTrue True toss of 2 g.*"),
-    "and so of the engine's own toss": (PLOT.format("cointoss.analytic"), "False\nTrue True toss of 2 g.*"),
-}
+    pytest.param(
+        ("-m", "compare.cli"), "", ".*: accepted: python -m cointoss.compare.cli\n", id="nor a bare name"
+    ),
+    pytest.param(("-c", STAR), "__version__\n", "", id="a star brings the names", marks=pytest.mark.slow),
+    pytest.param(
+        ("-c", PLOT),
+        "False\nTrue True toss of 2 g.*\n",
+        "",
+        id="only a plot brings matplotlib",
+        marks=pytest.mark.slow,
+    ),
+]
 
 
-@pytest.mark.slow_after_first
-@pytest.mark.parametrize(("script", "printed"), PRINTED.values(), ids=PRINTED)
-def test_a_process_that_imports_prints(script, printed):
-    done = python("-c", script, MPLBACKEND="agg")
-    assert re.fullmatch(f"{printed}\n", done.stdout)
-    assert done.stderr == ""
-
-
-def test_a_bare_name_in_a_checkout_gives_the_same_objects():
-    done = python("-c", BARE, folder=TOP)
-    assert (done.stdout, done.stderr) == ("[]\n", "")
+@pytest.mark.parametrize(("words", "printed", "said"), PROCESSES)
+def test_a_process_prints(words, printed, said):
+    done = python(*words, folder=TOP, MPLBACKEND="agg")
+    assert re.fullmatch(printed, done.stdout)
+    assert re.fullmatch(said, done.stderr)
 
 
 SAID = {
-    ("-m", "analytic"): "'analytic' is a package and cannot be directly executed",
-    ("-m", "analytic.tosses"): "No module named analytic.tosses",
-    ("-m", "compare.cli"): "compare.cli: accepted: python -m cointoss.compare.cli",
-    ("-c", "import cointoss; cointoss.Coins"): r"^AttributeError: cointoss has no Coins; did you mean Coin\?",
-    (
-        "-c",
-        "import cointoss; cointoss.Card",
-    ): "^ImportError: cointoss.Card is cointoss_yardstick.Card now; .*",
-    ("-c", "from cointoss import conform"): "^ImportError: cointoss.conform is cointoss_yardstick.conform.*",
-    ("-c", "import cointoss.testing"): "^ImportError: cointoss.testing is cointoss_yardstick.testing now; .*",
-    (
-        "-c",
-        "import cointoss; cointoss.solref",
-    ): "cointoss.solref is cointoss_bounce.solref now; .*",
-    ("-c", "from cointoss import coin_mj; coin_mj.bounce"): "is cointoss_bounce.bounce now; accepted: pip .*",
-    ("-c", "import cointoss; cointoss.qqq"): "cointoss has no qqq; accepted: Air, .* Coin, .*, toss_many",
+    "Coins": (AttributeError, r"cointoss has no Coins; did you mean Coin\?$"),
+    "qqq": (AttributeError, "cointoss has no qqq; accepted: Air, .* Coin, .*, toss_many$"),
+    "Card": (ImportError, "cointoss.Card is cointoss_yardstick.Card now; accepted: pip "),
+    "conform": (ImportError, "cointoss.conform is cointoss_yardstick.conform now; "),
+    "solref": (ImportError, "cointoss.solref is cointoss_bounce.solref now; "),
+    "coin_mj.bounce": (ImportError, "cointoss.coin_mj.bounce is cointoss_bounce.bounce now; accepted: pip "),
+    "testing.Card": (ImportError, "cointoss.testing is cointoss_yardstick.testing now; "),
 }
 
 
-@pytest.mark.parametrize("words", SAID, ids=str)
-def test_what_is_no_name_is_answered_in_a_line(words):
-    done = python(*words, folder=TOP)
-    assert (done.returncode, done.stdout) == (1, "")
-    assert re.search(f"{SAID[words]}$", done.stderr.splitlines()[-1])
-    assert words[0] == "-c" or done.stderr.count("\n") == 1
+@pytest.mark.parametrize("name", SAID)
+def test_what_is_no_name_is_answered_in_a_line(name):
+    error, says = SAID[name]
+    *parts, last = name.split(".")
+    with pytest.raises(error, match=f"^{says}"):
+        getattr(import_module(".".join(["cointoss", *parts])), last)
 
 
 @pytest.mark.parametrize("beside", [True, False])
