@@ -1,6 +1,5 @@
 """The package where only Unix's parts of Python are missing, as on Windows, and where there is no EGL."""
 
-import json
 import os
 import subprocess
 import sys
@@ -54,55 +53,57 @@ def test_what_only_unix_has_is_missing_there(elsewhere):
     assert elsewhere("-c", script) == "None False False cp1252\n"
 
 
-@pytest.mark.slow
-def test_every_module_is_imported(elsewhere):
-    script = (
-        "import importlib, pkgutil\n"
-        "names = ['cointoss']\n"
-        "for part in ('models', 'analytic', 'coin_mj', 'compare'):\n"
-        "    package = importlib.import_module(f'cointoss.{part}')\n"
-        "    names += [m.name for m in pkgutil.walk_packages(package.__path__, f'cointoss.{part}.')]\n"
-        "print(len([importlib.import_module(name) for name in names if not name.endswith('__main__')]))"
+def test_a_toss_is_printed_with_the_letters_that_the_code_page_has(elsewhere):
+    """Those that it lacks are question marks."""
+    printed = elsewhere("-m", "cointoss", "toss", "fig24a", "--max-impacts", "1", "--engine", "mujoco")
+    assert "sequence  H" in printed
+
+
+WHOLE = """
+import importlib, pkgutil, sys
+from pathlib import Path
+from click.testing import CliRunner
+from cointoss.compare.film.back_end import drawing_problem
+from cointoss.compare.cli import main
+print(drawing_problem())
+names = [
+    module.name
+    for part in ("models", "analytic", "coin_mj", "compare")
+    for module in pkgutil.walk_packages(
+        importlib.import_module(f"cointoss.{part}").__path__, f"cointoss.{part}."
     )
-    assert int(elsewhere("-c", script)) > 300
-
-
-@pytest.mark.slow_after_first
-@pytest.mark.parametrize("engine", ["analytic", "mujoco"])
-def test_both_engines_toss(elsewhere, engine):
-    tossed = json.loads(elsewhere("-m", "cointoss", "toss", "fig24a", "--engine", engine, "--json"))
-    assert tossed["engine"] == engine
-    assert tossed["sequence"].startswith("H")
-    # The letters that the code page lacks are question marks.
-    assert "sequence" in elsewhere("-m", "cointoss", "toss", "fig24a", "--engine", engine)
+]
+print(len([importlib.import_module(name) for name in names if not name.endswith("__main__")]))
+import cointoss.compare.sweep.store as store
+folder = Path(sys.argv[1])
+out = str(folder / "map.zarr")
+made, *rest = [
+    CliRunner().invoke(main, words, catch_exceptions=False).stdout
+    for words in (
+        [*sys.argv[2:], "--out", out],
+        [*sys.argv[2:], "--out", out, "--resume"],
+        ["toss", "fig24a", "--max-impacts", "1"],
+        ["compare", "fig24a", "--set", "max_impacts=1", "--no-video", "--out", str(folder / "report")],
+    )
+]
+print(made == rest[0], "sequence  H" in rest[1])
+print(*sorted(path.name for path in [*folder.iterdir(), *(folder / "report").iterdir()]))
+with store._locked(folder, folder):
+    try:
+        with store._locked(folder, folder): pass
+    except store.UnwritableError as error: print(error)
+"""
 
 
 @pytest.mark.slow
-def test_a_map_is_made_locked_and_resumed(elsewhere, tmp_path):
-    out = tmp_path / "map.zarr"
-    made = elsewhere("-m", "cointoss", *MAP, "--out", out)
-    script = (
-        "import sys; from pathlib import Path; import cointoss.compare.sweep.store as store\n"
-        "path = Path(sys.argv[1])\n"
-        "with store._locked(path, path):\n"
-        "    try:\n"
-        "        with store._locked(path, path): pass\n"
-        "    except store.UnwritableError as error: print(error)"
-    )
+def test_every_module_is_imported_and_a_map_and_a_report_are_made(elsewhere, tmp_path):
     # Without a lock of the system filelock warns that another process may break its own.
-    said = elsewhere("-W", "ignore", "-c", script, out)
-    assert said == f"{out}: another process is at this map; accepted: wait for its end\n"
-    assert elsewhere("-m", "cointoss", *MAP, "--out", out, "--resume") == made
-    assert [path.name for path in tmp_path.iterdir()] == ["map.zarr"]
-
-
-@pytest.mark.slow
-def test_a_report_is_made_and_says_why_it_has_no_video(elsewhere, tmp_path):
-    script = "from cointoss.compare.film.back_end import drawing_problem; print(drawing_problem())"
-    problem = elsewhere("-c", script)
+    problem, count, same, files, locked = elsewhere("-W", "ignore", "-c", WHOLE, tmp_path, *MAP).splitlines()
     assert problem.startswith("video needs an OpenGL library")
-    elsewhere("-m", "cointoss", "compare", "table", "--no-video", "--out", tmp_path / "report")
-    assert "table" in (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
+    assert int(count) > 300
+    assert same == "True True"
+    assert files == "map.zarr numbers.json path-analytic.csv path-mujoco.csv report report.html"
+    assert locked == f"{tmp_path}: another process is at this map; accepted: wait for its end"
 
 
 def test_an_engine_is_built_by_one_process_at_a_time(elsewhere, tmp_path):
