@@ -2,7 +2,7 @@
 
 import re
 import subprocess
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -78,6 +78,14 @@ def made(
         certificate=(),
         path=path,
     )
+
+
+def struck():
+    """Return a toss with one impact, 60° along the rim, of which each number is told in units of its own."""
+    toss = made(MadePath(position=(0, 0, 0.2)), impacts=[(0.5, 2.5e-3)], ending=Ending.LYING)
+    point = ZLOTY["radius"] * np.array([[0.5, 0.75**0.5, 0.0]])
+    energies = {"energy": np.array([1.25e-3]), "energy_change": np.array([-5e-4])}
+    return replace(toss, impacts=replace(toss.impacts, point=point, **energies))
 
 
 def shown(toss):

@@ -1,119 +1,97 @@
 """Every format of a film, and encoders that stop, complain or are interrupted."""
 
 import mediapy
+import numpy as np
 import pytest
 
 from cointoss.compare.film import video
 from cointoss.compare.film.drawing import Camera
 from cointoss.compare.film.encodings import ENCODINGS, Format
-from cointoss.compare.film.video import frame_count, write_video
+from cointoss.compare.film.video import frame_count, frames, poster_number, write_video
 from tests.helpers.films import MadePath, Written, film_written, made, shown
 
 TINY = Format(64, 48, 4, longest=2.0)
+TOSS = made(MadePath(position=(0, 0, 0.1), velocity=(0, 0, 0.2)), impacts=[(0.1, 1e-3)], end=0.3)
 
 
 @pytest.mark.slow_after_first
 @pytest.mark.parametrize("suffix", ENCODINGS)
 def test_a_film_is_written_in_every_format(tmp_path, suffix):
-    toss = made(MadePath(position=(0, 0, 0.1), velocity=(0, 0, 0.2)), impacts=[(0.1, 1e-3)], end=0.3)
-    path, told = tmp_path / f"film{suffix}", []
-    poster = write_video([shown(toss)] * 2, Camera.TOP, TINY, path, lambda *done: told.append(done))
-    assert poster.shape == (48, 64, 3)
-    count = frame_count([shown(toss)], TINY)
+    path, tosses, told = tmp_path / f"film{suffix}", [shown(TOSS)] * 2, []
+    poster = write_video(tosses, Camera.TOP, TINY, path, lambda *done: told.append(done))
+    count, drawn = frame_count(tosses, TINY), list(frames(tosses, Camera.TOP, TINY))
     assert told == [(i + 1, count) for i in range(count)]
+    assert np.array_equal(poster, drawn[poster_number(tosses, TINY) - 1])
     codec = {".mp4": "h264", ".webm": "vp9", ".gif": "gif"}[suffix]
     assert film_written(path) == Written(codec=codec, size=(64, 48), rate=4, frames=count)
 
 
-@pytest.fixture
-def encoders(monkeypatch):
-    """The processes of the encoders that are started."""
-    started = []
-
-    class Writer(mediapy.VideoWriter):
-        def __enter__(self):
-            super().__enter__()
-            started.append(self._popen)
-            return self
-
-    monkeypatch.setattr(mediapy, "VideoWriter", Writer)
-    return started
+def interrupt(*_):
+    raise KeyboardInterrupt
 
 
-def stop(encoder):
-    """Stop an encoder as a signal does."""
+def terminate(*_):
+    raise SystemExit(143)
+
+
+def kill(encoder):
     encoder.kill()
     encoder.wait()
 
 
-def write_small(path, progress=lambda *_: None):
-    """Write a film of few frames."""
-    toss = made(MadePath(position=(0, 0, 0.1)), end=0.3)
-    write_video([shown(toss)], Camera.TOP, TINY, path / "film.mp4", progress)
+def kill_and_interrupt(encoder):
+    kill(encoder)
+    interrupt()
 
 
-def test_an_encoder_that_stopped_is_an_error_of_the_file(tmp_path, encoders):
-    with pytest.raises(OSError, match="ffmpeg: stopped, or the disk is full"):
-        write_small(tmp_path, lambda *_: stop(encoders[0]))
+def kill_and_terminate(encoder):
+    kill(encoder)
+    terminate()
 
 
-@pytest.mark.parametrize("strike", [KeyboardInterrupt(), SystemExit(143)])
-def test_an_encoder_that_an_interruption_stopped_is_no_error(tmp_path, encoders, strike):
-    def interrupt(*_):
-        stop(encoders[0])
-        raise strike
-
-    with pytest.raises(type(strike)) as raised:
-        write_small(tmp_path, interrupt)
-    assert raised.value is strike
-
-
-def test_an_interruption_is_found_behind_several_errors(tmp_path, encoders, monkeypatch):
-    """The pipe breaks as the interruption closes it, and the encoder complains of that."""
-
-    def broken(*_):
+def hide(_):
+    """The pipe breaks as an interruption closes it, and the encoder complains of that."""
+    try:
         try:
-            try:
-                raise KeyboardInterrupt
-            finally:
-                raise BrokenPipeError
+            interrupt()
         finally:
-            raise RuntimeError("Error writing 'film.mp4': Immediate exit requested")
-
-    monkeypatch.setattr(mediapy.VideoWriter, "add_image", broken)
-    with pytest.raises(KeyboardInterrupt):
-        write_small(tmp_path)
-    assert len(encoders) == 1
+            raise BrokenPipeError
+    finally:
+        raise RuntimeError("Error writing 'film.mp4': Immediate exit requested")
 
 
-def test_an_encoder_that_complains_before_the_signal_is_heeded_is_no_error(tmp_path, encoders, monkeypatch):
-    def interrupt(*_):
-        raise KeyboardInterrupt
-
-    def broken(*_):
-        monkeypatch.setattr(video.time, "sleep", interrupt)
-        raise BrokenPipeError
-
-    monkeypatch.setattr(mediapy.VideoWriter, "add_image", broken)
-    with pytest.raises(KeyboardInterrupt):
-        write_small(tmp_path)
-    assert len(encoders) == 1
+def break_pipe(_):
+    raise BrokenPipeError
 
 
-@pytest.mark.parametrize("where", ["__enter__", "add_image", "close"])
-@pytest.mark.parametrize("strike", [KeyboardInterrupt, SystemExit])
-def test_an_encoder_is_waited_for_wherever_an_interruption_strikes(
-    tmp_path, encoders, monkeypatch, where, strike
+@pytest.mark.parametrize(
+    ("strike", "where", "soon", "raised"),
+    [
+        (hide, "add_image", None, KeyboardInterrupt),
+        (break_pipe, "add_image", interrupt, KeyboardInterrupt),
+        (kill, "add_image", None, OSError),
+        (kill_and_interrupt, "add_image", None, KeyboardInterrupt),
+        (kill_and_terminate, "add_image", None, SystemExit),
+        (interrupt, "__enter__", None, KeyboardInterrupt),
+        (terminate, "close", None, SystemExit),
+    ],
+)
+def test_what_ends_the_encoding_is_raised_and_the_encoder_is_waited_for(
+    tmp_path, monkeypatch, strike, where, soon, raised
 ):
-    method = getattr(mediapy.VideoWriter, where)
+    """It may be behind other errors, or heeded soon after; a killed encoder is an error of the file."""
+    encoders, enter = [], mediapy.VideoWriter.__enter__
 
-    def interrupted(*arguments):
-        if where == "__enter__":
-            method(*arguments)
-        raise strike
+    def entered(writer):
+        enter(writer)
+        encoders.append(writer._popen)
+        return strike(encoders[0]) if where == "__enter__" else writer
 
-    monkeypatch.setattr(mediapy.VideoWriter, where, interrupted)
-    with pytest.raises(strike):
-        write_small(tmp_path)
-    (encoder,) = encoders
-    assert encoder.returncode is not None
+    monkeypatch.setattr(mediapy.VideoWriter, "__enter__", entered)
+    if where != "__enter__":
+        monkeypatch.setattr(mediapy.VideoWriter, where, lambda *_: strike(encoders[0]))
+    monkeypatch.setattr(video.time, "sleep", soon or (lambda _: None))
+    with pytest.raises(raised) as error:
+        write_video([shown(TOSS)], Camera.TOP, TINY, tmp_path / "film.mp4", lambda *_: None)
+    assert raised is not OSError or "ffmpeg: stopped, or the disk is full" in str(error.value)
+    assert encoders[0].returncode is not None

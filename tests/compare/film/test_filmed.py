@@ -12,7 +12,8 @@ from cointoss.compare.film.slow_motion import FAST, SETTLED, SLOW, SPEEDS_UP_FOR
 from cointoss.models.ending import face_up
 from cointoss.models.reading import load
 from cointoss.models.records import Ending, Outcome
-from tests.helpers.films import FLAT, MadePath, drawn, made, shown
+from tests.helpers.draws import ZLOTY
+from tests.helpers.films import TURNED, MadePath, blue, drawn, made, shown
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
@@ -70,21 +71,31 @@ def test_the_caption_marks_when_the_face_was_settled(then, says):
 
 def test_a_hand_catches_the_coin():
     """It is under the coin at the end, and was not there when the coin came up."""
-    path = MadePath(position=(0, 0, 0.1), velocity=(0, 0, 2), acceleration=(0, 0, -9.81), quaternion=FLAT)
-    toss = made(path, end=0.38, ending=Ending.CAUGHT, outcome=Outcome.HEADS)
+    path = MadePath(position=(0, 0, 0.1), velocity=(0, 0, 1), acceleration=(0, 0, -9.81), quaternion=TURNED)
+    toss = made(path, end=0.11, ending=Ending.CAUGHT, outcome=Outcome.HEADS)
     _, speeds = film_times([shown(toss)], 60)
     assert speeds[-1] == pytest.approx(SLOW, rel=0.05)
-    pictures = drawn(toss, [0.0, 0.02, 0.38], Camera.CLOSE_UP, height=96, width=128)
+    pictures = drawn(toss, [0.0, 0.02, 0.11], Camera.CLOSE_UP, height=96, width=128)
     palm = [np.argwhere((np.abs(picture - [200, 155, 125]) < 40).all(axis=-1)) for picture in pictures]
     assert [len(found) > 100 for found in palm] == [False, False, True]
     assert palm[2][:, 0].mean() > 48
-    caption = caption_of(play_of(shown(toss), np.array([0.38])), 0)
-    assert caption.lines[1].text == "caught at 0.380 s"
+    assert blue(pictures[2]).sum() > 100
+    caption = caption_of(play_of(shown(toss), np.array([0.11])), 0)
+    assert caption.lines[1].text == "caught at 0.110 s"
 
 
 def test_a_coin_that_wobbles_too_low_to_turn_over_is_filmed_at_real_speed():
+    """Over the face from which its mass centre is farther it turns with less energy: m g times that edge."""
+    offset = 4e-4
+    edge = np.hypot(ZLOTY["radius"], ZLOTY["thickness"] / 2 - offset)
     low, high = (
-        made(MadePath(position=(0, 0, z)), impacts=[(0.5, 1e-3)], ending=Ending.LYING) for z in (0.004, 0.1)
+        made(
+            MadePath(position=(0, 0, part * edge)),
+            impacts=[(0.5, 1e-3)],
+            ending=Ending.LYING,
+            coin={"center_of_mass": [0, 0, offset]},
+        )
+        for part in (0.999, 1.001)
     )
     times, speeds = film_times([shown(low)], 60)
     assert speeds[times > SPEEDS_UP_FOR] == pytest.approx(SETTLED, rel=1e-9)

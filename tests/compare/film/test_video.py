@@ -13,7 +13,7 @@ from cointoss.compare.film.drawing import (
 )
 from cointoss.compare.film.encodings import Format
 from cointoss.compare.film.slow_motion import film_times
-from cointoss.compare.film.video import HELD, frame_count, frames, poster_number
+from cointoss.compare.film.video import HELD, _told, frame_count, frames, poster_number
 from tests.helpers.draws import ZLOTY
 from tests.helpers.films import (
     MadePath,
@@ -42,13 +42,28 @@ def test_two_tosses_stand_side_by_side_and_differ_where_their_paths_do():
         assert right - left == pytest.approx([0, part * scale - 2], abs=0.7)
 
 
-def test_the_frame_that_stands_for_a_film_shows_a_face_before_the_first_impact():
-    toss = analytic.toss("fig24a")
+def test_the_frame_that_stands_for_films_shows_a_face_before_the_first_impact_of_all():
+    toss, later = analytic.toss("fig24a"), made(MadePath(position=(0, 0, 0.1)), impacts=[(0.9, 1e-3)])
     form, first = Format(64, 48, 24), toss.impacts.time[0]
-    times, _ = film_times([shown(toss)], form.frames_per_second, form.longest)
-    time = times[poster_number([shown(toss)], form) - 1]
+    shown_ = [shown(toss), shown(later)]
+    times, _ = film_times(shown_, form.frames_per_second, form.longest)
+    time = times[poster_number(shown_, form) - 1]
     assert first / 2 <= time <= first
     assert abs(toss.sample(np.array([time])).normal[0, 2]) > 0.9
+
+
+@pytest.mark.parametrize(
+    ("speed", "told"),
+    [
+        (1 / 60, "1/60 of real speed"),
+        (0.25, "1/4 of real speed"),
+        (0.96, "real speed"),
+        (1.04, "real speed"),
+        (2.5, "2.5 times real speed"),
+    ],
+)
+def test_the_speed_is_told_as_a_part_of_the_real_one(speed, told):
+    assert _told(speed) == told
 
 
 def test_frames_are_drawn_one_at_a_time_and_the_last_one_stays():
