@@ -1,18 +1,22 @@
 """Options made of a record: their kinds, their help, the rules between them, and back to words."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Literal
+from unittest.mock import patch
 
 import click
 import pytest
 from click.testing import CliRunner
 
+from cointoss import analytic
 from cointoss.compare.commands.common import Given, quantity
 from cointoss.compare.commands.options import one_of, only_with, options_of, without, words_of
 from cointoss.compare.output.accepted import Form, Within, Written
 from cointoss.compare.output.language import in_options
+from cointoss.models.errors import ScenarioError
+from tests.helpers.command_line import refused
 
 
 class Pair(tuple[str, str]):
@@ -124,6 +128,46 @@ def test_what_excludes_or_lacks_another_is_refused(typed, said):
     answered = CliRunner().invoke(wish, ["--to-do", "walk", *typed.split()])
     assert answered.exit_code == 2
     assert said in answered.output
+
+
+CONTACT_STEPS = replace(analytic.FINE, contact_steps=5)
+VARY = "--vary height=0.2:0.6"
+
+
+@pytest.mark.parametrize(
+    ("line", "function", "arguments"),
+    [
+        (
+            "fit a.csv table --vary restitution=0.1:0.9 --sd-time 1ms --starts 7 --seed 3",
+            "fitting.fit.fit",
+            {"starts": 7, "seed": 3, "device": "cpu"},
+        ),
+        (
+            "fit a.csv table --sd-time 1ms --sd-height 2mm --sd-attitude 3deg",
+            "fitting.table.read_seen",
+            {1: {"time": "1ms", "height": "2mm", "attitude": "3deg"}},
+        ),
+        (
+            f"find table {VARY} --sequence HT --outcome tails --tosses 9 --seed 4",
+            "find.find.find_telling",
+            {"sequence": "HT", "outcome": "tails", "tosses": 9, "seed": 4},
+        ),
+        ("flips a.csv table --tosses 5 --seed 6", "flips.hand_fit.flips", {"tosses": 5, "seed": 6}),
+        (
+            f"shares table {VARY}:2 --tosses 8 --seed 2 --engine mujoco",
+            "shares.plan.plan_of",
+            {"tosses": 8, "seed": 2, "engines": ("mujoco",)},
+        ),
+        ("toss table --margin --contact-steps 5", "metrics.margin.margins", {"settings": CONTACT_STEPS}),
+    ],
+)
+def test_an_option_is_handed_to_its_argument(line, function, arguments, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("a.csv").write_text("t (s)\n1.2\n1.5\n")
+    with patch(f"cointoss.compare.{function}", side_effect=ScenarioError("enough")) as called:
+        assert refused(*line.split()) == "cointoss: enough\n"
+    given = called.call_args.kwargs | dict(enumerate(called.call_args.args))
+    assert {name: given[name] for name in arguments} == arguments
 
 
 def test_a_record_goes_back_to_the_words_that_fill_it():

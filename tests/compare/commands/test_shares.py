@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import math
 import signal
 
 import pytest
@@ -22,7 +23,7 @@ def test_by_default_a_coin_is_tossed_as_people_do_unless_the_hand_is_described(c
         (): Hand.people(),
         ("--spin", "50 rad/s"): Hand.people(spin=50.0),
         ("--psi-scatter", "0"): Hand(),
-        ("--psi", "0.5"): Hand(psi=0.5),
+        ("--psi", "90 deg"): Hand(psi=math.pi / 2),
         ("--spun",): Hand(spun=True),
         ("--hand", file): Hand(speed=1.0),
     }
@@ -96,6 +97,23 @@ main()
     assert process.returncode == 130, said
     assert said.endswith("cointoss: interrupted by SIGINT: 80 tosses are counted\n")
     assert [line.split(" of ")[-1] for line in printed.splitlines()[1:5]] == 4 * ["80 tosses"]
+
+
+def test_a_coin_that_does_not_turn_shows_its_first_side_at_every_touch(coin):
+    words = ("hands", coin, "--spin", "0", "--scatter", "0", "--psi", "0", "--tosses", 20, "--json")
+    told = json.loads(cointoss(*words).stdout)
+    touches = [f"touch {number}" for number in range(1, 5)]
+    shares = {name: (one["value"], one["count"]) for name, one in told["same_side"].items()}
+    assert shares == dict.fromkeys([*touches, "at rest"], (1, 20))
+
+
+def test_coins_that_never_come_to_the_hand_are_left_out(coin):
+    """With 2 m/s from 1 m a coin rises to 1.2 m, by half of the hands above it."""
+    words = ("hands", coin, "--caught", "1.2 m", "--tosses", 200, "--json")
+    told = json.loads(cointoss(*words).stdout)
+    caught = told["same_side"]["caught"]
+    assert 50 < told["not_caught"] < 150
+    assert caught["count"] + told["not_caught"] == told["tosses"] == 200
 
 
 def test_blocks_count_what_all_tosses_at_once_do(coin, monkeypatch):

@@ -9,7 +9,7 @@ import pytest
 from matplotlib.colors import to_rgb
 
 from cointoss.compare.film.captions import LABELS
-from cointoss.compare.output.style import OUTCOMES
+from cointoss.compare.output.style import OUTCOMES, looks_of
 from cointoss.models.palette import HEADS, TAILS
 from cointoss.models.records import Outcome
 
@@ -32,6 +32,12 @@ def test_outcomes_are_distinguished_by_all_eyes(eyes):
     assert len(seen) == len(Outcome)
     for one, other in itertools.combinations(seen, 2):
         assert np.linalg.norm(one - other) > 0.2
+
+
+def test_engines_of_others_are_told_apart():
+    looks = looks_of(["analytic", "a", "mujoco", "b", "c", "d"])
+    assert [look.kind for look in looks] == ["analytic", "other-1", "mujoco", "other-2", "other-3", "other-4"]
+    assert len({look.color for look in looks}) == len(looks)
 
 
 @pytest.mark.parametrize(("face", "color"), [("heads", HEADS), ("tails", TAILS)])

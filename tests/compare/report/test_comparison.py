@@ -12,7 +12,7 @@ from cointoss import coin_mj
 from cointoss.compare.report.comparison import Comparison, compare
 from cointoss.compare.report.verdict import VerdictKind, verdicts_of
 from cointoss.models.reading import load
-from cointoss.models.records import UnusableEngineError
+from cointoss.models.records import Face, UnusableEngineError
 from tests.helpers.off import Off
 
 SHORT = load("fig24a").replace("ending.max_impacts", 3)
@@ -38,6 +38,15 @@ def test_both_tosses_are_compared(found):
         pair.errors[0] = 0
     with pytest.raises(KeyError, match="off; accepted: mujoco"):
         found["off"]
+
+
+def test_settings_are_those_of_their_engine_on_the_film_too():
+    low = load("fig24a").replace("release.position", (0, 0, 0.02))
+    found = compare(low, settings={"mujoco": coin_mj.MujocoSettings(stiffness=1e13)})
+    (measured, tossed) = ([(each.name, each.value) for each in toss.certificate] for toss in found.tosses)
+    filmed = [(each.name, each.value) for each in found.filmed[1].motion.certificate]
+    assert found.filmed[1].motion.end_time > found.tosses[1].end_time
+    assert [("contact stiffness", 1e13) in one for one in (measured, tossed, filmed)] == [False, True, True]
 
 
 def test_what_mujoco_cannot_toss_is_a_comparison_that_says_why():
@@ -78,6 +87,10 @@ def test_a_plot_shows_both_paths_and_up_to_where_the_faces_must_agree():
     assert lines["up to here the faces must agree"].get_xdata() == [pair.common_horizon_time] * 2
     for toss in found.tosses:
         assert np.max(lines[toss.engine].get_xdata()) == toss.end_time
+        assert lines[toss.engine].get_ydata()[0] == SHORT.release.position[2]
+    up = found.measure.impacts.face == Face.HEADS
+    dots = lines["heads up at the touch"].get_ydata()
+    assert np.array_equal(dots, found.measure.impacts.position[up, 2])
     _, legend = axes.get_legend_handles_labels()
     assert len(legend) == len(set(legend)) == 5
 

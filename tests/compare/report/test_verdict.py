@@ -225,6 +225,14 @@ THERE = "within the horizon: off is wrong there"
     ("b", "prefix", "horizon", "errors", "kind", "says"),
     [
         (
+            *("HTT", 0, 1, 0.34, VerdictKind.FAULT),
+            f"they differ at impact 1, {THERE} (before impact 1 its flight is 34 % off).",
+        ),
+        (
+            *("HHT", 3, 3, 0.34, VerdictKind.AGREE),
+            "as they must. Before impact 1 the flight of off is 34 % off.",
+        ),
+        (
             *("HTT", 1, 2, [0.68, 0.1], VerdictKind.FAULT),
             f"they differ at impact 2, {THERE} (at impact 1 its impulse is 68 % off the contact law).",
         ),
@@ -244,8 +252,12 @@ THERE = "within the horizon: off is wrong there"
     ],
 )
 def test_another_engine_is_told_where_its_impulse_misses_the_law(b, prefix, horizon, errors, kind, says):
-    """Within the horizon the fault is its own, and no report is asked for."""
-    found, _ = compared(TOSSES["HHT"], TOSSES[b], prefix, horizon, "off", errors)
+    """Within the horizon the fault is its own, and no report is asked for; a number is its flight's error."""
+    of_flight = errors if isinstance(errors, float) else 0.0
+    found, pair = compared(
+        TOSSES["HHT"], TOSSES[b], prefix, horizon, "off", np.zeros(3) if of_flight else errors
+    )
+    vars(pair).update(flight_error=of_flight)
     (verdict,) = verdicts_of(found)
     assert verdict.kind == kind
     assert verdict.text.endswith(says)
