@@ -43,6 +43,9 @@ SMALLEST = (
     ".map((one) => parseFloat(getComputedStyle(one).fontSize)))"
 )
 """The smallest type on the page [px]."""
+VERDICT = "parseFloat(getComputedStyle(document.querySelector('.verdict')).fontSize)"
+TIME = "Number(document.getElementById('time').value)"
+CLICK = "document.getElementById('{}').click()"
 
 
 def texts(page, selector):
@@ -51,9 +54,7 @@ def texts(page, selector):
 
 def told(page, name):
     """Return what a plot says of the pointer: its time, and the first two values."""
-    parts = page.value(
-        f"[...document.querySelectorAll('#plot-{name} .values span')].map((one) => one.textContent)"
-    )
+    parts = texts(page, f"#plot-{name} .values span")
     return float(parts[-1].split()[1]), [float(part.split()[-1]) for part in parts[:2]]
 
 
@@ -61,8 +62,12 @@ def ticks(page, name):
     return texts(page, f"#plot-{name} text[text-anchor=middle]")
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("width", [1280, 420])
+def fits(page):
+    """Return whether the page is no wider than its window, in type that can be read."""
+    return page.value("document.documentElement.scrollWidth <= innerWidth") and page.value(SMALLEST) >= 16
+
+
+@pytest.mark.parametrize(("width", "scheme"), [(1280, "light"), (420, "dark")])
 def test_the_page_fits_and_needs_nothing_else(page, folder, width, scheme):
     page.open((folder / "report.html").as_uri(), width=width, scheme=scheme)
     drawn = page.value(
@@ -70,8 +75,7 @@ def test_the_page_fits_and_needs_nothing_else(page, folder, width, scheme):
         ".map((plot) => [plot.id.slice(5), plot.querySelectorAll('polyline').length])"
     )
     assert dict(drawn) == {name: 4 if name in ("spin", "place") else 2 for name in PLOTS}
-    assert page.value("document.documentElement.scrollWidth <= innerWidth")
-    assert page.value(SMALLEST) >= 16
+    assert fits(page)
     # In the dark no block is white.
     grounds = page.value(
         "[...document.querySelectorAll('body, .card, .figure')]"
@@ -94,44 +98,37 @@ def test_a_key_presents_verdict_coins_and_faces_in_large_type_and_another_return
         "['.verdict', '#coins', '.sequences', 'h1', '.two', '.plot', '.numbers', 'figcaption', 'details']"
         ".map((one) => document.querySelector(one).checkVisibility())"
     )
-    button = "document.getElementById('present')"
-    assert all(page.value(shown))
+    whole, presented = [True] * 9, [True] * 3 + [False] * 6
+    assert page.value(shown) == whole
     page.value("scrollTo(0, 700)")
     page.press("p")
-    assert page.value(shown) == [True] * 3 + [False] * 6
-    assert page.value("parseFloat(getComputedStyle(document.querySelector('.verdict')).fontSize)") > 25
-    assert page.value(SMALLEST) >= 16
-    assert page.value("document.documentElement.scrollWidth <= innerWidth")
-    if width == 1280:
-        assert page.value("document.documentElement.scrollHeight <= innerHeight")
+    assert page.value(shown) == presented
+    assert page.value(VERDICT) > 25
+    assert fits(page)
+    assert width != 1280 or page.value("document.documentElement.scrollHeight <= innerHeight")
     assert faces(picture(page, "coins")) > 500
     assert page.value("document.activeElement.id") == "play"
     page.press("Escape")
-    assert all(page.value(shown))
-    assert page.value("scrollY") == 700
-    assert page.value("document.activeElement.id") == "present"
+    assert page.value(f"[scrollY, document.activeElement.id, ...{shown}]") == [700, "present", *whole]
     # By its button too; a letter in a list chooses there.
-    page.value(f"{button}.click()")
-    assert page.value(shown) == [True] * 3 + [False] * 6
+    page.value(CLICK.format("present"))
     page.value("document.getElementById('speed').focus()")
     page.press("p")
-    assert page.value(shown) == [True] * 3 + [False] * 6
-    page.value(f"{button}.click()")
-    assert all(page.value(shown))
+    assert page.value(shown) == presented
+    page.value(CLICK.format("present"))
+    assert page.value(shown) == whole
 
 
-def test_the_first_screen_has_the_verdict_the_coins_their_play_and_their_faces(page, folder):
+def test_the_first_screen_has_what_matters_and_the_rest_is_below(page, folder):
+    """Coins stand where motion is unwanted; powers are raised; an impact loses energy."""
     page.open((folder / "report.html").as_uri(), width=1280, height=800)
     bottom = "document.querySelector('{}').getBoundingClientRect().bottom <= innerHeight"
     for shown in (".verdict", "#coins", "#play", ".faces", ".onward"):
-        assert page.value(bottom.format(shown))
-    assert page.value("parseFloat(getComputedStyle(document.querySelector('.verdict')).fontSize)") > 20
+        assert page.value(bottom.format(shown)), shown
+    assert page.value(VERDICT) > 20
+    assert page.value(TIME) == 0
     page.value("document.querySelector('.onward a').click()")
     page.wait_for("scrollY >= 700")
-
-
-def test_powers_stand_raised_and_an_impact_loses_energy(page, folder):
-    page.open((folder / "report.html").as_uri())
     assert not any("^" in cell for cell in texts(page, "td"))
     assert "-2-b" in texts(page, "sup")
     place = texts(page, ".numbers th").index("lost [mJ]")
@@ -139,37 +136,40 @@ def test_powers_stand_raised_and_an_impact_loses_energy(page, folder):
     assert [float(each) > 0 for each in lost] == [True] * 6
 
 
-def test_the_coins_play_when_the_page_is_opened_or_stand_as_released(page, folder):
-    """They stand where motion is unwanted."""
-    time = "Number(document.getElementById('time').value)"
-    page.open((folder / "report.html").as_uri())
-    assert page.value(time) == 0
-    page.open((folder / "report.html").as_uri(), moving=True)
-    page.wait_for(f"{time} > 0.01")
-
-
-def test_a_film_can_be_saved_from_the_page(page, tmp_path):
+def test_the_coins_play_when_the_page_is_opened_and_a_film_can_be_saved_from_it(page, tmp_path):
     shown = render(compared(parse(TEXT, "made"), TEXT, "made"), film=(b"a film", b"a frame"))
     (tmp_path / "report.html").write_text(shown, encoding="utf-8")
-    page.open((tmp_path / "report.html").as_uri())
+    page.open((tmp_path / "report.html").as_uri(), moving=True)
+    page.wait_for(f"{TIME} > 0.01")
     saved, name = page.value("(({ href, download }) => [href, download])(document.getElementById('save'))")
     assert name == "made.mp4"
     assert b64decode(saved.removeprefix("data:video/mp4;base64,")) == b"a film"
 
 
-def test_a_plot_tells_its_values_and_zooms(page, folder):
+def test_plots_tell_their_values_zoom_and_lead_the_coins(page, folder):
     page.open((folder / "report.html").as_uri())
-    numbers = json.loads((folder / "numbers.json").read_text(encoding="utf-8"))
-    end = max(toss["end_time"] for toss in numbers["tosses"])
+    end = float(page.value("document.getElementById('time').max"))
+    page.click(*place(page, "spin", 0.3))
+    assert page.value(TIME) == pytest.approx(0.3 * end, abs=0.01)
+    set_time(page, 0.5 * end)
+    marks = page.value("[...document.querySelectorAll('.plot .now')].map((one) => one.getAttribute('x1'))")
+    assert len(marks) == len(PLOTS)
+    width = page.value("document.querySelector('#plot-tilt > svg').clientWidth")
+    assert float(marks[1]) == pytest.approx(LEFT + 0.5 * (width - LEFT - RIGHT), abs=1)
+    page.value(CLICK.format("play"))
+    page.wait_for(f"{TIME} > {0.51 * end}")
+    page.value(CLICK.format("play"))
+    assert page.text("play") == "Play"
+
     page.mouse("mouseMoved", *place(page, "height", 0.1))
     time, heights = told(page, "height")
     assert time == pytest.approx(0.1 * end, abs=0.01 * end)
     # Its first fall; the air takes little of it.
     assert heights == pytest.approx([400 - 1e3 * 9.81 * time**2 / 2] * 2, rel=0.01)
 
-    from_, to = place(page, "tilt", 0.4), place(page, "tilt", 0.6)
-    page.mouse("mousePressed", *from_, button="left", buttons=1, clickCount=1)
-    page.mouse("mouseMoved", *to, button="left", buttons=1)
+    from_, to, left = place(page, "tilt", 0.4), place(page, "tilt", 0.6), {"button": "left", "buttons": 1}
+    page.mouse("mousePressed", *from_, clickCount=1, **left)
+    page.mouse("mouseMoved", *to, **left)
     page.mouse("mouseReleased", *to, button="left", clickCount=1)
     for name in PLOTS:
         shown = [float(text) for text in ticks(page, name) if text != "horizon"]
@@ -183,24 +183,8 @@ def test_a_plot_tells_its_values_and_zooms(page, folder):
     assert after - before == pytest.approx(0.2 * end / 100, rel=0.01)
     page.press("0")
     assert ticks(page, "energy")[0] == "0"
-    page.value("document.getElementById('zoom-in').click()")
+    page.value(CLICK.format("zoom-in"))
     assert "0" not in ticks(page, "energy")
-
-
-def test_a_click_on_a_plot_shows_the_coins_then_and_the_clock_marks_the_plots(page, folder):
-    page.open((folder / "report.html").as_uri())
-    end = float(page.value("document.getElementById('time').max"))
-    page.click(*place(page, "spin", 0.3))
-    assert float(page.value("document.getElementById('time').value")) == pytest.approx(0.3 * end, abs=0.01)
-    set_time(page, 0.5 * end)
-    marks = page.value("[...document.querySelectorAll('.plot .now')].map((one) => one.getAttribute('x1'))")
-    assert len(marks) == len(PLOTS)
-    width = page.value("document.querySelector('#plot-tilt > svg').clientWidth")
-    assert float(marks[1]) == pytest.approx(LEFT + 0.5 * (width - LEFT - RIGHT), abs=1)
-    page.value("document.getElementById('play').click()")
-    page.wait_for(f"Number(document.getElementById('time').value) > {0.51 * end}")
-    page.value("document.getElementById('play').click()")
-    assert page.text("play") == "Play"
 
 
 def test_the_page_of_one_engine_shows_one_coin(page, tmp_path):
@@ -216,27 +200,23 @@ def test_the_coins_go_on_until_they_lie_and_their_proof_is_marked(page, tmp_path
     found = compared(parse(text, "made"), text, "made")
     write_report(found, tmp_path, "none here")
     page.open((tmp_path / "report.html").as_uri())
-    ends = [toss.end_time for toss in found.tosses]
     last = max(each.motion.end_time for each in found.filmed)
-    assert last > max(ends) + 0.1
+    assert last > max(toss.end_time for toss in found.tosses) + 0.1
     assert page.value("Number(document.getElementById('time').max)") == pytest.approx(last, abs=1e-5)
     assert page.text("marks") == "from its mark on each can't turn over"
     set_time(page, last)
     assert page.text("clock") == f"{last:.3f} s"
     held = json.loads(page.value("document.getElementById('data').textContent"))["tosses"]
     for toss, each in zip(found.tosses, held, strict=True):
-        later = each["later_times"]
-        assert toss.end_time - 1e-6 <= min(later)
-        assert max(later) <= last + 1e-6
+        assert toss.end_time - 1e-6 <= min(each["later_times"]) <= max(each["later_times"]) <= last + 1e-6
         assert len(each["times"]) == len(toss.impacts)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("width", [1280, 420])
-def test_the_page_of_three_engines_tells_them_apart(page, tmp_path, width):
+def test_the_page_of_three_engines_tells_them_apart(page, tmp_path):
     found = compared(parse(TEXT, "made"), TEXT, "made", ["mujoco", Off("Off 2.0, as documented")])
     write_report(found, tmp_path, "none here")
-    page.open((tmp_path / "report.html").as_uri(), width=width)
+    page.open((tmp_path / "report.html").as_uri(), width=420)
     assert texts(page, "title") == ["made: one coin, three engines"]
     names = ["analytic", "MuJoCo", "Off 2.0, as documented"]
     assert texts(page, ".panel b") == names
@@ -248,13 +228,10 @@ def test_the_page_of_three_engines_tells_them_apart(page, tmp_path, width):
     drawn = page.value("document.querySelectorAll('#plot-apart polyline').length")
     assert (drawn, len(texts(page, ".verdict"))) == (4, 2)
     # The bar of each engine's row is after the faces that must agree, and so are its pale faces.
-    horizons = [
-        max(pair.common_horizon for pair in found.against),
-        *(pair.common_horizon for pair in found.against),
-    ]
+    others = [pair.common_horizon for pair in found.against]
+    horizons = [max(others), *others]
     for row, (toss, horizon) in enumerate(zip(found.tosses, horizons, strict=True), start=1):
         assert len(texts(page, f".pair span:nth-child({row}):not(.beyond):not(.none)")) == horizon
         assert len(texts(page, f".bars i.bar:nth-child({row})")) == (horizon < len(found.measure.impacts))
         assert horizon < len(toss.impacts)
-    assert page.value("document.documentElement.scrollWidth <= innerWidth")
-    assert page.value(SMALLEST) >= 16
+    assert fits(page)
