@@ -1,10 +1,8 @@
 """CITATION.cff, codemeta.json and .zenodo.json say of the project what pyproject.toml does."""
 
-import json
 import re
 import tomllib
 from pathlib import Path
-from typing import Any
 
 import pytest
 from yaml import safe_load
@@ -17,48 +15,37 @@ PROJECT = tomllib.loads((TOP / "pyproject.toml").read_text(encoding="utf-8"))["p
 PAPER = "10.1016/j.physrep.2008.08.003"
 
 
-def said_by(name: str) -> dict[str, Any]:
-    """Return what a file says of the project, each thing under one name for all files."""
+@pytest.mark.parametrize(
+    ("name", "title", "authors"),
+    [
+        ("CITATION.cff", "title", "authors"),
+        ("codemeta.json", "name", "author"),
+        (".zenodo.json", "title", "creators"),
+    ],
+)
+def test_a_file_says_what_pyproject_says(name, title, authors):
     text = (TOP / name).read_text(encoding="utf-8")
-    told = safe_load(text) if name == "CITATION.cff" else json.loads(text)
-    authors = told.get("authors") or told.get("author") or told.get("creators")
-    return {
-        "title": told["name"] if name == "codemeta.json" else told["title"],
-        "version": told["version"],
-        "license": told["license"].removeprefix("https://spdx.org/licenses/"),
-        "authors": [author["name"] for author in authors],
-        "keywords": told["keywords"],
-        "papers": sorted(set(re.findall(r"\b10\.\d{4}/[\w.]+", text))),
-    }
-
-
-@pytest.mark.parametrize("name", ["CITATION.cff", "codemeta.json", ".zenodo.json"])
-def test_a_file_says_what_pyproject_says(name):
-    said = said_by(name)
-    assert said.pop("title") == said_by("CITATION.cff")["title"]
-    assert said == {
+    told = safe_load(text)  # JSON is YAML, too
+    assert told[title] == safe_load((TOP / "CITATION.cff").read_text(encoding="utf-8"))["title"]
+    assert [author["name"] for author in told[authors]] == [each["name"] for each in PROJECT["authors"]]
+    assert told["license"].removeprefix("https://spdx.org/licenses/") == PROJECT["license"]
+    # Not each file has a description, the name in the index and the version of Python.
+    for key, of_project in {
         "version": PROJECT["version"],
-        "license": PROJECT["license"],
-        "authors": [author["name"] for author in PROJECT["authors"]],
         "keywords": PROJECT["keywords"],
-        "papers": [PAPER],
-    }
-
-
-@pytest.mark.parametrize("name", ["codemeta.json", ".zenodo.json"])
-def test_a_description_is_that_of_pyproject(name):
-    assert json.loads((TOP / name).read_text(encoding="utf-8"))["description"] == PROJECT["description"]
-
-
-def test_the_name_of_the_index_and_the_python_are_in_codemeta():
-    told = json.loads((TOP / "codemeta.json").read_text(encoding="utf-8"))
-    assert told["identifier"] == PROJECT["name"]
-    assert told["runtimePlatform"] == f"Python {PROJECT['requires-python']}"
-    assert said_by("CITATION.cff")["title"].startswith("cointoss: ")
+        "description": PROJECT["description"],
+        "identifier": PROJECT["name"],
+        "runtimePlatform": f"Python {PROJECT['requires-python']}",
+    }.items():
+        assert told.get(key, of_project) == of_project
+    assert set(re.findall(r"\b10\.\d{4}/[\w.]+", text)) == {PAPER}
 
 
 def test_support_has_the_numbers_of_the_files_that_are_kept():
     page = (TOP / "docs" / "SUPPORT.md").read_text(encoding="utf-8")
-    assert f"the attribute `cointoss_map`, now {chunks.FORMAT} |" in page
-    assert f"the attribute `cointoss_tosses`, now {chunks.TOSSES_FORMAT} |" in page
-    assert f"the field `format`, now {reading.FORMAT}; without it, 1 |" in page
+    for words in (
+        f"the attribute `cointoss_map`, now {chunks.FORMAT} |",
+        f"the attribute `cointoss_tosses`, now {chunks.TOSSES_FORMAT} |",
+        f"the field `format`, now {reading.FORMAT}; without it, 1 |",
+    ):
+        assert words in page
