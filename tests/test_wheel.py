@@ -1,6 +1,7 @@
 """The package as it is shipped: one name, which tosses a coin beside a foreign `models`."""
 
 import os
+import re
 import shutil
 import stat
 import subprocess
@@ -136,50 +137,53 @@ def test_a_wheel_has_every_file_under_one_name_and_no_other(wheel):
     assert {f"cointoss/{name}" for name in ("models/coin.xml", "compare/report/report.html.j2")} <= files
 
 
-@pytest.mark.slow_after_first
-@pytest.mark.parametrize("engine", ["analytic", "mujoco"])
-def test_the_installed_command_tosses_a_coin_beside_foreign_packages(installed, foreign, engine):
-    command = str(installed / "bin" / "cointoss")
-    words = ("toss", "fig24a", "--max-impacts", "1", "--engine", engine)
-    done = run(installed, foreign, command, *words, COINTOSS_CACHE=str(foreign / "cache"))
-    assert (done.returncode, done.stderr) == (0, "")
-    assert "sequence  H" in done.stdout
+SEQUENCE = "(?s).*sequence  H.*"
+TOSS = ("toss", "fig24a", "--max-impacts", "1", "--engine")
+WITHOUT_COMPILERS = (
+    "import sys\n"
+    "sys.modules |= dict.fromkeys(['numba', 'llvmlite', 'flint', 'ziglang'])\n"
+    "from cointoss import analytic, coin_mj\n"
+    "print(analytic.toss('fig24a').outcome, coin_mj.toss('fig24a').outcome)"
+)
+ELSEWHERE = (
+    "from cointoss.models.kernel import building\n"
+    "building.SYSTEM = 'plan9-mips'\n"
+    "from cointoss.__main__ import main\n"
+    "import sys; sys.argv[1:] = ['toss', 'fig24a']; main()"
+)
+VERSION = tomllib.loads((TOP / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "printed", "said"),
+    [
+        pytest.param(("bin/cointoss", *TOSS, "analytic"), 0, SEQUENCE, "", id="toss"),
+        pytest.param(
+            ("bin/cointoss", *TOSS, "mujoco"),
+            0,
+            SEQUENCE,
+            "",
+            id="mujoco",
+            marks=pytest.mark.slow,
+        ),
+        (("bin/cointoss", "lab", "--out", "lab.html"), 0, r"lab\.html\n", ""),
+        (("bin/cointoss", "--version"), 0, f"cointoss, version {re.escape(VERSION)}\n", ""),
+        (("-c", "import cointoss; print(cointoss.__file__)"), 0, "{installed}/cointoss/__init__.py\n", ""),
+        pytest.param(("-c", WITHOUT_COMPILERS), 0, "heads heads\n", "", id="without compilers"),
+        pytest.param(
+            ("-c", ELSEWHERE),
+            2,
+            "",
+            f".*no models engine for plan9-mips; there is: {SYSTEM}\n",
+            id="elsewhere",
+        ),
+    ],
+)
+def test_what_is_installed_runs_beside_foreign_packages(installed, foreign, words, status, printed, said):
+    first, *others = words
+    program = str(installed / first) if "/" in first else first
+    done = run(installed, foreign, program, *others, COINTOSS_CACHE=str(foreign / "cache"))
+    assert done.returncode == status
+    assert re.fullmatch(printed.replace("{installed}", str(installed)), done.stdout)
+    assert re.fullmatch(said, done.stderr)
     assert not (foreign / "cache").exists(), "nothing is built or kept at a user's"
-
-
-def test_the_installed_command_has_the_lab(installed, foreign):
-    done = run(installed, foreign, str(installed / "bin" / "cointoss"), "lab", "--out", "lab.html")
-    assert (done.returncode, done.stdout, done.stderr) == (0, "lab.html\n", "")
-    assert (foreign / "lab.html").stat().st_size > 1_000_000
-
-
-def test_a_toss_needs_nothing_that_compiles(installed, foreign):
-    program = (
-        "import sys\n"
-        "sys.modules |= dict.fromkeys(['numba', 'llvmlite', 'flint', 'ziglang'])\n"
-        "from cointoss import analytic, coin_mj\n"
-        "print(analytic.toss('fig24a').outcome, coin_mj.toss('fig24a').outcome)"
-    )
-    done = run(installed, foreign, "-c", program)
-    assert (done.stdout, done.stderr) == ("heads heads\n", "")
-
-
-def test_a_system_without_a_library_says_so_in_a_line(installed, foreign):
-    program = (
-        "from cointoss.models.kernel import building\n"
-        "building.SYSTEM = 'plan9-mips'\n"
-        "from cointoss.__main__ import main\n"
-        "import sys; sys.argv[1:] = ['toss', 'fig24a']; main()"
-    )
-    done = run(installed, foreign, "-c", program)
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.endswith(f"no models engine for plan9-mips; there is: {SYSTEM}\n")
-    assert len(done.stderr.splitlines()) == 1
-
-
-def test_the_installed_command_knows_its_version(installed, foreign):
-    project = tomllib.loads((TOP / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    done = run(installed, foreign, str(installed / "bin" / "cointoss"), "--version")
-    assert done.stdout.split() == ["cointoss,", "version", project["version"]]
-    done = run(installed, foreign, "-c", "import cointoss; print(cointoss.__file__)")
-    assert done.stdout.strip() == str(installed / "cointoss" / "__init__.py")
