@@ -145,12 +145,6 @@ def test_the_pages_have_no_more_words_than_a_reader_has_patience_for(shelf):
     assert sum(counting.counted(DOCS)[shelf].values()) <= counting.MOST[shelf]
 
 
-def test_words_are_counted_in_prose_alone():
-    prose = "# One\n\nTwo < three, [four](five) > 6.\n\n<b>seven</b>\n"
-    rest = "| eight |\n|---|\n\n    nine\n\n```text\nten\n```\n<!-- eleven -->\n"
-    assert counting.words(prose) == counting.words(prose + rest) == 6
-
-
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda page: page.stem)
 def test_a_notebook_has_code_that_parses_and_ends_with_exercises_and_solutions(notebook):
     """`make docs` runs them; a cell may begin with options between two lines of dashes."""
@@ -201,15 +195,6 @@ def test_a_page_of_docs_leads_to_each_figure():
     figures = [page.relative_to(DOCS).as_posix() for page in DOCS.glob("reproduction/*/index.md")]
     assert len(figures) > 20
     assert [figure for figure in figures if f"]({figure})" not in text] == []
-
-
-def test_there_is_code_to_run():
-    code = {page.name: blocks(page) for page in PAGES}
-    assert sum(block.language == "python" for block in code["README.md"]) >= 2
-    called = [command for block in code["README.md"] for command in commands(block.text)]
-    assert any(runs_here(shlex.split(command)[1:]) for command in called)
-    assert sum(len(commands(block.text)) for parts in code.values() for block in parts) >= 20
-    assert len(NOTEBOOKS) == 3
 
 
 @pytest.mark.parametrize(
