@@ -4,6 +4,7 @@ import errno
 import os
 import subprocess
 import sys
+from unittest.mock import patch
 
 import pytest
 from click.testing import CliRunner
@@ -97,15 +98,6 @@ def test_a_shell_completes_names(line, number, names):
     assert ("file,fig18" in completed(line, number)) == ("toss fig18" in line)
 
 
-def test_what_is_lost_without_an_error_of_the_system_is_said_as_it_is(monkeypatch):
-    def lost():
-        raise OSError("the connection was lost")
-
-    monkeypatch.setattr("cointoss.models.sources.named_scenarios", lost)
-    answered = cointoss("scenarios")
-    assert (answered.exit_code, answered.stderr) == (1, "cointoss: the connection was lost\n")
-
-
 def test_a_closed_pipe_ends_quietly_with_exit_status_1(tmp_path):
     reading, writing = os.pipe()
     os.close(reading)
@@ -121,7 +113,6 @@ def test_a_closed_pipe_ends_quietly_with_exit_status_1(tmp_path):
     [
         "toss fig24a --engine mujoco",
         "video fig24a --out film.mp4",
-        "reproduce endings --out out",
         "basin fig24a --x gravity=9:10:2 --y release.position.z=1:2:2 --compare --out map.zarr",
     ],
 )
@@ -221,26 +212,24 @@ def test_too_little_memory_is_one_line(tmp_path, kilobytes):
 
 
 @pytest.mark.parametrize(
-    "error",
+    ("error", "said"),
     [
-        MemoryError(),
-        RuntimeError("can't start new thread"),
-        SystemError("error return without exception set"),
-        SystemError("<function load> returned NULL without setting an exception"),
-        OSError(errno.ENOMEM, os.strerror(errno.ENOMEM)),
-        ImportError("a.so: failed to map segment from shared object", name="a"),
+        (MemoryError(), NO_MEMORY),
+        (RuntimeError("can't start new thread"), NO_MEMORY),
+        (SystemError("error return without exception set"), NO_MEMORY),
+        (SystemError("<function load> returned NULL without setting an exception"), NO_MEMORY),
+        (OSError(errno.ENOMEM, os.strerror(errno.ENOMEM)), NO_MEMORY),
+        (ImportError("a.so: failed to map segment from shared object", name="a"), NO_MEMORY),
+        (OSError("the connection was lost"), "the connection was lost"),
     ],
 )
-def test_what_the_system_lacks_is_one_line_from_wherever_it_comes(error, monkeypatch):
-    monkeypatch.setattr("cointoss.models.sources.named_scenarios", lambda: (_ for _ in ()).throw(error))
-    answered = cointoss("scenarios")
-    assert (answered.exit_code, answered.stderr) == (1, f"cointoss: {NO_MEMORY}\n")
+def test_what_the_system_lacks_is_one_line_from_wherever_it_comes(error, said):
+    with patch("cointoss.models.sources.named_scenarios", side_effect=error):
+        answered = cointoss("scenarios")
+    assert (answered.exit_code, answered.stderr) == (1, f"cointoss: {said}\n")
 
 
-def test_other_failures_of_the_program_are_not_hidden(monkeypatch):
-    def fail():
-        raise RuntimeError("a defect")
-
-    monkeypatch.setattr("cointoss.models.sources.named_scenarios", fail)
-    with pytest.raises(RuntimeError, match="a defect"):
+def test_other_failures_of_the_program_are_not_hidden():
+    defect = patch("cointoss.models.sources.named_scenarios", side_effect=RuntimeError("a defect"))
+    with defect, pytest.raises(RuntimeError, match="a defect"):
         cointoss("scenarios")

@@ -79,15 +79,6 @@ def test_an_interrupted_film_leaves_what_was_there(tmp_path, short):
     assert {path.name for path in tmp_path.iterdir()} == {"short.toml", "film.mp4"}
 
 
-@pytest.mark.usefixtures("small_films")
-def test_a_law_that_mujoco_lacks_is_filmed_by_the_analytic_engine(tmp_path):
-    film = tmp_path / "film.mp4"
-    source = tmp_path / "knurled.toml"
-    source.write_text(scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 1"))
-    assert cointoss("video", source, "--engine", "analytic", "--out", film).exit_code == 0
-    assert film.exists()
-
-
 @pytest.mark.slow
 def test_a_film_that_cannot_be_written_is_one_line(tmp_path, short):
     small = (

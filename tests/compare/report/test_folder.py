@@ -19,7 +19,6 @@ from cointoss.compare.report.folder import BEING_DRAWN, write_report
 from cointoss.compare.report.page import versions
 from cointoss.models.reading import parse
 from cointoss.models.sources import scenario_text
-from tests.helpers.draws import scenario
 from tests.helpers.films import film_written
 from tests.helpers.off import Off
 from tests.helpers.site import read
@@ -122,14 +121,6 @@ def test_a_report_replaces_an_earlier_one_as_a_whole_and_nothing_else(folder, tm
     assert {path.name for path in earlier.iterdir()} == kept
 
 
-def test_a_report_that_fails_leaves_no_folder(tmp_path):
-    case = scenario(ending={"max_time": 0.05})
-    full = patch("cointoss.compare.report.folder.render", side_effect=OSError(28, "No space left"))
-    with full, pytest.raises(UnwritableError, match=r"new.deep: can't be written \(No space"):
-        write_report(compared(case, "", "failing"), tmp_path / "new" / "deep", ADVICE)
-    assert list(tmp_path.iterdir()) == []
-
-
 @pytest.mark.parametrize("name", FILES)
 @pytest.mark.parametrize("numbers", [None, "{}", "[1]", "my own", '{"versions": 3}'])
 def test_a_folder_with_files_of_the_user_is_refused(tmp_path, name, numbers):
@@ -140,18 +131,6 @@ def test_a_folder_with_files_of_the_user_is_refused(tmp_path, name, numbers):
     with pytest.raises(UnwritableError, match=r"in the way.*accepted: a folder without files") as caught:
         require_folder(tmp_path, "fig24a")
     assert str(tmp_path) in str(caught.value)
-
-
-def test_what_is_no_file_of_a_report_is_refused(folder, tmp_path):
-    earlier = tmp_path / "report"
-    shutil.copytree(folder, earlier)
-    (earlier / "report.html").unlink()
-    (earlier / "report.html").mkdir()
-    with pytest.raises(UnwritableError, match=r"report\.html: is a folder; accepted"):
-        require_folder(earlier, "fig24a")
-    (earlier / "report.html").rmdir()
-    with pytest.raises(UnwritableError, match="is the scenario; accepted: another file"):
-        require_folder(earlier, str(earlier / "path-mujoco.csv"))
 
 
 def test_a_report_owns_the_paths_of_its_engines_alone(tmp_path):
