@@ -97,21 +97,6 @@ def test_each_kind_of_field_is_read():
     assert given("--to-do", "walk", "--with", "2 cm").with_ == Given("2 cm", 0.02)
 
 
-def test_the_help_is_the_text_below_each_field():
-    text = " ".join(CliRunner().invoke(wish, ["--help"]).output.split())
-    for line in (
-        "--to-do TEXT  What to do, told in two lines.  [required]",
-        "--engine [analytic|mujoco]  The engine.  [default: analytic]",
-        "--count COUNT  How many.  [1<=x<=9]",
-        "--out FILE  Files.",
-        "--with QUANTITY  A length.",
-        "--no-video  No video.",
-        "--colour [red|dark-blue]  The colour.  [default: red]",
-        "--pair A:B  Two words.",
-    ):
-        assert " ".join(line.split()) in text
-
-
 @pytest.mark.parametrize(
     ("typed", "said"),
     [
