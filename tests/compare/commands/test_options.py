@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 from unittest.mock import patch
 
 import click
@@ -151,7 +151,7 @@ def test_an_option_is_handed_to_its_argument(line, function, arguments, tmp_path
     Path("a.csv").write_text("t (s)\n1.2\n1.5\n")
     with patch(f"cointoss.compare.{function}", side_effect=ScenarioError("enough")) as called:
         assert refused(*line.split()) == "cointoss: enough\n"
-    given = called.call_args.kwargs | dict(enumerate(called.call_args.args))
+    given = dict[Any, Any](enumerate(called.call_args.args), **called.call_args.kwargs)
     assert {name: given[name] for name in arguments} == arguments
 
 

@@ -87,7 +87,7 @@ def test_a_plot_shows_both_paths_and_up_to_where_the_faces_must_agree():
     assert lines["up to here the faces must agree"].get_xdata() == [pair.common_horizon_time] * 2
     for toss in found.tosses:
         assert np.max(lines[toss.engine].get_xdata()) == toss.end_time
-        assert lines[toss.engine].get_ydata()[0] == SHORT.release.position[2]
+        assert np.asarray(lines[toss.engine].get_ydata())[0] == SHORT.release.position[2]
     up = found.measure.impacts.face == Face.HEADS
     dots = lines["heads up at the touch"].get_ydata()
     assert np.array_equal(dots, found.measure.impacts.position[up, 2])
