@@ -54,6 +54,8 @@ def test_the_numbers_are_those_of_the_tosses(found, folder):
     pair, written = found["mujoco"], numbers["comparisons"]["mujoco"]
     assert numbers["tosses"][0]["impacts"][1]["time"] == found.measure.impacts.time[1]
     assert written["impulse_difference"] == pair.differences.impulse.tolist()
+    assert written["time_difference"] == pair.differences.time.tolist()
+    assert written["impulse_error"] == pair.errors.tolist()
     assert written["common_horizon"] == pair.common_horizon
     assert numbers["absent"] == {}
 
