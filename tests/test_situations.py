@@ -12,7 +12,8 @@ from cointoss.coin_mj import Realisation
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.records import ApproximationWarning, Ending, Outcome, Toss
 from cointoss.models.scenario import Scenario
-from tests.helpers.draws import AIR, THIN, ZLOTY, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, THIN, ZLOTY, scenario
+from tests.helpers.states import energies
 
 pytestmark = [
     pytest.mark.filterwarnings(f"ignore::{ApproximationWarning.__module__}.ApproximationWarning"),
@@ -306,6 +307,44 @@ def turns_steadily(thickness: float) -> Situation:
     return Situation(case, None, checks)
 
 
+def keeps_its_momenta(center: list[float]) -> Situation:
+    """A smooth floor in vacuum takes no energy and no angular momentum about the vertical."""
+    coin, tilt, w = {**THIN, "center_of_mass": center}, 1.1, np.array([3.0, 50.0, 8.0])
+    up = np.array([0.0, np.sin(tilt), np.cos(tilt)])
+    arm = np.array([0.0, -R, 0.0]) - center
+    case = on_floor(
+        -float(up @ arm),
+        coin=coin,
+        angles=[0, tilt, 0],
+        angular_velocity=w.tolist(),
+        velocity=[0, 0, -float(up @ np.cross(w, arm))],
+        ending={"until": 1.0},
+    )
+
+    def kept(toss: Toss) -> Any:
+        """Return the energy and L_z over those at the release, (2, n)."""
+        path = toss.sample(np.linspace(0, 0.98, 300))
+        L = path.angular_velocity @ np.array(case.body.inertia)
+        L_z = np.sum([rotation_matrix(tuple(e))[2] for e in path.quaternion] * L, axis=1)
+        return np.array([energies(case, path), L_z]) / [[energies(case, path)[0]], [L_z[0]]]
+
+    # Steps of 0.12 change the energy by about 1e-3 in a second.
+    return Situation(case, None, (Check(kept, np.ones((2, 300)), both(1e-8, 3e-3)),))
+
+
+def rolls_without_loss() -> Situation:
+    """A thin coin that leans and rolls without slip keeps its energy."""
+    tilt, times = 1.3, np.linspace(0.3, 0.9, 200)
+    motion: Any = {"angular_velocity": [0, 8.0, 40.0], "ending": {"until": 1.0}}
+    case = set_down(-40.0 * R, tilt=tilt, friction=5.0, **motion)
+
+    def change(toss: Toss) -> float:
+        energy = energies(case, toss.sample(times))
+        return np.ptp(energy) / energy[0]
+
+    return Situation(case, None, (Check(change, 0, both(1e-9, 5e-3), False),))
+
+
 def wobbles(power: float, loss: float, **floor: float) -> Situation:
     """Euler's disk: α^power falls steadily, by E = 3/2 m g r α and φ' = 2 √(g/(r α)); corrections of α²."""
     tilt, viscosity = 0.3, floor.pop("viscosity", 0.0)
@@ -445,6 +484,9 @@ SITUATIONS = {
     "pivots and slides": pivots_and_slides(),
     "is caught on its edge by resistance": is_caught_on_its_edge(),
     **{f"turns steadily, h = {h}": turns_steadily(h) for h in (0.0, H)},
+    "keeps its momenta": keeps_its_momenta([0.0, 0.0, 0.0]),
+    "keeps its momenta, unbalanced": keeps_its_momenta([*PAPER_OFFSET[:2], 0.0]),
+    "rolls without loss": rolls_without_loss(),
     "wobbles with rolling friction": wobbles(0.5, 2 / 3 * 2e-4 / R, rolling_friction=2e-4),
     "wobbles with contour friction": wobbles(1.5, 2 * 1.6e-3, contour_friction=1.6e-3 * R),
     "wobbles with contour viscosity": wobbles(2, 16 / 3 * 3.4e-4, contour_viscosity=3.4e-4 * R / UNIT),

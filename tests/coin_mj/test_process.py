@@ -66,7 +66,7 @@ class Foreign(threading.Thread):
         return np.concatenate([self.data.qpos, self.data.qvel])
 
 
-def tossed_beside(beside, tosses=5):
+def tossed_beside(beside, tosses=2):
     """The impacts of a coin in air, tossed while another thread steps a foreign model."""
     beside.start()
     try:

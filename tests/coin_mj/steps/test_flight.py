@@ -152,7 +152,7 @@ def test_a_nudge_is_a_short_step(coin):
 def test_the_first_touch_in_a_step_is_that_of_bisection(coin):
     rng, touched = np.random.default_rng(2), 0
     machine = flying(coin)[1]
-    for _ in range(60):
+    for _ in range(20):
         # Its edges come down and rise again: the gap has up to three zeros in a step.
         e, w = rng.normal(size=4), rng.normal(size=3)
         duration = 0.75 / 60
@@ -169,7 +169,7 @@ def test_the_first_touch_in_a_step_is_that_of_bisection(coin):
         exact = brentq(lambda time, y=start: gap_after(machine.coin, y, time), times[first - 1], times[first])
         # The error of the quintics over 0.75 rad; measured: 5e-5 over 300 draws.
         assert found == pytest.approx(exact, abs=1e-4 * duration)
-    assert 20 < touched < 55
+    assert 5 < touched < 19
 
 
 @pytest.mark.slow
@@ -179,7 +179,7 @@ def test_no_touch_is_found_where_a_step_ends():
     machine = machine_of(case, MANY)
     start = (-0.237, 0.421, 3.1657158e-3, 0.98839466, 0.070338652, -0.052213038, -0.124105907)
     start += (-0.126, 0.226, 0.605490072, -29.154056082, 36.380102787, 17.126660991)
-    for duration in np.linspace(0.0151, 0.0153, 300):
+    for duration in np.linspace(0.0151, 0.0153, 60):
         assert first_touch(machine.coin, step_arc(machine.coin, start, duration), 1e-10) == np.inf
         assert gap_after(machine.coin, start, duration) > 1e-3
     assert evaluate_gap(machine.coin).speed < 0
@@ -188,7 +188,7 @@ def test_no_touch_is_found_where_a_step_ends():
 @pytest.mark.slow
 @pytest.mark.parametrize("coin", [BALANCED, IMPERFECT], ids=["balanced", "imperfect"])
 def test_a_flight_ends_where_the_coin_has_just_touched(coin):
-    for seed in range(50):
+    for seed in range(10):
         case, machine = flying(coin, seed)
         time, way, _ = flight(case, machine, 100.0)
         below = evaluate_gap(machine.coin)
@@ -215,10 +215,6 @@ def test_a_coin_that_rocks_below_the_floor_touches_as_its_other_rim_comes_down()
         assert (time > 0) == (before.speed > 0)
         assert -1e-8 < evaluate_gap(machine.coin).gap < 0
         assert evaluate_gap(machine.coin).speed < 0
-
-
-def test_a_flight_ends_in_time_too():
-    assert flight(*flying(BALANCED), 0.01)[:2] == (0.01, FlightExit.BUDGET)
 
 
 def test_a_toss_flies_no_more_steps_than_its_budget():
