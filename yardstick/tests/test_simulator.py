@@ -6,12 +6,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
+from adapters.mjcf import joint_of, model_of, states_of
+from adapters.mujoco.engine import as_documented, tuned
 from adapters.shared import friction_of
 from cointoss import Ending, Outcome, UnsupportedError, UnusableEngineError, analytic, load
 from cointoss.study import attitude_angle, rotation_matrix
 from cointoss_yardstick.simulators.observed import ObservedToss, Samples
 from cointoss_yardstick.simulators.simulator import simulator_of
+from cointoss_yardstick.suite.case import cases
+from cointoss_yardstick.suite.running import run_case
 from own_engines import Hanging, Newton
 from tests.helpers.command_line import python
 from tests.helpers.draws import IMPERFECT, scenario
@@ -54,6 +59,32 @@ def test_an_adapter_takes_a_scenario_of_cointoss_where_that_is_installed_too(law
     assert friction_of(scenario(floor={"contact": law, "friction": 0.3}), rough=1e5) == friction
 
 
+def test_an_adapter_hands_mujoco_the_coin_and_takes_its_states_back():
+    """Its joint has B, its body the moments about C, and what it is released with comes back."""
+    case = scenario(coin={"center_of_mass": [-1e-3, -4e-4, -2e-4]}, release=TUMBLING)
+    states = analytic.toss(case).sample([0.0])
+    joint, model = joint_of(case), model_of(case, as_documented.settings, 1e-3)
+    assert np.hstack(joint) == pytest.approx(np.hstack(states.to_mujoco(case))[0], abs=1e-15)
+    back = states_of(case, np.hstack(joint)[None])
+    assert [back[name][0] for name in WHOLE] == [pytest.approx(getattr(states, name)[0]) for name in WHOLE]
+    axes = Rotation.from_quat(model.body_iquat[1], scalar_first=True).as_matrix()
+    J = axes @ np.diag(model.body_inertia[1]) @ axes.T
+    assert J == pytest.approx(np.array(case.coin.moments), abs=1e-16)
+
+
+@pytest.mark.parametrize("name", ["terminal_speed", "flat_50", "tilted_spin"])
+def test_an_adapter_of_mujoco_meets_cases(name):
+    case = next(case for case in cases() if case.name == name)
+    assert run_case(simulator_of(tuned), case, tuned.dt).error < case.tolerance["stepping"]
+
+
+def test_in_flight_in_air_nothing_is_gained():
+    """Beyond weight and the drag at B of an unbalanced coin, to the trapezoidal rule's error."""
+    case = scenario(coin=IMPERFECT, release=TUMBLING, air={"normal": 8.0, "tangential": 2.0})
+    gains = simulator_of("analytic").observe(case, 0.1).gains
+    assert np.abs(gains).max() < 1e-7
+
+
 @pytest.mark.parametrize("name", ["fig24a", "table"])
 def test_states_alone_show_the_impacts_of_the_toss(name):
     """At a spacing of 0.1 ms; what turns in it before a sample is put back by Euler's equations."""
@@ -94,6 +125,10 @@ def test_an_engine_may_give_its_impacts(tumbling):
     n = len(seen.impacts)
     assert n > 2
     assert np.array_equal(seen.impacts.impulse, known.impacts.impulse[:n])
+    assert seen.impacts.point[0] == pytest.approx(known.impacts.point[0], abs=1e-6)
+    assert seen.impacts.angular_velocity_after[0] == pytest.approx(
+        known.impacts.angular_velocity_after[0], rel=1e-4
+    )
 
 
 def test_a_coin_that_lies_is_held_by_its_weight():
@@ -277,6 +312,8 @@ ASKS_AND_ENDS = """
 import os, threading, time
 from cointoss import load
 from cointoss_yardstick.simulators.simulator import simulator_of
+from cointoss_yardstick.suite.case import cases
+from cointoss_yardstick.suite.running import run_case
 
 asked = simulator_of("yardstick.tests.own_engines:hanging")
 threading.Thread(target=asked.observe, args=(load("fig24a"), 1.0), daemon=True).start()
