@@ -14,17 +14,19 @@ from tests.helpers.draws import AIR, ZLOTY, scenario
 TUMBLING = {"angles": [0.0, 0.122, 0.0], "angular_velocity": [0.0, 40.15, 0.0]}
 
 
-def made(times, impulses):
+def made(times, impulses, spins):
     rows = np.zeros(len(times), IMPACT_ROW)
     rows["time"], rows["impulse"][:, 2], rows["face"] = times, impulses, 1
+    rows["angular_velocity_after"][:, 1] = spins
     return Impacts.from_rows(rows)
 
 
 def test_impacts_are_matched_by_number():
-    differences = match(made([1.0, 2.0, 3.0], [2.0, 0.0, 1.0]), made([1.1, 2.0], [1.0, 1.0]))
+    one = made([1.0, 2.0, 3.0], [2.0, 0.0, 1.0], [4.0, 0.0, 1.0])
+    differences = match(one, made([1.1, 2.0], [1.0, 1.0], [5.0, 0.0]))
     assert differences.time == pytest.approx([-0.1, 0.0])
     assert differences.impulse.tolist() == [0.5, np.inf]
-    assert differences.angular_velocity.tolist() == [0, 0]
+    assert differences.angular_velocity.tolist() == [0.25, 0]
 
 
 def test_the_papers_own_impacts_have_no_error():

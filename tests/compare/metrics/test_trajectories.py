@@ -27,13 +27,21 @@ def test_attitude_angle_is_that_of_the_rotation_between():
 
 
 def test_distance_and_tilt():
-    a = states([[1, 0, 0, 0]] * 2, [[0, 0, 0], [1, 1, 1]])
-    b = states([[np.cos(0.2), np.sin(0.2), 0, 0]] * 2, [[3, 4, 0], [1, 1, 1]])
-    assert distance(a, b).tolist() == [5, 0]
-    assert tilt(b) == pytest.approx([0.4, 0.4], rel=1e-14)
+    a = states([[1, 0, 0, 0]] * 3, [[0, 0, 0], [1, 1, 1], [1, 1, 1]])
+    b = states(
+        [
+            [np.cos(0.2), np.sin(0.2), 0, 0],
+            [np.cos(0.2), 0, np.sin(0.2), 0],
+            [np.cos(1.5), 0, np.sin(1.5), 0],
+        ],
+        [[3, 4, 0], [1, 1, 1], [1, 1, 3]],
+    )
+    assert distance(a, b).tolist() == [5, 0, 2]
+    assert tilt(b) == pytest.approx([0.4, 0.4, 3.0], rel=1e-14)
 
 
-def test_parting_time_is_the_first_beyond():
-    times = np.array([0.0, 1.0, 2.0, 3.0])
-    assert parting_time(times, np.array([0, 0.5, 0.1, 2]), 0.4) == 1.0
-    assert parting_time(times, np.zeros(4), 0.4) is None
+@pytest.mark.parametrize(
+    ("apart", "due"), [([0, 0.5, 0.1, 2], 1.0), ([0.4, 0.4, 0.4, 0.5], 3.0), ([0, 0, 0, 0], None)]
+)
+def test_parting_time_is_the_first_beyond(apart, due):
+    assert parting_time(np.array([0.0, 1.0, 2.0, 3.0]), np.array(apart), 0.4) == due
