@@ -5,21 +5,41 @@ import pytest
 from scipy.special import entr
 
 from cointoss.compare.basins.entropy import Log2Test, basin_entropy
-from tests.helpers.made_maps import HEADS, UNDECIDED, halves, stripes
+from tests.helpers.made_maps import HEADS, TAILS, UNDECIDED, halves, line, stripes
+
+LOG2 = np.log(2)
+ONE_LEFT = line("HHHHT" * 5).reshape(5, 5)
+CORNER = np.full((5, 5), HEADS)
+CORNER[4, 4] = TAILS
+HALF_KNOWN = halves(4, 12)
+HALF_KNOWN[:2] = UNDECIDED
+LESS_KNOWN = HALF_KNOWN.copy()
+LESS_KNOWN[2, :4] = UNDECIDED
 
 
-def test_one_outcome_has_no_basin_entropy():
-    found = basin_entropy(np.full((20, 20), HEADS), box=5)
-    assert (found.basin, found.boundary, found.boxes, found.boundary_boxes) == (0.0, None, 16, 0)
-
-
-def test_basin_entropy_of_half_and_half():
-    along_boxes, through_boxes = basin_entropy(halves(20, 40), box=5), basin_entropy(halves(20, 44), box=4)
-    assert (along_boxes.basin, along_boxes.boundary) == (0.0, None)
-    # The middle column of 11 boxes is half heads.
-    assert through_boxes.boundary == pytest.approx(np.log(2), rel=1e-15)
-    assert through_boxes.basin == pytest.approx(np.log(2) / 11, rel=1e-14)
-    assert through_boxes.log_2_test is Log2Test.SILENT
+@pytest.mark.parametrize(
+    ("outcomes", "box", "basin", "boundary", "boxes", "mixed"),
+    [
+        (np.full((20, 20), HEADS), 5, 0.0, np.nan, 16, 0),
+        # Along the boxes, and through the middle column of 11 boxes.
+        (halves(20, 40), 5, 0.0, np.nan, 32, 0),
+        (halves(20, 44), 4, LOG2 / 11, LOG2, 55, 5),
+        # Pixels beyond the last whole box are left out.
+        (halves(5, 7), 4, entr(0.25) + entr(0.75), entr(0.25) + entr(0.75), 1, 1),
+        (ONE_LEFT, 5, entr(0.2) + entr(0.8), entr(0.2) + entr(0.8), 1, 1),
+        (CORNER, 5, entr(0.04) + entr(0.96), entr(0.04) + entr(0.96), 1, 1),
+        # Undecided pixels do not count, nor do boxes of which less than half is decided.
+        (HALF_KNOWN, 4, LOG2 / 3, LOG2, 3, 1),
+        (LESS_KNOWN, 4, LOG2 / 2, LOG2, 2, 1),
+        (np.zeros((8, 8), np.int8), 4, np.nan, np.nan, 0, 0),
+    ],
+)
+def test_the_entropy_of_boxes_is_that_of_their_shares(outcomes, box, basin, boundary, boxes, mixed):
+    found = basin_entropy(outcomes, box=box)
+    entropies = np.array([found.basin, found.boundary], dtype=float)  # NaN for none
+    assert entropies == pytest.approx([basin, boundary], rel=1e-14, nan_ok=True)
+    assert (found.boxes, found.boundary_boxes) == (boxes, mixed)
+    assert found.log_2_test is Log2Test.SILENT, "of two outcomes"
 
 
 def test_boundary_entropy_of_upright_stripes_is_the_mean_over_where_the_boundary_cuts_the_box():
@@ -47,17 +67,6 @@ def test_the_log_2_test_finds_three_intermingled_basins():
     assert found.boundary == pytest.approx(np.log(3) - 1 / 25, abs=3e-3)
     assert found.basin == found.boundary
     assert found.log_2_test is Log2Test.FRACTAL
-
-
-def test_undecided_pixels_do_not_count_in_entropy():
-    outcomes = halves(4, 12)
-    outcomes[:2] = UNDECIDED
-    found = basin_entropy(outcomes, box=4)
-    assert (found.boxes, found.boundary) == (3, pytest.approx(np.log(2), rel=1e-15))
-    outcomes[2, :4] = UNDECIDED  # now less than half of the first box is decided
-    assert basin_entropy(outcomes, box=4).boxes == 2
-    nothing = basin_entropy(np.zeros((8, 8), np.int8), box=4)
-    assert (nothing.basin, nothing.boundary, nothing.boxes) == (None, None, 0)
 
 
 @pytest.mark.parametrize("box", [1, 5])

@@ -108,15 +108,15 @@ def test_a_comparison_shows_both_maps_and_where_they_differ():
 
 
 def test_a_comparison_hatches_the_untrusted_pixels_of_the_analytic_map():
-    maps, untrusted = [np.full((2, 4), HEADS, np.int8)] * 2, np.array([[True, True, False, False]] * 2)
+    maps, untrusted = [np.full((2, 4), HEADS, np.int8)] * 2, np.array([[True, False, False, False]] * 2)
     figure = draw_comparison(*maps, x=X, y=Y, untrusted=untrusted)
     left, middle = (drawn(figure, panel) for panel in range(2))
     across = np.linspace(20, 60, 120)
     for color, at in ((left, across), (middle, across)):
         hatched = np.array([color(x, 0.6) != GOLD for x in at])
-        assert not hatched[70:].any()
-        assert hatched[:50].any() == (color is left)
-    assert legend(figure)[-1] == "untrusted: 50 %"
+        assert not hatched[40:].any()
+        assert hatched[:20].any() == (color is left)
+    assert legend(figure)[-1] == "untrusted: 25 %"
 
 
 def test_a_comparison_leaves_out_what_either_map_has_in_a_transient():

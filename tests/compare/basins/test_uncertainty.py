@@ -5,10 +5,11 @@ from typing import Literal
 import numpy as np
 import pytest
 
-from cointoss.compare.basins.uncertainty import uncertainty_exponent
+from cointoss.compare.basins.uncertainty import _jackknife_error, uncertainty_exponent
 from tests.helpers.made_maps import (
     UNDECIDED,
     cantor,
+    faces,
     gaussian_faces,
     halves,
     hyperbolas,
@@ -127,9 +128,26 @@ def test_the_interval_grows_with_the_confidence():
     assert (most.high - most.low) / (half.high - half.low) == pytest.approx(3.499 / 0.711, rel=1e-3)
 
 
-def test_one_boundary_in_one_band_gives_no_bound():
-    outcomes = halves(64, 256)
-    outcomes[:, 128:144] = outcomes[0, 0]  # away from the edge between two bands
+def test_the_error_is_that_of_a_jackknife_over_eight_bands():
+    """Quenouille's and Tukey's: (n - 1)/n times the sum of squares of the slopes without each."""
+    uncertain, known = np.array([[3, 4, 2, 5, 6, 3, 4, 9], [5, 9, 3, 9, 13, 5, 9, 16]]), np.full((2, 8), 50)
+    without = [
+        np.log2((uncertain[1].sum() - uncertain[1, n]) / (uncertain[0].sum() - uncertain[0, n]))
+        for n in range(8)
+    ]
+    error = np.sqrt(7 / 8 * np.sum((without - np.mean(without)) ** 2))
+    counts = uncertain[:, None], known[:, None]
+    assert _jackknife_error(np.array([1, 2]), *counts, np.arange(8)[None]) == pytest.approx(error, rel=1e-12)
+
+
+@pytest.mark.parametrize("across", ["u", "v", "u + v", "u - v"])
+def test_boundaries_in_one_band_of_any_direction_give_no_bound(across):
+    """The middle of the fourth of eight bands of equal area, away from its edges."""
+    v, u = np.indices((64, 256)) / np.array([64, 256])[:, None, None]
+    place = {"u": u - 0.44, "v": v - 0.44, "u + v": u + v - 0.933, "u - v": u - v + 0.067}[across]
+    outcomes = faces(np.abs(place) < 0.02)
+    if across == "v":
+        outcomes[np.abs(place) < 0.04] = stripes(64, 256, 32)[np.abs(place) < 0.04]
     found = exponent(outcomes, [1, 2, 4])
     assert (found.low, found.high) == (-np.inf, np.inf)
     assert found.alpha == pytest.approx(1, abs=0.02)
