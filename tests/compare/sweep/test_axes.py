@@ -1,10 +1,12 @@
 """Axes of a map: what is read, with which units, and every way to get one wrong."""
 
+import numpy as np
 import pytest
 from pydantic import BaseModel
 
 from cointoss.compare.shares.show import texts_of
-from cointoss.compare.sweep.axes import Axis, parse_axis
+from cointoss.compare.sweep.axes import Axis, Span, axis_given, parse_axis
+from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.fields import UNITS, split
 from cointoss.models.reading import load
 from cointoss.models.scenario import Scenario
@@ -51,3 +53,40 @@ def test_an_axis_has_as_many_values_as_asked_for_and_none_twice():
     close = parse_axis("floor.restitution=0.5:0.50000002:3", load("fig24a"))
     assert texts_of(close.values) == ["0.5", "0.50000001", "0.50000002"]
     assert texts_of(parse_axis("floor.restitution=0.8:0.2:3", load("fig24a")).values) == ["0.8", "0.5", "0.2"]
+
+
+@pytest.mark.parametrize(("start", "stop"), [(10.0, 20.0), (20.0, 10.0)])
+@pytest.mark.parametrize(
+    ("value", "is_end"),
+    [
+        (10.0, True),
+        (20.0, True),
+        (10 + 9e-6, True),
+        (20 - 9e-6, True),
+        (10 + 2e-5, False),
+        (20 - 2e-5, False),
+    ],
+)
+def test_a_value_is_at_an_end_within_a_millionth_of_the_span(start, stop, value, is_end):
+    assert Span(field="gravity", unit="", start=start, stop=stop).ends_at(value) is is_end
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ((0.2, 0.6, 1), "N = 1; accepted: a whole number from 2"),
+        ((0.2, 0.6, 1_000_001), "accepted: a whole number from 2 to 1000000"),
+        ((0.2, np.nextafter(0.2, 1), 4), "not 4 numbers between both"),
+        ((0.2, 0.2, 4), "START = STOP"),
+        ([0.2, 0.4, 0.6001], "values that are not evenly spaced"),
+        ([[0.2, 0.4]], "or two or more evenly spaced values"),
+    ],
+)
+def test_what_is_no_axis_is_refused(given, said):
+    with pytest.raises(SweepError, match=said):
+        axis_given("floor.restitution", given, load("fig24a"))
+
+
+def test_an_axis_of_impacts_has_whole_numbers_only():
+    with pytest.raises(SweepError, match="that give whole numbers only"):
+        parse_axis("ending.max_impacts=1:9:4", TUMBLING)

@@ -7,6 +7,7 @@ import xarray as xr
 from cointoss import Air, ScenarioError, load
 from cointoss.compare.sweep import batch as module
 from cointoss.compare.sweep.batch import batch_of
+from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.batch import refused, rows_of, scenario_of_row
 from cointoss.models.fields import UNITS
 from cointoss.models.hand import Hand
@@ -80,6 +81,15 @@ def test_a_row_is_its_scenario_and_back(name):
             0,
             {"release.position": [0, 0, 0.4], "air": Air(normal=0.1)},
         ),
+        (
+            {
+                CHI: xr.DataArray([[0.4, 0.5, 0.6], [0.7, 0.8, 0.9]], dims=("b", "a")),
+                Z: xr.DataArray([0.3, 0.4], dims="b"),
+            },
+            {"b": 2, "a": 3},
+            4,
+            {CHI: 0.8, Z: 0.4},
+        ),
         ({"ending.max_impacts": [3, 4]}, {"toss": 2}, 1, {"ending.max_impacts": 4}),
         ({"gravity": np.array([9.0])}, {"toss": 1}, 0, {"gravity": 9.0}),
     ],
@@ -128,6 +138,33 @@ def test_the_angles_and_the_quaternion_of_a_release_replace_each_other():
     assert batch_of(turned, {"release.angles.theta": [0.5]}).scenario_at(0).release.angles == (0, 0.5, 0)
     kept = batch_of(tilted, {"release.angles.theta": [0.5]}).scenario_at(0)
     assert kept.release.angles == (0.1, 0.5, 0.3)
+
+
+@pytest.mark.parametrize(
+    ("vary", "said"),
+    [
+        ({"release.angles.theta": [0.5], "release.quaternion.e1": [0.0]}, "accepted: angles or a quaternion"),
+        (
+            {"height": "0.2:0.6:1000000", "spin": "1:9:1000000", CHI: [0.5, 0.6]},
+            "accepted: at most 1e",
+        ),
+        ({"restitution": [0.5], CHI: [0.6]}, "each field once"),
+        ({"spin": [9.0], ETA: [3.0]}, "each field once"),
+        ({CHI: [0.4, 0.5], Z: [0.3, 0.4, 0.5]}, "shapes that do not broadcast"),
+        (
+            {CHI: xr.DataArray([0.4, 0.5], dims="n"), Z: xr.DataArray([0.3], dims="n")},
+            "accepted: 2, as the others",
+        ),
+    ],
+)
+def test_what_does_not_go_together_is_refused(vary, said):
+    with pytest.raises(SweepError, match=said):
+        batch_of(CASE, vary)
+
+
+def test_the_largest_scenario_has_what_varies_farthest_from_0():
+    found = batch_of(CASE, {CHI: "0.2:0.8:4", ETA: "5:-20:6"}).largest()
+    assert (found.floor.restitution, found.release.angular_velocity[1]) == (0.8, -20)
 
 
 def test_drawn_releases_vary_as_fields_do():

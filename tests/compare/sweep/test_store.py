@@ -19,7 +19,7 @@ from cointoss.compare.engines import Engine
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.sweep import layout as module
 from cointoss.compare.sweep import pieces, store
-from cointoss.compare.sweep.layout import holds_tosses, numbers_in
+from cointoss.compare.sweep.layout import numbers_in
 from cointoss.compare.sweep.store import Store, opened, require_place
 from tests.helpers.basin_runs import (
     AXES,
@@ -223,11 +223,6 @@ def test_what_is_damaged_is_tossed_again(undisturbed, in_tiles, coin, tmp_path, 
     harm(out, name)
     assert tosses_of(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == again
     assert_same(out, undisturbed)
-
-
-def test_a_certainty_that_means_nothing_is_found_again():
-    held = holds_tosses("outcome_certain", np.array([-1, 0, 1, 7], np.int8))
-    assert held.tolist() == [False, True, True, False]
 
 
 def test_a_map_is_replaced_where_that_is_asked_for(in_tiles, coin, tmp_path):
