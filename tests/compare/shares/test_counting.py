@@ -88,13 +88,13 @@ def test_the_counts_depend_on_no_order_and_on_no_size_of_parts(monkeypatch):
         parts = sorted(((one,) for one in blocks), reverse=True)
         return ((part, toss_blocks(plan, engine, part)) for part in parts)
 
-    for given in (plan(), plan(to=0.06, tosses=5000)):
+    for given in (plan(tosses=BLOCK[Engine.ANALYTIC] + 10), plan(to=0.08, tosses=750)):
         expected = last(given)
         assert np.array_equal(last(given, scattered), expected)
         with monkeypatch.context() as patched:
             patched.setattr(counting, "MOST", 1)
             assert np.array_equal(last(given), expected)
-    assert last(plan()).sum(axis=-1).tolist() == [[760, 760, 760]]
+    assert last(plan(tosses=260)).sum(axis=-1).tolist() == [[260, 260, 260]]
 
 
 def test_settings_blocks_and_engines_have_draws_of_their_own():
@@ -137,11 +137,35 @@ def test_an_interrupt_returns_what_is_counted(monkeypatch):
         shares(DISC)
 
 
-def test_an_interval_has_the_width_asked_for_after_the_tosses_that_are_needed():
-    one = Count(plan(to=0.02, tosses=100_000), Engine.ANALYTIC)
-    one.counts[[Outcome.HEADS, Outcome.TAILS]] = 125
-    one.counts[[Outcome.HEADS, Outcome.TAILS]] = one.needed // 2
-    assert one.width == pytest.approx(0.02, rel=0.02)
+@pytest.mark.parametrize(
+    ("to", "tosses", "made", "needed", "is_enough"),
+    [
+        (None, 760, 0, 760, False),
+        (None, 760, 759, 760, False),
+        (None, 760, 760, 760, True),
+        # A share of 1/2 of n is known to Z/2 over the root of n + Z², by Wilson; the root of n grows with it.
+        (0.1, 10_000, 250, 250, True),
+        (0.04, 10_000, 0, 1010, False),
+        (0.04, 10_000, 250, 1010, False),
+        (0.04, 500, 250, 500, False),
+        (0.0405, 10_000, 1000, 1005, False),
+        (0.0407, 10_000, 1000, 1000, True),
+    ],
+)
+def test_as_many_tosses_are_needed_as_make_the_interval_narrow(to, tosses, made, needed, is_enough):
+    one = Count(plan(to=to, tosses=tosses), Engine.ANALYTIC)
+    one.counts[[Outcome.HEADS, Outcome.TAILS, Outcome.EDGE]] = made // 2, made - made // 2, 0
+    assert one.is_enough is is_enough
+    assert one.needed == needed
+
+
+def test_blocks_count_in_their_order_until_it_is_enough():
+    one = Count(plan(to=0.06, tosses=10_000), Engine.ANALYTIC)
+    block = np.array([0, 125, 125, 0, 0, 0])
+    given = ((1, 0, 0), (2, 0, 0), (0, 2, 500), (3, 2, 500))
+    for number, blocks, tosses in given:
+        one.add(number, block)
+        assert (one.blocks, one.tosses) == (blocks, tosses), number
 
 
 @pytest.mark.parametrize(
