@@ -45,6 +45,61 @@ def test_an_attitude_misses_by_the_rotation_to_what_was_seen():
         assert missed == pytest.approx(rotations.ravel() / 0.1, abs=1e-8)
 
 
+def misses(clock=(), **given):
+    """Return the residuals of the true coin, whose release the observer's clock shows as it does."""
+    spans = (*SPANS, Span(field="clock", start=0.0, stop=2.0, unit="s")) if clock else SPANS
+    return Misfit(scenario=COIN, spans=spans, observed=Observed(**given)).residuals(
+        np.array([[0.8, *clock]])
+    )[0]
+
+
+TOSS = analytic.toss(COIN)
+TOUCHES, FACES = TOSS.impacts.time[:3], "".join("HT"[face - 1] for face in TOSS.impacts.face[:3])
+WRONG = FACES.translate(str.maketrans("HT", "TH"))
+AT = np.array([0.03, 0.01, 0.02])
+SAMPLED = TOSS.sample(AT)
+TILTS = np.arccos(SAMPLED.normal[:, 2])
+UP = [(TOSS.sample([at]).normal[0, 2]) for at in TOUCHES]
+
+
+@pytest.mark.parametrize(
+    ("given", "due"),
+    [
+        (
+            {"touch_times": TOUCHES + np.array([0.002, -0.001, 0.0]), "touch_sd": [1e-3, 2e-3, 1e-3]},
+            [2.0, -0.5, 0.0],
+        ),
+        ({"touch_times": TOUCHES[[0, 2]], "touch_numbers": [1, 3], "touch_sd": 1e-3}, [0.0, 0.0]),
+        # The clock shows 1.5 s at the release.
+        ({"clock": [1.5], "touch_times": TOUCHES + 1.502, "touch_sd": 1e-3}, [2.0, 2.0, 2.0]),
+        ({"clock": [1.5], "times": AT + 1.5, "heights": SAMPLED.position[:, 2], "height_sd": 1.0}, [0.0] * 3),
+        # A face on the wrong side misses by the normal's vertical part over the sine of a degree or so.
+        ({"touch_times": TOUCHES, "touch_sd": 1.0, "faces": FACES}, [0.0] * 6),
+        (
+            {"touch_times": TOUCHES, "touch_sd": 1.0, "faces": WRONG[0] + "?" + WRONG[2]},
+            [0.0, 0.0, 0.0, abs(UP[0]) / 0.02, abs(UP[2]) / 0.02],
+        ),
+        # Heights and tilts, in any order of their frames.
+        (
+            {"times": AT, "heights": SAMPLED.position[:, 2] + np.array([1e-3, 0, -2e-3]), "height_sd": 1e-3},
+            [1.0, 0.0, -2.0],
+        ),
+        ({"times": AT, "tilts": TILTS + np.array([0.1, 0.0, -0.2]), "tilt_sd": 0.1}, [1.0, 0.0, -2.0]),
+    ],
+)
+def test_a_residual_is_what_was_seen_less_what_is_shown_in_deviations(given, due):
+    assert misses(**given) == pytest.approx(due, abs=1e-6)
+
+
+def test_a_touch_that_is_not_made_misses_by_ten_deviations_at_least():
+    """A flat coin that does not bounce touches once, at the root of 2 · 0.299 m / g."""
+    seen = Observed(touch_times=[(2 * 0.299 / 9.81) ** 0.5, 9.0], touch_sd=1.0)
+    flat = scenario(release={"position": [0, 0, 0.3]})
+    missed = Misfit(scenario=flat, spans=SPANS, observed=seen).residuals(np.array([[0.0]]))[0]
+    assert missed[0] == pytest.approx(0, abs=1e-9)
+    assert abs(missed[1]) >= 10
+
+
 @pytest.mark.parametrize(
     ("field", "inside", "outside"),
     [
