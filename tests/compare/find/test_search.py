@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from cointoss.compare.find.find import _rooms
-from cointoss.compare.find.search import Hit, search
+from cointoss.compare.find.search import Hit, _centred, _scanned, search
 from cointoss.compare.sweep.axes import Span
 from cointoss.compare.sweep.window import Window
 from cointoss.models.reading import load
@@ -57,23 +57,40 @@ def none_beyond(x, y):
 
 
 @pytest.mark.parametrize(
-    ("formula", "margins", "widest"),
+    ("formula", "margins", "least"),
     [
-        (rectangle, lambda x, y: [[x - 0.2, 0.6 - x], [y - 0.1, 0.9 - y]], 0.2),
-        (
-            stripe,
-            of_stripe,
-            0.05,
-        ),
-        (none_beyond, lambda x, y: [[x - 0.2, np.inf], [y - 0.1, 0.9 - y]], 0.2),
+        (rectangle, lambda x, y: [[x - 0.2, 0.6 - x], [y - 0.1, 0.9 - y]], 0.97 * 0.2),
+        (stripe, of_stripe, 0.9 * 0.05),
+        (none_beyond, lambda x, y: [[x - 0.2, np.inf], [y - 0.1, 0.9 - y]], 0.97 * 0.2),
     ],
 )
-def test_a_hit_is_in_the_middle_and_its_margins_end_where_something_else_is_shown(formula, margins, widest):
-    hits = searched(Formula(1, formula), 2, 4096).hits
+def test_a_hit_is_in_the_middle_and_its_margins_end_where_something_else_is_shown(formula, margins, least):
+    hits = searched(Formula(1, formula), 2, 64).hits
     assert [hit.margin for hit in hits] == sorted([hit.margin for hit in hits], reverse=True)
     for hit in hits:
         assert hit.margins == pytest.approx(np.array(margins(*hit.point)), rel=1e-5, abs=1e-7)
-    assert hits[0].margin > 0.97 * widest
+    assert hits[0].margin > least
+
+
+def test_a_hit_near_a_corner_is_moved_to_the_middle():
+    target: Any = Formula(1, rectangle)
+    found = _centred(window(2), target, Hit(np.array([0.25, 0.2]), np.full((2, 2), 1.0)))
+    assert found.margin == pytest.approx(0.2, rel=0.03)
+
+
+def test_a_slit_between_two_rungs_of_the_ladder_is_scanned():
+    """From 0.12 to 0.15 away, where the rungs are at 0.1 and 0.178."""
+    target: Any = Formula(1, lambda x: np.where((0.52 < x) & (x < 0.55), 0, 1))
+    (down, up), *_ = _scanned(window(1), target, np.array([0.4])).margins
+    assert np.isinf(down)
+    assert 0.12 <= up < 0.13
+
+
+@pytest.mark.parametrize(
+    ("margins", "least"), [([[0.3, np.inf], [0.2, 0.1]], 0.1), ([[np.inf, np.inf], [np.inf, 2.0]], 1.0)]
+)
+def test_the_margin_of_a_hit_is_the_smallest_of_all_and_of_the_window(margins, least):
+    assert Hit(np.zeros(2), np.array(margins)).margin == least
 
 
 def test_of_two_regions_the_wider_one_is_found():
@@ -89,7 +106,7 @@ def test_what_is_too_rare_for_the_window_is_found_in_ever_smaller_boxes():
         apart = np.maximum(np.abs(x - 0.3), np.abs(y - 0.8))
         return np.sum(apart[:, None] < 10.0 ** -np.arange(1, 9), axis=1)
 
-    found = searched(Formula(8, nested), 2, 64)
+    found = searched(Formula(8, nested), 2, 256)
     assert found.longest == 8
     assert np.abs(found.hits[0].point - [0.3, 0.8]).max() < 1e-8
     assert found.hits[0].margin == pytest.approx(1e-8, rel=0.05)

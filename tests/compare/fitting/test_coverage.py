@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from cointoss import Observed, analytic, fit
+from cointoss.compare.fitting.misfit import Misfit
 from cointoss.models.records import Toss
 from cointoss.models.scenario import Scenario
 
@@ -76,6 +77,9 @@ def held(seed: int) -> NDArray[np.bool_]:
         middle = value + half * rng.uniform(-0.8, 0.8)
         spans[field] = (max(middle - half, 0.0) if field == TILT else middle - half, middle + half)
     found = fit(observed, coin, {**spans, "floor.restitution": (0.3, 1.0)})
+    misfit = Misfit(scenario=coin, spans=tuple(each.span for each in found.values), observed=observed)
+    true = misfit.predicted(np.array([*truth.values()]))
+    assert found.chi_square < np.sum(true.residuals[true.is_tested] ** 2) + 1e-3, "nothing explains it better"
     ends = [found[field].interval or (np.nan, np.nan) for field in truth]
     return np.array([low <= true <= high for (low, high), true in zip(ends, truth.values(), strict=True)])
 

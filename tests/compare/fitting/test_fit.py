@@ -1,13 +1,11 @@
 """A fit: closed forms, intervals that cover the truth, and coins that no values of the model explain."""
 
-from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from cointoss import Observed, analytic, fit
-from cointoss.compare.fitting.misfit import Misfit
 from cointoss.models.scenario import Scenario
 
 MS = 1e-3
@@ -107,92 +105,23 @@ FILMED = {
 }
 
 
-def tumbling(rng: np.random.Generator) -> tuple[Scenario, np.ndarray]:
-    """Return a tumbling coin whose first three touches are 8 ms apart at least, and what is free of it."""
-    while True:
-        chi, z, spin = rng.uniform(0.5, 0.9), rng.uniform(0.2, 0.45), rng.uniform(-20, 20)
-        tilt, turned, about_eta, about_zeta = (
-            rng.uniform(*ends) for ends in ((0.2, 1.2), (0, 6.28), (-8, 8), (-8, 8))
-        )
-        coin = FLAT.replace(
-            "floor.restitution", chi, "release.position.z", z, "release.angles", [0, tilt, turned],
-            "release.angular_velocity", [spin, about_eta, about_zeta],
-        )  # fmt: skip
-        if np.diff(touches(coin, 3)).min() > 8 * MS:
-            return coin, np.array([chi, z, spin])
-
-
-def tumbling_coverage(
-    seeds: Iterable[int], also: Mapping[str, tuple[float, float]] | None = None
-) -> np.ndarray:
-    """Return which intervals of fits of filmed tumbling coins hold the truth, (coins, k).
-
-    No fit misses values that explain what was seen better: the truth is none such.
-    """
-    held = []
-    for seed in seeds:
-        rng = np.random.default_rng([7, seed])
-        coin, truth = tumbling(rng)
-        if also:
-            truth = np.array(
-                [*truth, coin.release.angular_velocity[1], (coin.release.angles or (0.0, 0.0))[1]]
-            )
-        shown = filmed(coin, rng)
-        found = fit(shown, coin, {**FILMED, **(also or {})}, starts=1024 if also else 256)
-        misfit = Misfit(scenario=coin, spans=tuple(each.span for each in found.values), observed=shown)
-        true = misfit.predicted(truth)
-        assert found.chi_square < np.sum(true.residuals[true.is_tested] ** 2) + 1e-3, seed
-        ends = np.array([each.interval or (np.nan, np.nan) for each in found.values])
-        held.append((ends[:, 0] <= truth) & (truth <= ends[:, 1]))
-    return np.array(held)
-
-
-def assert_covers(misses: np.ndarray, rejected: int) -> None:
+@pytest.mark.long
+@pytest.mark.parametrize("seed", [2, 3, 4, 5])
+def test_intervals_of_flat_coins_cover_the_truth(seed):
     """Intervals of 99 % and of 68 % hold the truth as often as they say, within 3.3 binomial deviations."""
-    n = len(misses)
+    n = 50
+    misses, rejected = flat_misses(n, seed)
     for level, half in ((0.99, 2.576), (0.683, 1.0)):
         share = np.mean(misses < half, axis=0)
         assert np.all(np.abs(share - level) < 3.3 * np.sqrt(level * (1 - level) / n) + 1 / n), (level, share)
     assert rejected <= 0.01 * n + 3.3 * np.sqrt(0.0099 * n)
 
 
-@pytest.mark.parametrize(
-    ("count", "seed"),
-    [
-        pytest.param(3, 1, marks=pytest.mark.slow),
-        *(pytest.param(50, seed, marks=pytest.mark.long) for seed in (2, 3, 4, 5)),
-    ],
-)
-def test_intervals_of_flat_coins_cover_the_truth(count, seed):
-    assert_covers(*flat_misses(count, seed))
-
-
-@pytest.mark.slow
-def test_intervals_of_filmed_tumbling_coins_cover_the_truth_across_minima():
-    """Of coin 10 a search that drops minima early finds no explanation; of 67 the truth is at another one."""
-    assert np.all(tumbling_coverage([10, 67]))
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("first", range(0, 100, 25))
-def test_intervals_of_100_filmed_tumbling_coins_cover_the_truth(first):
-    """Of 25 intervals of 99 % more than one misses the truth in fewer than three cases of a hundred."""
-    assert np.all(tumbling_coverage(range(first, first + 25)).sum(axis=0) >= 24)
-
-
-@pytest.mark.long
-def test_intervals_follow_narrow_valleys_of_five_values():
-    """Each of these coins had one that ended within a deviation, where the others did not follow along."""
-    also = {"release.angular_velocity.eta": (-10.0, 10.0), "release.angles.theta": (0.0, 1.5)}
-    assert np.all(tumbling_coverage([206, 211, 213], also))
-
-
 @pytest.mark.slow
 def test_a_coin_of_another_law_is_rejected():
     rng, rough = np.random.default_rng(4), TUMBLING.replace("floor.contact", "perfectly_rough")
     shown = filmed(rough, rng)
-    assert fit(shown, rough, FILMED, starts=256).is_possible
-    found = fit(shown, TUMBLING, FILMED, starts=256)
+    found = fit(shown, TUMBLING, FILMED, starts=64)
     assert not found.is_possible
     assert found.degrees == 3 + 2 * len(shown.times) - 3
 
@@ -248,7 +177,9 @@ def test_values_that_explain_it_too_are_among_the_others():
 @pytest.mark.parametrize(("faces", "is_possible"), [("HH?", True), ("HT?", False)])
 def test_a_face_rejects_the_toss_that_shows_the_other(faces, is_possible):
     heard = Observed(touch_times=touches(FLAT, 3), touch_sd=MS, faces=faces)
-    assert fit(heard, FLAT, {"restitution": "0.5:0.95"}, starts=16).is_possible == is_possible
+    found = fit(heard, FLAT, {"restitution": "0.5:0.95"}, starts=16)
+    assert found.is_possible == is_possible
+    assert found.degrees == 2, "three touches less one value: a face is no number"
 
 
 def test_an_attitude_fixes_the_side_and_the_spin_about_the_normal():
@@ -263,10 +194,10 @@ def test_an_attitude_fixes_the_side_and_the_spin_about_the_normal():
 
 @pytest.mark.slow
 def test_the_same_seed_finds_the_same_on_any_number_of_cores(monkeypatch):
-    shown, found = seen(FLAT, 5, np.random.default_rng(8)), []
+    shown, found = seen(FLAT, 4, np.random.default_rng(8)), []
     for cores in "13":
         monkeypatch.setenv("COINTOSS_THREADS", cores)
-        found.append(fit(shown, FLAT, ANY, starts=64, seed=3).as_dict())
+        found.append(fit(shown, FLAT, ANY, starts=16, seed=3).as_dict())
     assert found[0] == found[1]
 
 
@@ -293,8 +224,8 @@ def test_an_interval_ends_with_its_span_and_says_so():
 @pytest.mark.slow
 def test_a_span_may_run_downwards():
     shown = seen(FLAT, 5, np.random.default_rng(8))
-    up = fit(shown, FLAT, ANY, starts=64)
-    down = fit(shown, FLAT, {field: (stop, start) for field, (start, stop) in ANY.items()}, starts=64)
+    up = fit(shown, FLAT, ANY, starts=16)
+    down = fit(shown, FLAT, {field: (stop, start) for field, (start, stop) in ANY.items()}, starts=16)
     for one, other in zip(up.values, down.values, strict=True):
         assert other.value == pytest.approx(one.value, abs=one.sd / 100)
         assert other.interval == pytest.approx(one.interval, abs=one.sd / 50)

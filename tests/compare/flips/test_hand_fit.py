@@ -91,9 +91,9 @@ def test_people_without_wobble_have_none():
 
 @pytest.mark.slow
 def test_intervals_hold_the_truth_as_often_as_they_say():
-    """Of 30 such tables more than 2 miss with a chance of 3e-3, of 100 people more than 4 with 3e-3."""
+    """Of 15 such tables more than 2 miss with a chance of 4e-4, of 100 people more than 4 with 3e-3."""
     truth, missed = math.radians(12), 0
-    for seed in range(30):
+    for seed in range(15):
         scatter = flips(drawn(10, 3000, truth, seed)).scatter
         assert scatter is not None
         missed += not scatter.low <= truth <= scatter.high

@@ -1,6 +1,8 @@
 """The margin of a toss: its change changes the outcome, and a smaller one does not."""
 
 import json
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,15 +12,18 @@ from cointoss import analytic
 from cointoss.compare.basins.picture import MapAxis, MapMargins, draw_map
 from cointoss.compare.engines import Engine
 from cointoss.compare.metrics.margin import (
+    FINE,
     MANY,
     QUANTITIES,
+    Margin,
+    changes_both_ways,
+    is_planar,
     margins,
     quantity_of,
     smallest_changes,
-    with_quaternions,
 )
 from cointoss.compare.sweep import layout
-from cointoss.models.batch import PLACE, STATE_PLACES, refused, rows_of
+from cointoss.models.batch import PLACE, refused, rows_of
 from cointoss.models.reading import load
 from tests.helpers.command_line import cointoss, printed
 
@@ -30,7 +35,11 @@ def by_name(scenario):
 
 
 def test_every_quantity_has_a_margin_and_what_changes_nothing_has_none():
-    found = by_name(load("fig29").replace("floor.restitution", 0.0))
+    proofs: Any = SimpleNamespace(proved_change=lambda *_: 1.239e-3)
+    found = {
+        each.quantity.name: each for each in margins(load("fig29").replace("floor.restitution", 0.0), proofs)
+    }
+    assert (found["height"].proved, found["spin about ξ"].proved) == (1.2, 0.0012)
     assert list(found) == [quantity.name for quantity in QUANTITIES]
     assert found["velocity x"].finite is None
     assert 0 < abs(found["height"].change) < 200
@@ -151,18 +160,57 @@ def test_a_change_that_a_scenario_would_refuse_ends_the_search():
     assert min(heights.min() for heights in tried) >= 0
 
 
-def test_no_change_is_found_beyond_one_that_is_refused():
-    """A coin tilted by 60° cannot turn about ξ past the upright, for which it is too low."""
-    scenario, tilt = load("fig29"), np.pi / 3
-    height = scenario.coin.radius * np.sin(np.radians(75))
-    tilted = {"release.position.z": height, "release.angles.theta": tilt, "release.angular_velocity.xi": 0.0}
-    start, turning = rows_of(scenario, 1, tilted), quantity_of("attitude about xi")
-    changed = turning.change(with_quaternions(start[[0, 0, 0]]), np.array([0.1, 0.5, 1.0]))
-    assert refused(changed, turning.fields).tolist() == [False, True, False]
+@pytest.mark.parametrize("search", [FINE, MANY])
+@pytest.mark.parametrize("nearest", [False, True])
+def test_a_change_is_found_where_the_first_difference_is(search, nearest):
+    """Of some rows changes from half to twice a number are not accepted, and all beyond are out of reach."""
+    rng, n = np.random.default_rng(3), 1500
+    first, refused_at = 10.0 ** rng.uniform(-9, -0.1, (2, n)), rng.choice([0.01, 0.2, np.inf], n)
 
-    def outcomes(rows):
-        """Tails beyond the upright."""
-        e0, e1 = rows[:, STATE_PLACES[6:8]].T
-        return np.where(2 * np.arctan2(e1, e0) > np.pi / 2, 2, 1).astype(np.int8)
+    def differ(rows, by):
+        side, size = np.where(by > 0, 0, 1), np.abs(by)
+        kept = (size < refused_at[rows][:, None] / 2) | (size > 2 * refused_at[rows][:, None])
+        return size >= first[side, rows[:, None]], kept
 
-    assert np.isinf(smallest_changes(start, turning, outcomes=outcomes, search=MANY)).all()
+    found = changes_both_ways(n, differ, search, nearest=nearest)
+    due = np.where(first < refused_at, first, np.inf)
+    clear = (first < refused_at / 10) | (first > 2 * refused_at)
+    if nearest:
+        found, due, clear = found.min(axis=0), due.min(axis=0), clear.all(axis=0)
+    finite = clear & np.isfinite(due)
+    gap = due[finite] * (10 ** (1 / search.per_decade) - 1)
+    assert np.isinf(found[clear & ~finite]).all()
+    assert (found[finite] >= due[finite]).all()
+    assert (found[finite] - due[finite] <= gap / 8**search.bisections * (1 + 1e-6)).all()
+
+
+@pytest.mark.parametrize(
+    ("change", "proved", "said"),
+    [
+        (12.31, 0.0, "height              +12.4 mm"),
+        (-12.31, 0.12, "height              -12.4 mm, proved to be above 0.12 mm"),
+        (np.inf, 0.0, "height              none found up to 1000 mm"),
+    ],
+)
+def test_a_margin_is_rounded_away_from_the_toss(change, proved, said):
+    assert Margin(quantity_of("height"), change, proved).line.endswith(said)
+
+
+@pytest.mark.parametrize(
+    ("changes", "planar"),
+    [
+        ({}, True),
+        ({"release.angles": [0.5, 0.0, 0.0]}, False),
+        ({"release.angles": [0.0, 0.5, 0.0]}, False),
+        ({"release.velocity": [0.0, 0.0, 1.0]}, False),
+        ({"release.angular_velocity": [9.0, 0.0, 1.0]}, False),
+        ({"coin.thickness": 1e-3}, False),
+        ({"air.normal": 0.1}, False),
+    ],
+)
+def test_a_thin_coin_that_turns_about_xi_alone_is_planar(changes, planar):
+    flat = load("fig29").replace("air", {}, "release", {"position": [0, 0, 1], "angular_velocity": [9, 0, 0]})
+    assert (
+        is_planar(flat.replace("gravity", 9.8, *(part for pair in changes.items() for part in pair)))
+        is planar
+    )

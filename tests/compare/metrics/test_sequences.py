@@ -62,10 +62,10 @@ def test_impulses_are_tried_with_twice_the_largest_error_so_far_to_both_sides(tr
 
 def test_touches_are_tried_as_much_earlier_and_later_as_they_may_be(tried):
     """The coin has turned about its ω by then, and touches at once: its rim is below C."""
-    late, impacts, coin = np.array([2e-6, 1e-6]), TOSS.impacts, TOSS.scenario.coin
-    assert agreement_horizon(TOSS, np.full(2, 1e-13), late) == 2
-    assert [case.rules.max_impacts for case in tried] == [1, 1, 2, 2, 1, 1, 1, 1]
-    for at, first in ((0, 2), (1, 6)):
+    late, impacts, coin = np.array([2e-6, 1e-6, 1e-6]), TOSS.impacts, TOSS.scenario.coin
+    assert agreement_horizon(TOSS, np.full(3, 1e-13), late) == 3
+    assert [case.rules.max_impacts for case in tried] == [2, 2, 3, 3, 1, 1, 2, 2, 1, 1, 1, 1]
+    for at, first in ((0, 2), (1, 6), (2, 10)):
         for sign, case in zip((1, -1), tried[first : first + 2], strict=True):
             turned = Rotation.from_rotvec(sign * 2e-6 * impacts.angular_velocity_before[at])
             due = Rotation.from_quat(impacts.quaternion[at], scalar_first=True) * turned
@@ -75,3 +75,4 @@ def test_touches_are_tried_as_much_earlier_and_later_as_they_may_be(tried):
             rim = coin.radius * np.sqrt(1 - cosine**2) + coin.thickness / 2 * abs(cosine)
             assert case.release.position[2] - rim == pytest.approx(1e-9 * coin.radius, abs=1e-15)
             assert case.release.velocity == tuple(impacts.velocity_before[at])
+    assert agreement_horizon(TOSS, np.full(9, 1e-15), np.full(9, 1e-15)) == 9, "over the first tails, too"
