@@ -82,7 +82,14 @@ def _require_map(attributes: Mapping[str, Any]) -> None:
     """Refuse the attributes of a store that is no map of this format, or of an engine that is not there."""
     for name, kind in _ATTRIBUTES.items():
         if not isinstance(attributes.get(name), kind):
-            raise DamagedError(f"attribute {name} = {shown(attributes.get(name))}")
+            raise DamagedError(
+                f"attribute {name} = {shown(attributes.get(name))}"
+                + (
+                    ": a store of tosses, of which xarray.open_zarr(NAME).cointoss.save makes a map"
+                    if "cointoss_tosses" in attributes
+                    else ""
+                )
+            )
     if attributes["cointoss_map"] != FORMAT:
         raise DamagedError(f"attribute cointoss_map = {attributes['cointoss_map']}, not {FORMAT}")
     name = attributes.get("name", "")

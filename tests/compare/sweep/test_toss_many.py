@@ -173,6 +173,8 @@ def test_two_fields_are_a_map_in_memory_and_in_a_store(trust, tmp_path):
     vary = {"height": "0.2:0.6:3", "release.angular_velocity.eta": "20:60:4"}
     made = toss_many("fig24a", vary, trust=trust)
     kept = toss_many("fig24a", vary, trust=trust, out=tmp_path / "a.zarr")
+    with pytest.raises(cointoss.MapError, match=r"a store of tosses, of which .*\.save makes"):
+        cointoss.read_map(tmp_path / "a.zarr")
     assert isinstance(made.cointoss.untrusted, np.ndarray) == (trust == "certain")
     for number, ds in enumerate((made, kept, kept.cointoss.words)):
         axes = ds.cointoss.plot(Figure().subplots())
