@@ -56,7 +56,7 @@ def test_as_many_are_needed_as_shrink_the_interval_to_the_threshold(threshold, n
     ],
 )
 def test_an_interval_goes_with_its_value(changed, ends):
-    assert changed(Estimate(0.5, 0.25, 0.75, 9)) == Estimate(*ends, 9)
+    assert changed(Estimate(0.5, 0.25, 0.75, 9)) == Estimate(ends[0], ends[1], ends[2], 9)
 
 
 @pytest.mark.parametrize(
@@ -81,6 +81,6 @@ def test_the_chance_that_counts_are_alike_is_that_of_chi_square(counts, chance):
     ],
 )
 def test_a_small_share_has_more_digits(ends, said):
-    estimate = Estimate(*ends, 100)
+    estimate = Estimate(ends[0], ends[1], ends[2], 100)
     assert percent(estimate) == said
     assert in_words(estimate, ".4g", 100).replace("[", "").split()[0] == f"{100 * ends[0]:.4g}"

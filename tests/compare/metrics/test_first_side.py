@@ -37,9 +37,8 @@ def test_the_first_side_is_counted_at_each_touch_and_among_those_that_end_on_a_f
         impacts = np.fmin(rows[:, PLACE["ending.max_impacts"]], 3)  # none goes on to a fourth touch
         outcome = np.resize([HEADS, TAILS, Outcome.EDGE, Outcome.UNDECIDED], len(rows))
         faces = np.where(impacts % 2 == 1, HEADS, TAILS)
-        return Answers(
-            *(column.astype(np.int8) for column in (outcome, outcome, impacts, faces)), impacts * 1.0
-        )
+        columns: Any = (outcome, outcome, impacts, faces, impacts)
+        return Answers(*columns)
 
     engine: Any = SimpleNamespace(package=SimpleNamespace(toss_rows=toss_rows))
     found = first_side(released([*ATTITUDES]), engine)
