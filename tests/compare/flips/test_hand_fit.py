@@ -46,6 +46,7 @@ def drawn(people: int, count: int, psi_scatter: float, seed: int) -> Flips:
 def test_a_persons_psi_is_the_inverse_of_the_probability():
     """p = 1/2 + asin(cot² ψ)/π at ψ, and at the ends of the interval twice the log-likelihood is χ² lower."""
     found = flips(Flips(same=[5_600], flips=[10_000])).people[0].psi
+    assert found.low < found.value < found.high
     value, *ends = (float(same_side_probability(psi)) for psi in found.ends)
     assert value == pytest.approx(0.56, abs=1e-6)
     drop = chi2.ppf(0.99, 1) / 2
