@@ -50,20 +50,3 @@ def test_a_coin_that_turns_about_the_vertical_is_driven_out_by_its_lean(side, tu
     """
     moment = ((J_ZETA - J) * turn**2 + M * G * R) * 0.03 - M * G * (H / 2 - side * OFFSET)
     assert tilting(mode, friction, side, 0.03, turn) == pytest.approx(moment / inertia, rel=0.02)
-
-
-@pytest.mark.slow
-def test_newton_and_euler_make_the_closed_form_of_the_rim_that_rolls():
-    """In axes along the floor, up the face and along the normal, which turn with the lean and about z."""
-    import sympy
-
-    m, r, a, g, J, J_zeta, tilt, t = sympy.symbols("m r a g J J_zeta tilt t", positive=True)
-    phi, turn, spin = (sympy.Function(name)(t) for name in ("phi", "Omega", "omega"))
-    up, arm = sympy.Matrix([0, sympy.cos(phi), -sympy.sin(phi)]), sympy.Matrix([0, -r, a])
-    axes = sympy.Matrix([phi.diff(t), turn * up[1], turn * up[2]])
-    w = sympy.Matrix([axes[0], axes[1], spin])
-    v, L = arm.cross(w), sympy.diag(J, J, J_zeta) * w
-    left = L.diff(t) + axes.cross(L) - arm.cross(m * (v.diff(t) + axes.cross(v) + g * up))
-    upright = left[0].subs(phi.diff(t, 2), tilt).subs(phi.diff(t), 0).subs({phi: 0, spin: -turn * a / r})
-    closed = a * (J_zeta * turn**2 / r - m * g) / (J + m * (r**2 + a**2))
-    assert sympy.simplify(sympy.solve(upright, tilt)[0] - closed) == 0

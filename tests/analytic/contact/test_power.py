@@ -35,13 +35,6 @@ def contacts(seed, slope, modes):
             yield body, friction, mode, y
 
 
-def changes(body, friction, mode, y):
-    """Return the rates of a state, and the floor's force on the coin."""
-    dy, contact = np.empty(13), held(body, friction, mode, y)
-    flow(contact, y, dy)
-    return dy, np.array(floor_force(contact, y))
-
-
 def moment_of_resistance(body, friction, y, N):
     """Return -N (δ ω_h/|ω_h| + p sgn ω_z ẑ) - P/(φ' sin θ) ĝ, φ' sin θ = ω · ĝ.
 
@@ -63,33 +56,35 @@ def test_the_lowest_point_stays_on_the_floor_and_stays_there_where_friction_hold
         assert_lowest_point_stays(*contact)
 
 
-@pytest.mark.parametrize("slope", [0.0, 0.5])
-@pytest.mark.parametrize("seed", range(6))
-def test_momenta_change_by_the_floors_force_and_its_moments_of_the_same_instant(seed, slope):
-    """M dv/dt = F + m g and J dω/dt + ω × J ω = a × F + the moment of resistance."""
-    for body, friction, mode, y in contacts(seed, slope, ON_ONE_RIM):
-        dy, F = changes(body, friction, mode, y)
-        A, J, w = rim_contact(body, y, lower_rim_of(y)), np.array(body.inertia), y[10:13]
-        assert body.mass * (dy[3:6] - [body.downhill, 0, -body.gravity]) == pytest.approx(F, abs=1e-13)
-        moment = np.array(A.R) @ (J @ dy[10:13] + np.cross(w, J @ w)) - np.cross(A.arm, F)
-        assert moment == pytest.approx(moment_of_resistance(body, friction, y, F[2]), abs=1e-13)
+def rims(body, friction, mode, y):
+    """Return the rim points in contact, and the floor's force on each.
+
+    Upright each bears its load, with friction against its own slip, less where that is slow.
+    """
+    F = np.array(floor_force(held(body, friction, mode, y), y))
+    if mode != Mode.UPRIGHT:
+        return [(rim_contact(body, y, lower_rim_of(y)), F)]
+    points, slow = both_rims(body, friction, y), SLOW * (body.gravity * body.radius) ** 0.5
+    slips = [np.array([*A.velocity[:2], 0]) / max(np.hypot(*A.velocity[:2]), slow) for A in points]
+    loads = upright.rim_forces(body, friction, y)
+    forces = [N * ([0, 0, 1] - friction.sliding * slip) for N, slip in zip(loads, slips, strict=True)]
+    assert sum(forces) == pytest.approx(F, abs=1e-13)
+    return list(zip(points, forces, strict=True))
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.5])
 @pytest.mark.parametrize("seed", range(6))
-def test_energy_is_lost_at_the_rate_of_the_law(seed, slope):
-    """DE/dt is the power of weight, slip and resistance; upright each rim slips under its own load."""
+def test_momenta_and_energy_change_by_the_floors_forces_of_the_same_instant(seed, slope):
+    """M dv/dt = F + m g, J dω/dt + ω × J ω = a × F + the moment of resistance, and DE/dt is their power."""
     for body, friction, mode, y in contacts(seed, slope, (*ON_ONE_RIM, Mode.UPRIGHT)):
-        dy, F = changes(body, friction, mode, y)
-        turn = np.array(rotation_matrix(tuple(y[6:10]))) @ y[10:13]
-        gained = body.mass * y[3:6] @ dy[3:6] + y[10:13] @ np.array(body.inertia) @ dy[10:13]
-        given = body.mass * (body.downhill * y[3] - body.gravity * y[5])
-        given += moment_of_resistance(body, friction, y, F[2]) @ turn
-        if mode == Mode.UPRIGHT:
-            loads = upright.rim_forces(body, friction, y)
-            slips = [np.hypot(*A.velocity[:2]) for A in both_rims(body, friction, y)]
-            slow = np.minimum(np.array(slips) / (SLOW * (body.gravity * body.radius) ** 0.5), 1.0)
-            given -= friction.sliding * np.sum(np.array(loads) * slips * slow)
-        else:
-            given += F @ np.array(rim_contact(body, y, lower_rim_of(y)).velocity)
+        dy, points = np.empty(13), rims(body, friction, mode, y)
+        flow(held(body, friction, mode, y), y, dy)
+        R, J, w = np.array(rotation_matrix(tuple(y[6:10]))), np.array(body.inertia), y[10:13]
+        F, weight = sum(F for _, F in points), body.mass * np.array([body.downhill, 0, -body.gravity])
+        resistance = moment_of_resistance(body, friction, y, F[2])
+        assert body.mass * dy[3:6] - weight == pytest.approx(F, abs=1e-13)
+        moment = R @ (J @ dy[10:13] + np.cross(w, J @ w)) - sum(np.cross(A.arm, F) for A, F in points)
+        assert moment == pytest.approx(resistance, abs=1e-13)
+        gained = body.mass * y[3:6] @ dy[3:6] + w @ J @ dy[10:13]
+        given = weight @ y[3:6] + resistance @ (R @ w) + sum(F @ np.array(A.velocity) for A, F in points)
         assert gained == pytest.approx(given, abs=1e-12)

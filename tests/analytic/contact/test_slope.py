@@ -29,10 +29,10 @@ def rolling(coin, speed):
 
 
 @pytest.mark.parametrize(("coin", "share"), [(THIN, 0.5), (HOOP, 1.0)])
-@pytest.mark.parametrize("delta", [0.0, 1e-3])
-def test_a_disc_and_a_hoop_roll_downhill_as_the_closed_form_says(coin, share, delta):
+@pytest.mark.parametrize(("slope", "delta"), [(0.3, 0.0), (0.3, 1e-3), (0.0, 1e-3)])
+def test_a_disc_and_a_hoop_roll_downhill_as_the_closed_form_says(coin, share, slope, delta):
     """(J_ζ + m r²) dω_ζ/dt = m r g sin(a) - δ m g cos(a)."""
-    slope, speed = 0.3, 0.2
+    speed = 0.2
     body = on_slope(slope, coin)
     gained = G * (np.sin(slope) - delta / R * np.cos(slope)) / (1 + share)
     y = rolling(coin, speed)

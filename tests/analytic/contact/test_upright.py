@@ -1,10 +1,10 @@
-"""A thick coin upright on both rims: what is conserved, what friction does, what presses it, when it tips."""
+"""A thick coin upright on both rims: what friction does, what presses it, when it tips."""
 
 import numpy as np
 import pytest
 
 from cointoss.analytic.contact import upright
-from cointoss.analytic.contact.automaton import Event, Mode
+from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.edge.restoring import held_on_edge
 from cointoss.analytic.contact.edge.standing import on_edge, rolls, stands
 from cointoss.analytic.contact.resets import tip_over
@@ -15,54 +15,15 @@ from cointoss.analytic.numerics.tolerances import SLOW
 from cointoss.analytic.runs import run
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.attitude import rotation_matrix
-from cointoss.models.barriers import energy
 from cointoss.models.geometry import gap
 from cointoss.models.laws import EndingTest
-from cointoss.models.records import Ending, Outcome
-from tests.helpers.contacts import end_mode, follow_for, follow_step, held, upright_coin
+from cointoss.models.records import Outcome
+from tests.helpers.contacts import follow_for, held, upright_coin
 from tests.helpers.corpus import draw_toss
 from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, scenario
 
 SMOOTH = FloorFriction(0.0)
 G, R_COIN, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
-
-
-def momenta(body, y):
-    """Give momentum and angular momentum about C, space frame, each (3,)."""
-    return M * y[3:6], np.array(rotation_matrix(tuple(y[6:10]))) @ np.array(body.inertia) @ y[10:13]
-
-
-def test_an_upright_coin_keeps_energy_and_momentum_and_both_rims_on_the_floor():
-    """With the attitude's one freedom these fix the whole motion."""
-    body = scenario(coin=IMPERFECT).body
-    states, _ = follow_for(body, SMOOTH, Mode.UPRIGHT, upright_coin(body, 0.4, 1.0, 45.0), 1.0)
-    energies = [energy(body, y[2], tuple(y[3:6]), tuple(y[10:13])) for y in states]
-    assert energies == pytest.approx(np.full(len(states), energies[0]), rel=1e-11)
-    turning = [momenta(body, y)[1][2] for y in states]
-    assert turning == pytest.approx(np.full(len(states), turning[0]), rel=1e-11)
-    assert np.all(states[:, 3:5] == states[0, 3:5])
-    ups = np.array([rotation_matrix(tuple(y[6:10]))[2] for y in states])
-    assert np.abs(ups[:, 2]).max() < 1e-15
-    assert np.ptp(np.unwrap(np.arctan2(ups[:, 1], ups[:, 0]))) > 2 * np.pi, "it rolls round"
-    assert max(abs(gap(body, y[2], up)) for y, up in zip(states, ups, strict=True)) < 1e-15
-
-
-def test_the_rims_forces_are_what_changes_momentum_and_angular_momentum():
-    """Half a step before and after, by central differences; both forces, and the tilting that they stop."""
-    body = scenario(coin=IMPERFECT).body
-    y = upright_coin(body, 0.4, 5.0, 20.0)
-    dt = 1e-4
-    states, times = follow_for(body, SMOOTH, Mode.UPRIGHT, y, 2 * dt, dt)
-    assert times == pytest.approx([0.0, dt, 2 * dt], rel=1e-12)
-    (p_0, L_0), (p_1, L_1) = momenta(body, states[0]), momenta(body, states[2])
-    N_tails, N_heads = rim_forces(body, SMOOTH, states[1])
-    R = np.array(rotation_matrix(tuple(states[1, 6:10])))
-    below = -R_COIN * R[2] / np.hypot(R[2, 0], R[2, 1]) - np.array(body.center)
-    half = np.array([0, 0, ZLOTY["thickness"] / 2])
-    moment = np.cross(R @ (below - half), [0, 0, N_tails]) + np.cross(R @ (below + half), [0, 0, N_heads])
-    assert abs(N_tails - N_heads) > 0.05 * M * G, "the coin is not balanced"
-    assert (p_1 - p_0)[2] / (2 * dt) + M * G == pytest.approx(N_tails + N_heads, rel=1e-5)
-    assert (L_1 - L_0) / (2 * dt) == pytest.approx(moment, rel=1e-5, abs=1e-6 * M * G * R_COIN)
 
 
 def test_a_still_coin_presses_its_rims_as_the_lever_says():
@@ -72,32 +33,14 @@ def test_a_still_coin_presses_its_rims_as_the_lever_says():
     assert forces == pytest.approx((0.4 * M * G, 0.6 * M * G), rel=1e-12)
 
 
-def test_a_coin_that_its_roll_tips_leaves_one_rim_and_falls_to_that_side():
-    body = scenario(coin=IMPERFECT).body
-    y = upright_coin(body, 3 * np.pi / 4, 59.4, 0.0)
-    assert min(rim_forces(body, SMOOTH, y)) > 0
-    step, time = follow_step(body, SMOOTH, Mode.UPRIGHT, y, 0.01), 0.0
-    while not step.is_over:
-        step = follow_step(body, SMOOTH, Mode.UPRIGHT, y, 0.01)
-        time += step.elapsed
-        assert time < 0.2
-    assert step.event == Event.NONE
-    N_tails, N_heads = rim_forces(body, SMOOTH, y)
-    assert min(N_tails, N_heads) == pytest.approx(0, abs=1e-9 * M * G)
-    assert end_mode(body, SMOOTH, Mode.UPRIGHT, y) == Event.SLIDES
-    side = 1 if N_tails > N_heads else -1
-    for _ in range(20):
-        assert not follow_step(body, SMOOTH, Mode.SLIDING, y, 1e-3).is_over
-    assert side * rotation_matrix(tuple(y[6:10]))[2][2] > 1e-4
-
-
 def test_a_coin_that_tips_over_keeps_the_pressed_rim_on_the_floor():
     body = scenario(coin=IMPERFECT).body
     for phase in np.linspace(0.1, 6.0, 12):
         y = upright_coin(body, phase, 5.0, 20.0)
+        on_tails, on_heads = rim_forces(body, SMOOTH, y)
         tip_over(body, SMOOTH, y)
         up = rotation_matrix(tuple(y[6:10]))[2]
-        assert 0 < abs(up[2]) < 2e-12
+        assert 0 < up[2] * np.sign(on_tails - on_heads) < 2e-12
         assert abs(gap(body, y[2], up)) < 1e-17
 
 
@@ -150,24 +93,6 @@ def test_without_loss_a_coin_stands_if_it_is_held_in_the_course_of_its_own_roll(
         assert not stands(held(in_air, SMOOTH, Mode.SLIDING, y), y)
 
 
-def test_a_toss_that_comes_upright_is_followed_until_it_stands():
-    """In air; when its impacts have died away it is held on both rims now, but not yet in every phase."""
-    case = scenario(
-        coin=IMPERFECT,
-        air=AIR,
-        floor={"contact": "smooth", "restitution": 0.3},
-        release={
-            "position": [0.0, 0.0, 0.0145],
-            "velocity": [0.0, 0.0, 0.0],
-            "angles": [0.0, 1.57, 4.7],
-            "angular_velocity": [-2.0, 2.0, -50.0],
-        },
-    )
-    tossed = run(case.body, case.rules, state_at_release(case.release))
-    assert (tossed.outcome, tossed.ending) == (Outcome.EDGE, Ending.STANDING)
-    assert Mode.UPRIGHT in tossed.started.modes
-
-
 def rolling(body, roll_rate):
     """Give a coin upright on the floor that rolls straight on [rad/s]."""
     y = upright_coin(body, 0.4, 0.0, roll_rate)
@@ -206,21 +131,6 @@ def test_a_coin_that_slides_upright_ends_rolling_at_two_thirds_of_its_speed():
     assert states[-1][3:6] == pytest.approx(0.5 * 2 / 3 * along, abs=1e-6)
     assert rolls(body, FloorFriction(mu), states[-1])
     assert stands(held(body, FloorFriction(mu), Mode.STICKING, states[-1]), states[-1])
-
-
-@pytest.mark.slow
-def test_an_unbalanced_coin_that_rolls_upright_keeps_its_energy_but_for_a_creep():
-    """The friction that it needs, f of μ N, makes it slip at f/(μ N) 1e-3 √(g r): so much power is lost."""
-    body, mu = scenario(coin=IMPERFECT).body, 0.5
-    start = rolling(body, 20.0)
-    states, times = follow_for(body, FloorFriction(mu), Mode.UPRIGHT, start, 1.0)
-    energies = np.array([energy(body, y[2], tuple(y[3:6]), tuple(y[10:13])) for y in states])
-    ups = np.array([rotation_matrix(tuple(y[6:10]))[2] for y in states])
-    assert np.ptp(np.unwrap(np.arctan2(ups[:, 1], ups[:, 0]))) > 2 * np.pi, "it rolls round"
-    most = mu * M * G * 1e-3 * (G * R_COIN) ** 0.5 * times[-1]
-    assert -most < energies[-1] - energies[0] < 0
-    assert np.all(np.diff(energies) < 1e-14)
-    assert all(rolls(body, FloorFriction(mu), y) for y in states)
 
 
 @pytest.mark.parametrize(
@@ -282,7 +192,7 @@ def holding_force_of_the_rim_that_stuck(body, mu, rim, y):
 @pytest.mark.parametrize(("rim", "mu", "turn_rate"), [(-1.0, 0.3, 5.0), (1.0, 2.0, 5.0), (-1.0, 1e4, -5.0)])
 def test_a_rim_that_stuck_takes_the_slow_slip_at_which_friction_holds_it(rim, mu, turn_rate):
     """When the other, which skids round it, lands: its slip hardly changes."""
-    body, dt = scenario(coin=IMPERFECT).body, 1e-8
+    body = scenario(coin=IMPERFECT).body
     y = pivoting(body, turn_rate, rim)
     start = y.copy()
     start_slow_slip(held(body, FloorFriction(mu), Mode.STICKING, y)._replace(rim=rim), y)
@@ -291,15 +201,6 @@ def test_a_rim_that_stuck_takes_the_slow_slip_at_which_friction_holds_it(rim, mu
     assert np.hypot(*F[:2]) > 1e-2 * F[2]
     assert rim_velocity(body, y, rim)[:2] == pytest.approx(slip, rel=1e-9)
     assert [rim_velocity(body, y, s)[2] for s in (1.0, -1.0)] == pytest.approx([0, 0], abs=1e-17)
-    kinetic = [energy(body, s[2], tuple(s[3:6]), tuple(s[10:13])) for s in (start, y)]
-    assert kinetic[1] == pytest.approx(kinetic[0], abs=max(mu, 1) ** 2 * SLOW**2 * M * G * R_COIN)
-    gained = []
-    for begun in (start, y):
-        after = begun.copy()
-        follow_step(body, FloorFriction(mu), Mode.UPRIGHT, after, dt)
-        gained.append(np.hypot(*(rim_velocity(body, after, rim) - rim_velocity(body, begun, rim))[:2]))
-    # The slow slip turns the coin a little, and so changes what must be held.
-    assert gained[1] < 0.15 * gained[0]
 
 
 def test_a_rim_that_friction_cannot_hold_takes_no_slip():
@@ -308,12 +209,3 @@ def test_a_rim_that_friction_cannot_hold_takes_no_slip():
     before = y.copy()
     start_slow_slip(held(body, FloorFriction(1e-3), Mode.STICKING, y)._replace(rim=-1.0), y)
     assert np.all(y == before)
-
-
-def test_a_coin_that_pivots_on_one_rim_while_the_other_skids_goes_on():
-    """A toss of the study of endings: without its slow slip the rim that stuck would have no friction."""
-    case = draw_toss(np.random.default_rng((2008, 1, 9428)), imperfect=True)
-    tossed = run(case.body, case.rules._replace(max_time=2.9), state_at_release(case.release))
-    assert tossed.ending == Ending.MAX_TIME
-    assert np.diff(tossed.started.times)[tossed.started.modes[:-1] == Mode.UPRIGHT].max() > 1e-3
-    assert len(tossed.started.modes) < 20_000

@@ -18,7 +18,7 @@ COUNT = 60
 @pytest.mark.parametrize("law", PAPER_LAWS)
 @pytest.mark.parametrize("spin", [None, 0.0, 1e-15, -30.0])
 def test_every_law_obeys_newton_momentum_and_its_own_constraint(law, spin):
-    """A coin of either kind, or an ideal one with that spin about ζ, which it keeps where the law spares it."""
+    """A coin of either kind, or an ideal one with a spin about ζ, which it keeps where the law spares it."""
     rng, turned = np.random.default_rng([int(law), spin is None]), 0
     for _ in range(COUNT):
         case, y = draw_impact(rng, law)

@@ -84,34 +84,23 @@ def test_a_superball_gives_back_parts_of_slip_and_approach_and_no_energy_but_the
     assert max(of(toss, name) for name in (LAW, MOMENTUM, IMPACT_ENERGY)) < 1e-12
 
 
-def test_two_bounces_of_a_superball_give_back_speed_and_spin():
-    """Garwin, Am. J. Phys. 37 (1969) 88: v_A is reversed, and so is what that did by the next bounce."""
-    case = scenario(**WHEEL, ending={"max_impacts": 12})
-    impacts = analytic.toss(case, law=OwnLaw(superball(1, 1), **FREE)).impacts
-    # J = m r^2/2 about the normal: a bounce changes v by 2 J/(J + m r^2) of the slip.
-    speeds = [0.3, 0.3 - 2 / 3 * impacts.contact_velocity_before[0, 0]]
-    assert impacts.velocity_before[:, 0] == pytest.approx(np.tile(speeds, 6), abs=1e-12)
-    assert np.ptp(impacts.angular_velocity_before[::2, 2]) < 1e-11
-
-
 END = attrgetter("outcome", "ending", "end_time", "trusted_impacts", "outcome_certain")
 
 
-def gives_back_nine_tenths(K, v_A, tau, chi, mu):
-    return 0.0, 0.0, -1.9 * v_A[2] / K[2][2]
+def gives_back_eight_tenths(K, v_A, tau, chi, mu):
+    return 0.0, 0.0, -1.8 * v_A[2] / K[2][2]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("test", list(EndingTest))
 @pytest.mark.parametrize("seed", [5, 6])
 def test_of_the_scenarios_restitution_only_the_law_makes_use(test, seed):
     """Impacts chatter by what the law gives back: a law that is not asked for chi gives one toss for all."""
     rng = np.random.default_rng(seed)
     parts = {"coin": draw_coin(rng), "release": draw_release(rng)}
-    case = scenario(**parts, floor={"restitution": 0.9}, ending={"test": str(test), "max_impacts": 3000})
+    case = scenario(**parts, floor={"restitution": 0.8}, ending={"test": str(test), "max_impacts": 3000})
     known = analytic.toss(case, law=OwnLaw(smooth))
     for chi in (0.0, 1.0):
-        toss = analytic.toss(case.replace("floor.restitution", chi), law=OwnLaw(gives_back_nine_tenths))
+        toss = analytic.toss(case.replace("floor.restitution", chi), law=OwnLaw(gives_back_eight_tenths))
         assert np.array_equal(toss.impacts.time, known.impacts.time)
         assert END(toss) == END(known)
     assert known.ending == Ending.CHATTER or test != EndingTest.LYING
