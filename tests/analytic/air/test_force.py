@@ -1,20 +1,21 @@
 """The air's force for 0 <= b <= 1: against adaptive quadrature, closed forms, finer rules, its own change."""
 
 import math
-from itertools import pairwise
+from typing import Any
 
+import numba
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from cointoss.analytic.air.face_friction import disc_dissipation
 from cointoss.analytic.air.force import change_about_B, force_and_moment_change
+from cointoss.analytic.air.force import force_and_moment as force_and_moment_of
 from cointoss.analytic.air.law import AirMotion
 from cointoss.analytic.air.quadrature import CHANGE_NODES, FORCE_NODES, nodes_of
 from cointoss.analytic.entries import force_and_moment
-from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.kernel.compiled import by_numba
-from tests.helpers.command_line import python
 from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, scenario
 from tests.helpers.referee import air_by_cubature
 from tests.helpers.tuples import vector
@@ -131,53 +132,48 @@ def test_quadrature_has_converged_for_every_motion(b, h):
     assert coarse > 1e-9, "fewer nodes should show an error"
 
 
-@pytest.mark.parametrize("b", [0.5, 1.0])
-def test_more_nodes_mean_a_smaller_error_until_rounding(b):
-    v, w = (0.3, 0.02, 0.11), (8.0, -15.0, 26.0)
-    body = coin(b)
-
-    def about_B(n):
-        f, m = changed(body, AirMotion(b, v, w, v, w), nodes_of(n, n, 2.0 * n))
-        return np.array([*f, *(x / R for x in m)])
-
-    errors = [np.abs(about_B(n) - about_B(96)).max() / force_scale(b, v, w) for n in (8, 12, 16, 24, 32)]
-    assert errors[0] > 1e-8
-    assert all(later < 0.3 * sooner for sooner, later in pairwise(errors[:4]))
-    assert errors[-1] < 1e-14
+def around(b):
+    """∫ |cos|^(b+2) over half a turn."""
+    return math.sqrt(np.pi) * math.gamma((b + 3) / 2) / math.gamma(b / 2 + 2)
 
 
-@pytest.mark.parametrize("b", [0.2, 0.5, 1.0])
-def test_motions_in_one_direction_have_closed_forms(b):
-    body, v, W = coin(b), 0.7, 30.0
-    p = 1 + b
-    wall, faces = 2 * np.pi * R * H, 2 * np.pi * R**2
-    broadside = -(v**p) * (LN * np.pi * R**2 + LT * wall)
-    assert pull(body, (0, 0, v), (0, 0, 0)) == pytest.approx([0, 0, broadside, 0, 0, 0], rel=1e-13, abs=1e-18)
-    half_turn = math.sqrt(np.pi) * math.gamma((b + 3) / 2) / math.gamma(b / 2 + 2)  # ∫ cos^(b+2)
-    whole_turn = 2 * math.sqrt(np.pi) * math.gamma((b + 3) / 2) / math.gamma(b / 2 + 2)  # ∫ |sin|^(b+2)
-    edgewise = -(v**p) * (LT * faces + LN * R * H * half_turn + LT * R * H * whole_turn)
-    assert pull(body, (v, 0, 0), (0, 0, 0)) == pytest.approx([edgewise, 0, 0, 0, 0, 0], rel=1e-12, abs=1e-18)
-    spin = -LT * ((W * R) ** p) * (2 * 2 * np.pi * R**2 / (b + 4) + wall)
-    assert pull(body, (0, 0, 0), (0, 0, W)) == pytest.approx([0, 0, 0, 0, 0, spin], rel=1e-13, abs=1e-18)
+WALL, FACES, V, W = 2 * np.pi * R * H, 2 * np.pi * R**2, 0.7, 30.0
+CLOSED = {
+    "none in vacuum": (0.5, {"ln": 0.0, "lt": 0.0}, (1, 2, 3, 4, 5, 6), [0] * 6),
+    # |W u| W u u over the chords 2 √(r² - u²).
+    "a turning disc": (
+        1.0,
+        {"h": 0.0, "lt": 0.0},
+        (0, 0, 0, 0, W, 0),
+        [*[0] * 4, -LN * 8 / 15 * W**2 * R**4, 0],
+    ),
+    # So fast that no part is at rest: the square expands.
+    "a disc that turns and moves": (
+        *(1.0, {"h": 0.0, "lt": 0.0}, (0, 0, 2 * W * R, 0, W, 0)),
+        np.array([0, 0, -LN * R**4 * W**2 * 17 / 4, 0, -LN * R**4 * W**2, 0]) * np.pi,
+    ),
+}
+for b in (0.2, 0.5, 1.0):
+    broadside = -(V ** (1 + b)) * (LN * np.pi * R**2 + LT * WALL)
+    edgewise = -(V ** (1 + b)) * (LT * FACES + (LN + 2 * LT) * R * H * around(b))
+    spun = -LT * (W * R) ** (1 + b) * (2 * FACES / (b + 4) + WALL)
+    CLOSED |= {
+        f"broadside, b = {b}": (b, {}, (0, 0, V, 0, 0, 0), [0, 0, broadside, 0, 0, 0]),
+        f"edgewise, b = {b}": (b, {}, (V, 0, 0, 0, 0, 0), [edgewise, 0, 0, 0, 0, 0]),
+        f"spinning, b = {b}": (b, {}, (0, 0, 0, 0, 0, W), [0, 0, 0, 0, 0, spun]),
+    }
+
+
+@pytest.mark.parametrize(("b", "parts", "motion", "expected"), CLOSED.values(), ids=CLOSED)
+def test_motions_in_one_direction_have_closed_forms(b, parts, motion, expected):
+    found = pull(coin(b, **parts), motion[:3], motion[3:])
+    assert found == pytest.approx(expected, rel=1e-12, abs=1e-18)
 
 
 def test_a_drag_coefficient_is_that_of_the_broadside_disk():
     body, v = scenario(air={"drag_coefficient": 1.1, "density": "1.3 kg/m^3"}).body, 0.7
     expected = -1.3 * 1.1 / 2 * np.pi * R**2 * v**2
     assert pull(body, (0, 0, v), (0, 0, 0)) == pytest.approx([0, 0, expected, 0, 0, 0], rel=1e-13, abs=1e-18)
-
-
-def test_pressure_of_a_turning_disc_at_b_1():
-    """|W u| W u u over the chords 2 √(r² - u²) is 8/15 W² r^5, and W² r^5 8/15 + ... where it also moves."""
-    body, W = coin(1.0, h=0.0, lt=0.0), 30.0
-    expected = -LN * 8 / 15 * W**2 * R**4
-    turning = pull(body, (0, 0, 0), (0, W, 0))
-    assert turning == pytest.approx([0, 0, 0, 0, expected, 0], rel=1e-13, abs=1e-18)
-    # Moving broadside so fast that no part is at rest the square expands: v² π r² + W² π r^4/4.
-    v = 2 * W * R
-    both = pull(body, (0, 0, v), (0, W, 0))
-    assert both[2] == pytest.approx(-LN * np.pi * R**2 * (v**2 + W**2 * R**2 / 4), rel=1e-13)
-    assert both[4] == pytest.approx(-LN * np.pi / 4 * R**3 * 2 * v * W, rel=1e-13)
 
 
 def test_the_limit_of_linear_air_is_the_closed_form():
@@ -245,56 +241,33 @@ def test_the_force_is_the_gradient_of_a_convex_dissipation(seed, b):
     assert np.linalg.eigvalsh(K).max() <= 1e-10 * size
 
 
-@pytest.mark.parametrize("b", [0.0, 0.5, 1.0])
-def test_turning_the_axes_about_the_normal_turns_the_force(b):
-    v, w = rough_motion(np.random.default_rng([6, int(10 * b)]))
-    Q = np.array(rotation_matrix(quaternion_from_angles((0.7, 0.0, 0.0))))
-    turned = np.kron(np.eye(2), Q) @ pull(coin(b), v, w)
-    assert np.abs(pull(coin(b), Q @ v, Q @ w) - turned).max() < 1e-12 * force_scale(b, v, w)
-
-
-def test_vacuum_has_no_force_whatever_the_exponent():
-    for b in (0.0, 0.5):
-        f, m = force_and_moment(coin(b, ln=0.0, lt=0.0), (1.0, 2.0, 3.0), (4.0, 5.0, 6.0))
-        assert np.all(np.array([*f, *m]) == 0)
-
-
-LOWERED = """
-from llvmlite import binding
-from cointoss.analytic.entries import force_and_moment
-from cointoss.analytic.flight.flying import fly
-from cointoss.models.kernel.arrays import Row
-from cointoss.models.kernel.build.lowering import EntryRequest, lowered
-from cointoss.models.kernel.kinds import kind_of
-
-types = fly.py_func.__annotations__
-given, returned = tuple(map(kind_of, (types["body"], Row, float, bool))), kind_of(types["return"])
-asked = [
-    EntryRequest("linear", fly, given, returned, True),
-    EntryRequest("other", force_and_moment.function, *force_and_moment.kinds, False),
-]
-module = binding.parse_bitcode(lowered(asked))
-print(*(each.name for each in module.functions if not each.is_declaration))
-"""
-"""Prints the names of all functions of a flight in linear air, and of the force of other air, as compiled."""
-
-
-@pytest.mark.slow
-def test_linear_air_is_compiled_without_the_quadrature():
+@pytest.mark.parametrize(("b", "is_needed"), [(0.0, False), (0.5, True)])
+def test_linear_air_is_compiled_without_the_quadrature(b, is_needed):
     """Beside it the few lines of linear air are slower: their calls are no longer inlined."""
-    done = python("-c", LOWERED)
-    assert done.returncode == 0, done.stderr
-    names = done.stdout.split()
-    linear, other = (
-        {
-            function
-            for function in ("expand_flight", "wall_friction_change", "pressure_change")
-            if any(function in name and ("AirLaw_28none" in name) == is_linear for name in names)
-        }
-        for is_linear in (True, False)
-    )
-    assert linear == {"expand_flight"}
-    assert other == {"wall_friction_change", "pressure_change"}
+    written: Any = force_and_moment_of
+    compiled: Any = numba.njit(written.py_func)
+    compiled(coin(b), (1.0, 2.0, 3.0), (4.0, 5.0, 6.0))
+    assert ("quadrature" in "".join(compiled.inspect_llvm().values())) == is_needed
+
+
+@pytest.mark.parametrize("b", [0.3, 1.0])
+@pytest.mark.parametrize("U", [1.1, 1.45, 1.55, 4.0])
+def test_the_friction_of_a_face_is_the_sum_over_its_points(b, U):
+    """|V|^b + b |V|^(b-2) V V of V = (U - ω y, ω x) for r = ω = 1: no point is at rest."""
+    rho, weights = np.polynomial.legendre.leggauss(300)
+    angle = np.arange(600)[:, None] * np.pi / 300
+    rho, shares = (rho + 1) / 2, (rho + 1) / 4 * weights * np.pi / 300
+    moves = np.array([[1 + 0 * rho * angle, 0 * rho * angle], [-rho * np.sin(angle), rho * np.cos(angle)]])
+    V = U * moves[0] + moves[1]
+    square = V[0] ** 2 + V[1] ** 2
+    along = np.einsum("jkpq,kpq->jpq", np.array([moves[0], moves[0][::-1], moves[1]]), V) / square**0.5
+
+    def total(part):
+        return float((square ** (b / 2) * part * shares).sum())
+
+    spun = moves[1][0] + b * along[0] * along[2], rho**2 + b * along[2] ** 2
+    expected = total(1 + b * along[0] ** 2), total(1 + b * along[1] ** 2), total(spun[0]), total(spun[1])
+    assert disc_dissipation(b, 1.0, U, 1.0, CHANGE_NODES) == pytest.approx(expected, rel=1e-12)
 
 
 def test_the_power_of_linear_air_on_an_unbalanced_coin_is_that_of_its_drag_at_B():

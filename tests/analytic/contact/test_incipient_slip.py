@@ -5,12 +5,16 @@ import pytest
 
 from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.floor_force import starting_slip
-from cointoss.analytic.contact.incipient_slip import project
+from cointoss.analytic.contact.incipient_slip import margin, project
 from cointoss.analytic.contact.one_rim import contact_in_flight
 from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.analytic.contact.rim_contact import RimContact
+from cointoss.analytic.numerics.tolerances import SLOW
 from cointoss.models.attitude import quaternion_from_angles
+from cointoss.models.kernel.vectors import scale
 from tests.helpers.contacts import held, put_on_floor
 from tests.helpers.draws import IMPERFECT, scenario
+from tests.helpers.tuples import matrix
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.8, -1.2, 2.0, np.pi])
@@ -27,3 +31,22 @@ def test_slow_slip_takes_the_direction_in_which_it_grows_unless_it_is_against_it
     project(contact, y)
     kept = speed * s if c > 0 else np.zeros(2)
     assert contact_in_flight(contact, y).velocity == pytest.approx([*kept, 0], abs=1e-8 * speed)
+
+
+@pytest.mark.parametrize(
+    ("b", "slip", "expected"),
+    [
+        ((5.0, 0.0, -1e-4), 0.0, 1e-4),
+        ((5.0, 0.0, -1.0), 0.4 * SLOW, 0.6 * SLOW),
+        ((5.0, 0.0, -1.0), 1.1 * SLOW, -0.1 * SLOW),
+        ((0.3 + 2e-4, 0.0, -1.0), 0.0, 2e-4),
+        ((0.3 - 2e-4, 0.0, -1.0), 0.0, -2e-4),
+        ((5.0, 0.0, 1e-4), 0.0, -1e-4),
+    ],
+)
+def test_incipient_slip_lasts_while_it_is_pressed_and_slow_and_beyond_the_cone(b, slip, expected):
+    """Of a point mass on a floor of μ = 0.3: what is left, b in g and slip in √(g r), F = -m b."""
+    body, axes = scenario().body, ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    unit, K = (body.gravity * body.radius) ** 0.5, matrix(scale(1 / body.mass, axis) for axis in axes)
+    A = RimContact(axes, (0.0, 0.0, -0.01), axes, K, scale(body.gravity, b), (0.0, slip * unit, 0.0))
+    assert margin(body, A, 0.3) == pytest.approx(expected, rel=1e-9)

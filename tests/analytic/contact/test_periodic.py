@@ -45,16 +45,17 @@ def test_after_a_period_the_tilt_and_its_rate_are_those_before(mode, mu):
 
 
 @pytest.mark.parametrize(
-    ("coin", "air", "mode", "mu"),
+    ("coin", "air", "slope", "mode", "mu"),
     [
-        ({**THIN, "center_of_mass": [-1e-3, -1e-3, 0.0]}, {}, Mode.SLIDING, 0.0),
-        (THIN, AIR, Mode.SLIDING, 0.0),
-        (THIN, {}, Mode.SLIDING, 0.3),
-        (THIN, {}, Mode.INCIPIENT_SLIP, 0.3),
+        ({**THIN, "center_of_mass": [-1e-3, -1e-3, 0.0]}, {}, 0.0, Mode.SLIDING, 0.0),
+        (THIN, AIR, 0.0, Mode.SLIDING, 0.0),
+        (THIN, {}, 0.0, Mode.SLIDING, 0.3),
+        (THIN, {}, 0.0, Mode.INCIPIENT_SLIP, 0.3),
+        (THIN, {}, 0.1, Mode.STICKING, 0.3),
     ],
 )
-def test_an_unbalanced_coin_air_and_friction_on_slip_repeat_nothing(coin, air, mode, mu):
-    body = scenario(coin=coin, air=air).body
+def test_an_unbalanced_coin_air_friction_on_slip_and_a_slope_repeat_nothing(coin, air, slope, mode, mu):
+    body = scenario(coin=coin, air=air, floor={"slope": slope}).body
     y = wobbling(body, Mode.SLIDING)
     history = start_tilt_history(held(body, FloorFriction(mu), mode, y))
     for k in range(10):
@@ -64,7 +65,13 @@ def test_an_unbalanced_coin_air_and_friction_on_slip_repeat_nothing(coin, air, m
 
 @pytest.mark.parametrize(
     ("rates", "told"),
-    [((1e-9, -1e-12), False), ((1.0, -1e-9), False), ((1.0, 2.0), False), ((1.0, -2.0), True)],
+    [
+        ((1e-9, -1e-12), False),
+        ((1.0, -1e-9), False),
+        ((1.0, 2.0), False),
+        ((1.0, -2.0), True),
+        ((1e-3, -1e-3), True),
+    ],
 )
 def test_a_tilt_that_only_rounding_changes_repeats_nothing(rates, told):
     """An upright thin coin that stands still, or spins on the spot, would fall in the end."""

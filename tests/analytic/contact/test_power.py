@@ -80,7 +80,8 @@ def test_momenta_and_energy_change_by_the_floors_forces_of_the_same_instant(seed
         dy, points = np.empty(13), rims(body, friction, mode, y)
         flow(held(body, friction, mode, y), y, dy)
         R, J, w = np.array(rotation_matrix(tuple(y[6:10]))), np.array(body.inertia), y[10:13]
-        F, weight = sum(F for _, F in points), body.mass * np.array([body.downhill, 0, -body.gravity])
+        F = np.sum([F for _, F in points], axis=0)
+        weight = body.mass * np.array([body.downhill, 0, -body.gravity])
         resistance = moment_of_resistance(body, friction, y, F[2])
         assert body.mass * dy[3:6] - weight == pytest.approx(F, abs=1e-13)
         moment = R @ (J @ dy[10:13] + np.cross(w, J @ w)) - sum(np.cross(A.arm, F) for A, F in points)

@@ -2,6 +2,7 @@
 
 # ruff: noqa: ARG001
 
+from functools import cache
 from operator import attrgetter
 
 import numpy as np
@@ -19,6 +20,8 @@ OFF = {**ZLOTY, "center_of_mass": [1e-3, -2e-3, 3e-4]}
 EDGEWISE = {**ZLOTY, "thickness": 0.03}
 HEADS, TAILS, UPRIGHT = [1, 0, 0, 0], [0, 0.6, 0.8, 0], [0.5**0.5, 0.5**0.5, 0, 0]
 TURNED = [0.8, 0, 0, 0.6]
+
+made, superball = cache(OwnLaw), cache(superball)
 
 
 def pushes_along_the_edge(K, v_A, tau, chi, mu):
@@ -44,7 +47,7 @@ def test_a_coin_rebounds_by_the_law_however_it_lands(coin, quaternion, spin, dis
     release = {"velocity": [0, 0, -2], "quaternion": quaternion, "angular_velocity": spin}
     release["position"] = [0, 0, coin["thickness"] / 2 if spin[0] else 0.3]
     case = scenario(coin=coin, release=release, ending={"test": "lying", "max_impacts": 5})
-    toss = analytic.toss(case, law=OwnLaw(pushes_along_the_edge, **FREE))
+    toss = analytic.toss(case, law=made(pushes_along_the_edge, **FREE))
     before, after = toss.impacts.contact_velocity_before, toss.impacts.contact_velocity_after
     has_edge, bound = (True, 1e-12) if distance == 0.0125 else (False, 1e-14)
     pushed = np.linalg.norm((after - before)[0, :2])
@@ -77,7 +80,7 @@ def test_a_superball_gives_back_parts_of_slip_and_approach_and_no_energy_but_the
     """None of one part of all: its work is -(1 - chi^2)/2 v_A . K^-1 v_A."""
     allowed = {"may_pull": True, "may_add_energy": along != up}
     case = scenario(**parts, ending={"test": "lying", "max_impacts": 12})
-    toss = analytic.toss(case, law=OwnLaw(superball(along, up), **allowed))
+    toss = analytic.toss(case, law=made(superball(along, up), **allowed))
     before, after = toss.impacts.contact_velocity_before, toss.impacts.contact_velocity_after
     assert len(before) >= 3
     assert after == pytest.approx(before * [-along, -along, -up], rel=1e-12, abs=1e-12)
@@ -98,9 +101,9 @@ def test_of_the_scenarios_restitution_only_the_law_makes_use(test, seed):
     rng = np.random.default_rng(seed)
     parts = {"coin": draw_coin(rng), "release": draw_release(rng)}
     case = scenario(**parts, floor={"restitution": 0.8}, ending={"test": str(test), "max_impacts": 3000})
-    known = analytic.toss(case, law=OwnLaw(smooth))
+    known = analytic.toss(case, law=made(smooth))
     for chi in (0.0, 1.0):
-        toss = analytic.toss(case.replace("floor.restitution", chi), law=OwnLaw(gives_back_eight_tenths))
+        toss = analytic.toss(case.replace("floor.restitution", chi), law=made(gives_back_eight_tenths))
         assert np.array_equal(toss.impacts.time, known.impacts.time)
         assert END(toss) == END(known)
     assert known.ending == Ending.CHATTER or test != EndingTest.LYING
