@@ -9,8 +9,8 @@ from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.rim_contact import both_rims
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.barriers import energy
-from tests.helpers.contacts import held, upright_coin
-from tests.helpers.draws import IMPERFECT, scenario
+from tests.helpers.contacts import held, set_upright, upright_coin
+from tests.helpers.draws import IMPERFECT, ZLOTY, scenario
 
 SMOOTH = FloorFriction(0.0)
 
@@ -39,3 +39,12 @@ def test_on_a_smooth_floor_a_coin_keeps_its_energy_and_its_turning_in_every_phas
     assert rate > 10
     assert turning == pytest.approx(L_z, rel=1e-12)
     assert after == pytest.approx(before, rel=1e-12)
+
+
+@pytest.mark.parametrize(("mode", "inertia"), [(Mode.STICKING, 1.5), (Mode.SLIDING, 0.5)])
+def test_on_a_rough_floor_all_energy_may_go_into_the_roll(mode, inertia):
+    """Of a coin with ω = v/r it is 3/4 m v²; the roll inertia in m r² is 3/2 where it sticks."""
+    body, speed, phase = scenario(coin=ZLOTY).body, 0.3, np.empty(13)
+    y = set_upright(ZLOTY, speed, (0.0, 0.0, -speed / body.radius))
+    rate = roll_by(held(body, FloorFriction(0.5), mode, y), False, y, 0.7, phase)
+    assert rate == pytest.approx((1.5 / inertia) ** 0.5 * speed / body.radius, rel=1e-12)
