@@ -167,7 +167,7 @@ for b in (0.2, 0.5, 1.0):
 @pytest.mark.parametrize(("b", "parts", "motion", "expected"), CLOSED.values(), ids=CLOSED)
 def test_motions_in_one_direction_have_closed_forms(b, parts, motion, expected):
     found = pull(coin(b, **parts), motion[:3], motion[3:])
-    assert found == pytest.approx(expected, rel=1e-12, abs=1e-18)
+    assert found == pytest.approx(expected, rel=1e-13, abs=1e-18)
 
 
 def test_a_drag_coefficient_is_that_of_the_broadside_disk():
