@@ -1,102 +1,28 @@
 """No side is preferred: mirror images of tosses are tosses, and one that is its own is certain of no face."""
 
-from itertools import product
-
 import numpy as np
 import pytest
 
-from cointoss import analytic
-from cointoss.compare.engines import Engine
-from cointoss.models.batch import rows_from_states
-from cointoss.models.laws import ContactLaw
+from cointoss import analytic, coin_mj
 from cointoss.models.records import Outcome
-from tests.helpers import engines
-from tests.helpers.draws import AIR, IMPERFECT, THIN, ZLOTY, draw_release, scenario
-from tests.helpers.many import as_states
+from tests.helpers.bits import STOUT, cases
+from tests.helpers.draws import AIR, THIN, ZLOTY, scenario
 from tests.helpers.mirror import SPACE, Mirror
 from tests.helpers.symmetries import SYMMETRIES
 
-COINS = {
-    "thin": THIN,
-    "thick": ZLOTY,
-    "stout": {**ZLOTY, "thickness": 1.2e-2},
-    "imperfect": IMPERFECT,
-    "of any inertia": {
-        **IMPERFECT,
-        "inertia": [[1.1e-7, 6e-9, -3e-9], [6e-9, 9e-8, 4e-9], [-3e-9, 4e-9, 1.6e-7]],
-    },
-}
-FLOORS = {
-    **{str(law): {"contact": str(law)} for law in ContactLaw},
-    "energetic": {"contact": "coulomb", "restitution_kind": "energetic"},
-    "resistance": {"contact": "coulomb", "rolling_friction": 1e-5, "pivoting_friction": 2e-5},
-    "threshold": {"contact": "coulomb", "restitution_threshold": 0.05},
-}
+CASES = cases()
+LINEAR = [name for name, case in CASES.items() if case.air.exponent == 0]
+COINS = {"thin": THIN, "thick": ZLOTY, "stout": STOUT}
 FACES = (Outcome.HEADS, Outcome.TAILS)
 
 
-def parts_of(coin, floor, air):
-    described = {"friction": 0.3, "restitution": 0.5, **FLOORS[floor]}
-    return {"coin": COINS[coin], "floor": described, "air": air, "ending": {"max_time": 10.0}}
-
-
 @pytest.mark.slow_after_first
 @pytest.mark.parametrize("mirror", list(Mirror))
-@pytest.mark.parametrize("floor", FLOORS)
-@pytest.mark.parametrize("count", [2, pytest.param(100, marks=pytest.mark.long)])
-def test_a_mirrored_toss_is_the_same_to_the_bit_and_no_pair_is_certain_of_one_face(count, floor, mirror):
-    rng = np.random.default_rng([51, sorted(FLOORS).index(floor)])
-    ended = set()
-    for coin, air in product(COINS, ({}, AIR)):
-        parts = parts_of(coin, floor, air)
-        drawn = [draw_release(rng) for _ in range(count)]
-        rows, mirrored = (
-            rows_from_states(scenario(**parts | {"coin": shape}), as_states(releases))
-            for shape, releases in (
-                (parts["coin"], drawn),
-                (mirror.coin(parts["coin"]), [mirror.release(one) for one in drawn]),
-            )
-        )
-        here, there = (analytic.toss_rows(each, trust="certain") for each in (rows, mirrored))
-        assert there.end_time.tolist() == here.end_time.tolist()
-        assert there.impacts.tolist() == here.impacts.tolist()
-        assert there.trusted_impacts == pytest.approx(here.trusted_impacts, abs=1)
-        images = [mirror.outcome(Outcome(outcome)) for outcome in here.outcome]
-        assert images == there.outcome.tolist()
-        ended.update(images)
-    assert ended & set(FACES)
-
-
-@pytest.mark.parametrize("mirror", list(Mirror))
-@pytest.mark.parametrize("law", ["smooth", "coulomb", "knurled"])
-def test_the_impacts_of_a_mirrored_toss_are_mirrored_to_the_bit(law, mirror):
-    parts = parts_of("imperfect", law, AIR)
-    parts["release"] = draw_release(np.random.default_rng([3, list(Mirror).index(mirror)]))
-    here, there = (analytic.toss(case) for case in (scenario(**parts), mirror.scenario(**parts)))
-    assert len(here.impacts) > 3
-    for name, signs in {
-        "time": 1,
-        "energy": 1,
-        "impulse": SPACE,
-        "position": SPACE,
-        "velocity_after": SPACE,
-        "contact_velocity_before": SPACE,
-        "point": mirror.body,
-        "angular_velocity_after": -mirror.body,
-    }.items():
-        assert np.array_equal(getattr(there.impacts, name), signs * getattr(here.impacts, name)), name
-    assert there.sequence == mirror.sequence(here.sequence)
-    assert np.array_equal(there.contacts, here.contacts)
-
-
-@pytest.mark.slow_after_first
-@pytest.mark.parametrize("mirror", list(Mirror))
-@pytest.mark.parametrize("exponent", [0.4, 1.0])
-def test_in_air_with_b_above_0_a_mirrored_toss_is_mirrored_to_the_error_of_a_step(exponent, mirror):
+@pytest.mark.parametrize("name", ["thin, air with b = 0.3", "imperfect, air with b = 0.3"])
+def test_in_air_with_b_above_0_a_mirrored_toss_is_mirrored_to_the_error_of_a_step(name, mirror):
     """The friction of the air on the wall is summed in one order around it."""
-    parts = {**parts_of("imperfect", "coulomb", {**AIR, "exponent": exponent}), "ending": {"max_impacts": 3}}
-    parts["release"] = draw_release(np.random.default_rng(4))
-    here, there = (analytic.toss(case) for case in (scenario(**parts), mirror.scenario(**parts)))
+    case = CASES[name].replace("ending.max_impacts", 3)
+    here, there = (analytic.toss(each) for each in (case, mirror.scenario(case)))
     n = min(here.trusted_impacts, there.trusted_impacts)
     assert n == 3
     # Another rounding gives other steps, which err by 1e-13. An impact multiplies that, by a hundred at most.
@@ -109,11 +35,8 @@ def test_in_air_with_b_above_0_a_mirrored_toss_is_mirrored_to_the_error_of_a_ste
 
 @pytest.mark.parametrize("mirror", list(Mirror))
 def test_mujocos_toss_is_mirrored_within_its_error(mirror):
-    parts = {**parts_of("imperfect", "coulomb", AIR), "ending": {"max_impacts": 3}}
-    parts["release"] = draw_release(np.random.default_rng(5))
-    here, there = (
-        engines.toss(Engine.MUJOCO, case) for case in (scenario(**parts), mirror.scenario(**parts))
-    )
+    case = CASES["imperfect, air, coulomb"].replace("ending.max_impacts", 3)
+    here, there = (coin_mj.toss(each) for each in (case, mirror.scenario(case)))
     n = min(here.trusted_impacts, there.trusted_impacts)
     assert n > 0
     # Rounding moves the first step in a contact; see test_conformance_contacts.
@@ -121,23 +44,18 @@ def test_mujocos_toss_is_mirrored_within_its_error(mirror):
     assert there.sequence[:n] == mirror.sequence(here.sequence[:n])
 
 
-@pytest.mark.parametrize("floor", FLOORS)
-def test_a_turned_toss_is_the_same_within_its_certificate(floor):
+@pytest.mark.parametrize("name", LINEAR)
+def test_a_turned_toss_is_the_same_within_its_certificate(name):
     """The time of a trusted impact is good to 1e-7 s."""
-    turn, rng, compared = SYMMETRIES["a turn about the vertical"], np.random.default_rng(6), 0
-    for coin in COINS:
-        parts = parts_of(coin, floor, AIR)
-        release = draw_release(rng)
-        here, there = (
-            analytic.toss(scenario(**parts, release=one)) for one in (release, turn.release(release))
-        )
-        n = min(here.trusted_impacts, there.trusted_impacts)
-        compared += n
-        assert there.impacts.time[:n] == pytest.approx(here.impacts.time[:n], abs=2e-7)
-        assert there.sequence[:n] == here.sequence[:n]
-        if here.outcome_certain and there.outcome_certain:
-            assert there.outcome == here.outcome
-    assert compared > 5
+    case, turn = CASES[name].replace("floor.slope", 0.0), SYMMETRIES["a turn about the vertical"]
+    release = case.as_tables()["release"] | {"quaternion": case.release.attitude}
+    here, there = (analytic.toss(each) for each in (case, case.replace("release", turn.release(release))))
+    n = min(here.trusted_impacts, there.trusted_impacts)
+    assert n >= min(3, here.trusted_impacts)
+    assert there.impacts.time[:n] == pytest.approx(here.impacts.time[:n], abs=2e-7)
+    assert there.sequence[:n] == here.sequence[:n]
+    if here.outcome_certain and there.outcome_certain:
+        assert there.outcome == here.outcome
 
 
 def upright(rng, coin):

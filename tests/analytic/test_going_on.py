@@ -9,12 +9,11 @@ from cointoss import analytic
 from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.going_on import FOLLOWED
 from cointoss.models.attitude import rotation_matrix
-from cointoss.models.batch import rows_of
 from cointoss.models.ending import REST_WAIT
 from cointoss.models.reading import load
 from cointoss.models.records import Ending, Outcome
-from tests.helpers.draws import AIR, ZLOTY, draw_coin, draw_release, scenario
-from tests.helpers.states import assert_same_up_to_the_end, last_state
+from tests.helpers.draws import scenario
+from tests.helpers.states import last_state
 
 g, r, h, mu = 9.81, 1.25e-2, 2e-3, 0.05
 COIN = {"mass": 5e-3, "radius": r, "thickness": h}
@@ -200,42 +199,3 @@ def test_times_beyond_the_path_are_refused():
     toss = lying("3 s", velocity=[0.5, 0, 0])
     with pytest.raises(ValueError, match=r"3.1 s is outside the toss, from 0 to 3.0 s"):
         toss.sample(3.1)
-
-
-def kinds_of_tosses():
-    rng = np.random.default_rng(58)
-    for name in ("fig24a", "fig2", "fig12_imperfect", "contact_coulomb", "contact_smooth", "zloty", "table"):
-        yield load(name)
-    for law in ("smooth", "coulomb", "perfectly_rough", "sharp_edge"):
-        for air in ({}, AIR):
-            yield scenario(
-                coin={**ZLOTY, **draw_coin(rng)},
-                air=air,
-                floor={"contact": law, "friction": 0.3, "restitution": 0.4},
-                release=draw_release(rng),
-                ending={"max_impacts": 300},
-            )
-
-
-def test_a_toss_and_its_path_up_to_the_end_stay_the_same_to_the_bit():
-    longer = 0
-    for case in kinds_of_tosses():
-        toss = analytic.toss(case)
-        followed = analytic.toss(case.replace("ending.until", toss.end_time + 0.5))
-        longer += followed.path_end > toss.end_time
-        assert toss.later_times.size == 0
-        assert toss.path_end == toss.end_time
-        assert_same_up_to_the_end(toss, followed, 400)
-    assert longer > 8
-
-
-def test_batches_do_not_depend_on_it():
-    case = load("fig24a")
-    plain, followed = (
-        analytic.toss_rows(
-            rows_of(each, 20, {"release.position.z": np.linspace(0.3, 0.5, 20)}), trust="certain"
-        )
-        for each in (case, case.replace("ending.until", 9))
-    )
-    for name, column in plain._asdict().items():
-        assert np.array_equal(column, getattr(followed, name)), name

@@ -10,7 +10,7 @@ from cointoss.models.ending import REST_WAIT
 from cointoss.models.reading import load
 from cointoss.models.records import Ending, Outcome
 from tests.helpers.draws import scenario
-from tests.helpers.states import assert_same_up_to_the_end, last_state
+from tests.helpers.states import last_state
 
 g, r, h, mu = 9.81, 1.25e-2, 2e-3, 0.05
 COIN = {"mass": 5e-3, "radius": r, "thickness": h}
@@ -68,13 +68,3 @@ def test_a_caught_coin_stays_in_the_hand():
     assert toss.ending == Ending.CAUGHT
     states = toss.sample([toss.end_time, 1.0, 2])
     assert np.ptp(states.position, axis=0).max() < 1e-15
-
-
-@pytest.mark.slow
-def test_a_toss_and_its_path_up_to_the_end_stay_the_same_to_the_bit():
-    for name in ("fig24a", "fig2", "contact_smooth", "table"):
-        case = load(name)
-        toss = coin_mj.toss(case)
-        followed = coin_mj.toss(case.replace("ending.until", toss.end_time + 0.3))
-        assert followed.path_end > toss.end_time
-        assert_same_up_to_the_end(toss, followed, 300)

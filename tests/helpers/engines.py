@@ -15,12 +15,6 @@ def toss(engine: Engine, case: Scenario) -> Toss:
         return engine.package.toss(case)
 
 
-def toss_as_many(engine: Engine, case: Scenario) -> Toss:
-    """Return one toss, with the engine's settings for many."""
-    with warnings.catch_warnings(action="ignore", category=ApproximationWarning):
-        return engine.package.toss(case, settings=engine.package.MANY)
-
-
 def toss_many(engine: Engine, case: Scenario, states: Array) -> Answers:
     """Return the tosses of a scenario from many states, (n, 13), with the engine's settings for many."""
     with warnings.catch_warnings(action="ignore", category=ApproximationWarning):

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from cointoss.models.answers import Answers, names_of
+from cointoss.models.answers import Answers
 from cointoss.models.records import Array, Toss
 from tests.helpers.draws import draw_release
 
@@ -44,9 +44,3 @@ def assert_same_toss(answers: Answers, i: int, tossed: Toss) -> None:
     assert answers.impacts[i] == len(faces)
     assert answers.end_time[i] == tossed.end_time
     assert answers.last_face[i] == (faces[-1] if len(faces) else 0)
-
-
-def assert_same_answers(a: Answers, b: Answers) -> None:
-    """Check that the answers of tosses are these, to the bit."""
-    for name in names_of(None):
-        assert np.array_equal(getattr(a, name), getattr(b, name)), name

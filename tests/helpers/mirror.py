@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from cointoss.models.records import Outcome
-from tests.helpers.draws import scenario
+from cointoss.models.scenario import Scenario
 
 SPACE = np.array([1.0, -1.0, 1.0])
 """What becomes of the components of a vector in space."""
@@ -29,6 +29,15 @@ class Mirror(Enum):
     def body(self) -> np.ndarray:
         """What becomes of the components of a vector in the body."""
         return np.array(self.value)
+
+    @property
+    def signs(self) -> dict[str, Any]:
+        """What becomes of columns of impacts."""
+        in_space = ("impulse", "position", "velocity_before", "velocity_after", "contact_velocity_before")
+        turning = ("angular_velocity_before", "angular_velocity_after")
+        # An angular velocity is an axial vector: det M = -1.
+        of_body = {"point": self.body} | dict.fromkeys(turning, -self.body)
+        return dict.fromkeys(in_space, SPACE) | of_body | {"time": 1, "energy": 1, "energy_change": 1}
 
     def outcome(self, outcome: Outcome) -> Outcome:
         """Return what becomes of an outcome."""
@@ -59,7 +68,8 @@ class Mirror(Enum):
             "angular_velocity": (-self.body * release["angular_velocity"]).tolist(),
         }
 
-    def scenario(self, **parts: Any) -> Any:
-        """Return the mirror image of a scenario made of these parts, as `scenario` makes them."""
-        parts["coin"], parts["release"] = self.coin(parts["coin"]), self.release(parts["release"])
-        return scenario(**parts)
+    def scenario(self, case: Scenario) -> Scenario:
+        """Return the mirror image of a scenario."""
+        parts = case.as_tables()
+        release = parts["release"] | {"quaternion": case.release.attitude}
+        return Scenario.checked(parts | {"coin": self.coin(parts["coin"]), "release": self.release(release)})

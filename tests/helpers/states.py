@@ -26,23 +26,3 @@ def last_state(toss: Toss) -> tuple[Array, Array, Array]:
     """Return position, velocity and angular velocity at the end of a toss's path, (3,) each."""
     end = toss.sample(toss.path_end)
     return end.position[0], end.velocity[0], end.angular_velocity[0]
-
-
-def assert_same_up_to_the_end(toss: Toss, followed: Toss, times: int) -> None:
-    """Check that a toss followed past its end is the other up to there, to the bit, at so many times."""
-    for name in (
-        "outcome",
-        "ending",
-        "end_time",
-        "outcome_certain",
-        "trusted_impacts",
-        "trust_end",
-        "certificate",
-    ):
-        assert getattr(toss, name) == getattr(followed, name), name
-    before = np.linspace(0, toss.end_time, times)[:-1]
-    pairs = [(toss.impacts, followed.impacts), (toss.sample(before), followed.sample(before))]
-    for one, other in pairs:
-        for name in vars(one):
-            assert np.array_equal(getattr(one, name), getattr(other, name)), name
-    assert np.array_equal(toss.contacts, followed.contacts)
