@@ -20,7 +20,7 @@ RESISTANCE = {"rolling_friction": 1e-5, "pivoting_friction": 2e-5}
 CONTOUR = {"contour_friction": 1e-3, "contour_viscosity": 1e-6}
 BY_SPEED = {"restitution_exponent": 0.25, "restitution_viscous": 0.1}
 OTHER_AIR, SQUARE_AIR = {**AIR, "exponent": 0.3}, {**AIR, "exponent": 1.0}
-SHORT, ONE, LONG = {"max_time": 3.0, "max_impacts": 60}, {"max_impacts": 1}, {"max_time": 2.0}
+SHORT, ONE, LONG = {"max_time": 3.0, "max_impacts": 200}, {"max_impacts": 1}, {"max_time": 2.0}
 SITUATIONS: dict[str, tuple[Any, dict[str, Any], dict[str, Any], dict[str, Any]]] = {
     "smooth": (ZLOTY, {"contact": "smooth"}, {}, SHORT),
     "coulomb": (ZLOTY, {"contact": "coulomb"}, {}, SHORT),
@@ -47,7 +47,7 @@ SITUATIONS: dict[str, tuple[Any, dict[str, Any], dict[str, Any], dict[str, Any]]
     "of any inertia": (GENERAL, {"contact": "coulomb"}, AIR, SHORT),
     "energetic": (ZLOTY, {"contact": "coulomb", "restitution_kind": "energetic"}, {}, SHORT),
     "threshold": (IMPERFECT, {"contact": "coulomb", "restitution_threshold": 0.05}, AIR, SHORT),
-    "by speed": (IMPERFECT, {"contact": "coulomb", **BY_SPEED}, AIR, SHORT),
+    "by speed": (IMPERFECT, {"contact": "coulomb", **BY_SPEED}, AIR, {"max_impacts": 120}),
     "slope": (IMPERFECT, {"contact": "coulomb", "slope": 0.2}, AIR, SHORT),
     "contact, coulomb": (IMPERFECT, {"contact": "coulomb", "restitution": 0.0}, {}, LONG),
     "contact, coulomb, resistance": (IMPERFECT, {"contact": "coulomb", **RESISTANCE}, {}, LONG),

@@ -19,12 +19,24 @@ class Result(IntEnum):
 
 
 DONE = Result.CUDA_SUCCESS
-_ATTRIBUTES = {
-    "MULTIPROCESSOR_COUNT": 1,
-    "KERNEL_EXEC_TIMEOUT": 0,
-    "CLOCK_RATE": 1,
-    "COMPUTE_CAPABILITY_MINOR": 0,
+ANSWERS = {
+    "cuInit": (),
+    "cuDeviceGet": (0,),
+    "cuDeviceGetName": (b"NVIDIA Stand-in\0\0",),
+    "cuDevicePrimaryCtxRetain": ("context",),
+    "cuCtxSetCurrent": (),
+    "cuCtxSetLimit": (),
+    "cuModuleGetFunction": (b"queue",),
+    "cuOccupancyMaxActiveBlocksPerMultiprocessor": (1,),
 }
+"""What it answers whatever it is told."""
+KINDS = (
+    "MULTIPROCESSOR_COUNT",
+    "KERNEL_EXEC_TIMEOUT",
+    "CLOCK_RATE",
+    "COMPUTE_CAPABILITY_MAJOR",
+    "COMPUTE_CAPABILITY_MINOR",
+)
 
 
 class Driver:
@@ -33,54 +45,31 @@ class Driver:
     CUresult = Result
     CUlimit = SimpleNamespace(CU_LIMIT_STACK_SIZE=0)
     CUjit_option = SimpleNamespace(CU_JIT_MAX_REGISTERS=0)
-    CUdevice_attribute = SimpleNamespace(
-        **{f"CU_DEVICE_ATTRIBUTE_{name}": name for name in (*_ATTRIBUTES, "COMPUTE_CAPABILITY_MAJOR")}
-    )
+    CUdevice_attribute = SimpleNamespace(**{f"CU_DEVICE_ATTRIBUTE_{name}": name for name in KINDS})
 
     def __init__(
-        self, queue: BuiltQueue, *, cards: int = 1, free: int = 1 << 34, capability: int = 9
+        self, queue: BuiltQueue, *, cards: int = 1, free: int = 1 << 34, capability: int = 9, watched: int = 0
     ) -> None:
         self.queue = ctypes.CDLL(str(queue.library)).queue
         self.queue.argtypes = [ctypes.c_void_p, ctypes.c_int64]
         self.cards, self.free = cards, free
-        self.attributes = {**_ATTRIBUTES, "COMPUTE_CAPABILITY_MAJOR": capability}
+        self.attributes = dict(zip(KINDS, (1, watched, 1, capability, 0), strict=True))
         self.launches, self.polls, self.fails = 0, 0, DONE
         self.memory: dict[int, Any] = {}
         self.loaded: list[tuple[Any, ...]] = []
 
-    def cuInit(self, _: int) -> Any:
-        return (DONE,)
+    def __getattr__(self, name: str) -> Any:
+        return lambda *_: (DONE, *ANSWERS[name])
 
     def cuDeviceGetCount(self) -> Any:
         return DONE, self.cards
 
-    def cuDeviceGet(self, number: int) -> Any:
-        return DONE, number
-
-    def cuDeviceGetName(self, _length: int, _device: int) -> Any:
-        return DONE, b"NVIDIA Stand-in\0\0"
-
-    def cuDevicePrimaryCtxRetain(self, _: int) -> Any:
-        return DONE, "context"
-
     def cuDeviceGetAttribute(self, name: str, _device: int) -> Any:
         return DONE, self.attributes[name]
-
-    def cuCtxSetCurrent(self, _: str) -> Any:
-        return (DONE,)
-
-    def cuCtxSetLimit(self, *_: int) -> Any:
-        return (DONE,)
 
     def cuModuleLoadDataEx(self, *given: Any) -> Any:
         self.loaded.append(given)
         return DONE, "module"
-
-    def cuModuleGetFunction(self, _module: str, name: bytes) -> Any:
-        return DONE, name
-
-    def cuOccupancyMaxActiveBlocksPerMultiprocessor(self, *_: Any) -> Any:
-        return DONE, 1
 
     def cuMemGetInfo(self) -> Any:
         return DONE, self.free, self.free

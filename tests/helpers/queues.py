@@ -1,21 +1,12 @@
 """The queue of an entry's rows, as cards run it, built for this processor."""
 
-import ctypes
 import subprocess
 import sys
 import tempfile
-import threading
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
-from cointoss.models.kernel.arrays import Array
-from cointoss.models.kernel.cuda import QueueJob
 from tests.helpers.command_line import HERE
-
-LARGEST = 1 << 62
 
 
 @dataclass(frozen=True)
@@ -36,42 +27,6 @@ def queue_of(module: str, folder: Path) -> BuiltQueue:
     """Build the queue of a table's entry, in a process of its own."""
     subprocess.run([sys.executable, "-m", __name__, module, str(folder)], check=True, env=HERE)
     return BuiltQueue(folder / "queue.so", (folder / "queue.ptx").read_text())
-
-
-def work(
-    queue: BuiltQueue,
-    numbers: NDArray[np.int64],
-    rows: Array,
-    answers: Array,
-    *,
-    space: int,
-    threads: int = 2,
-    closes_after: int = LARGEST,
-) -> int:
-    """Have threads work on rows, as those of a `GraphicsCard` do; return the number that they have taken."""
-    answers.view(np.int8)[:] = -1
-    spaces = np.zeros((threads, space // 8), np.int64)
-    job = QueueJob(
-        there=len(rows),
-        next=0,
-        rows=rows.ctypes.data,
-        row_size=rows[0].nbytes,
-        answers=answers.ctypes.data,
-        answer_size=answers[0].nbytes,
-        spaces=spaces.ctypes.data,
-        space_size=space,
-        takes_for=LARGEST,
-        closes_after=closes_after,
-        given=len(numbers),
-    ).with_numbers(numbers)
-    run = ctypes.CDLL(str(queue.library)).queue
-    run.argtypes = [ctypes.c_void_p, ctypes.c_int64]
-    working = [threading.Thread(target=run, args=(job.ctypes.data, number)) for number in range(threads)]
-    for thread in working:
-        thread.start()
-    for thread in working:
-        thread.join()
-    return int(job[1])
 
 
 def main(module: str, out: str) -> None:
