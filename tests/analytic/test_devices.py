@@ -4,21 +4,34 @@ import numpy as np
 import pytest
 
 from cointoss import analytic, coin_mj
-from cointoss.models.batch import rows_from_states, rows_of
+from cointoss.models.batch import rows_of
 from cointoss.models.devices import DeviceError, DeviceWarning
 from cointoss.models.processor import LEAST_TOSSES, Processor, usual
 from cointoss.models.records import UnsupportedError
+from tests.helpers.bits import GENERAL
 from tests.helpers.cards import with_card, without_card
 from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, scenario
-from tests.helpers.many import draw_states
 from tests.helpers.own_laws import smooth
 
 COUNT = 20
+OTHER_AIR, LAW = {**AIR, "exponent": 0.5}, analytic.OwnLaw(smooth)
+OF_INERTIA = {**ZLOTY, "inertia": GENERAL["inertia"]}
+TOSSES = {
+    "few": (ZLOTY, AIR, None, 0, False),
+    "many": (ZLOTY, AIR, None, LEAST_TOSSES, True),
+    "in air with b above 0": (ZLOTY, OTHER_AIR, None, LEAST_TOSSES, False),
+    "in no air": (ZLOTY, {"exponent": 0.5}, None, LEAST_TOSSES, True),
+    "of an unbalanced coin": (IMPERFECT, AIR, None, LEAST_TOSSES, False),
+    "of a coin of another inertia": (OF_INERTIA, AIR, None, LEAST_TOSSES, False),
+    "by a law of one's own": (ZLOTY, AIR, LAW, LEAST_TOSSES, False),
+}
+"""Coin, air, law, tosses that are expected, and whether `auto` takes a card."""
 
 
-def rows_in(air=AIR, count=COUNT):
-    case = scenario(air=air, ending={"max_impacts": 3})
-    return rows_from_states(case, draw_states(np.random.default_rng(7), count)[1])
+def rows_in(air=AIR, coin=ZLOTY, count=COUNT):
+    heights = np.linspace(0.2, 0.6, count)
+    case = scenario(coin=coin, air=air, ending={"max_impacts": 3}, release={"angular_velocity": [3, 30, 5]})
+    return rows_of(case, count, {"release.position.z": heights})
 
 
 def same(found, due):
@@ -37,44 +50,27 @@ def test_a_card_and_what_it_hands_over_have_the_bits_of_the_cpu(monkeypatch, tru
     assert processor.card == "Stand-in"
 
 
-def test_auto_tosses_few_rows_and_what_no_card_can_on_the_cpu(monkeypatch):
-    rows, card = rows_in(), with_card(monkeypatch)
-    analytic.toss_rows(rows, device="auto")
-    assert not card.given
-    for air, is_tossed in (({**AIR, "exponent": 0.5}, False), ({"exponent": 0.5}, True), (AIR, True)):
-        card.given.clear()
-        processor = Processor("auto")
-        processor.expect(LEAST_TOSSES)
-        few = rows_in(air, 3)
-        assert same(analytic.toss_rows(few, device=processor), analytic.toss_rows(few))
-        assert bool(card.given) == is_tossed
-
-
-def test_auto_tosses_coins_that_are_not_homogeneous_on_the_cpu(monkeypatch):
-    card = with_card(monkeypatch)
-    for shape, is_tossed in ((IMPERFECT, False), (ZLOTY, True)):
-        case = scenario(coin=shape, air=AIR, ending={"max_impacts": 1})
-        processor = Processor("auto")
-        processor.expect(LEAST_TOSSES)
-        analytic.toss_rows(rows_of(case, 2), device=processor)
-        assert bool(card.given) == is_tossed
-
-
-def test_what_no_card_tosses_is_refused_by_name(monkeypatch):
-    card = with_card(monkeypatch)
-    with pytest.raises(UnsupportedError, match=r"^air.exponent = 0.5: accepted with `device` cuda: 0;"):
-        analytic.toss_rows(np.vstack([rows_in(), rows_in({**AIR, "exponent": 0.5})]), device="cuda")
-    with pytest.raises(UnsupportedError, match=r"^`device` cuda: accepted by the MuJoCo engine: cpu, auto$"):
-        coin_mj.toss_rows(rows_in(), device="cuda")
-    assert not card.given
-
-
-def test_a_law_of_ones_own_is_tossed_by_the_cpu(monkeypatch):
-    card, law, rows, processor = with_card(monkeypatch), analytic.OwnLaw(smooth), rows_in(), Processor("auto")
-    with pytest.raises(UnsupportedError, match=r"^law: given, accepted: none with `device` cuda;"):
-        analytic.toss_rows(rows, law=law, device="cuda")
-    processor.expect(LEAST_TOSSES)
+@pytest.mark.parametrize("name", TOSSES)
+def test_auto_takes_a_card_for_many_tosses_that_are_faster_there(monkeypatch, name):
+    coin, air, law, expected, is_taken = TOSSES[name]
+    rows, card, processor = rows_in(air, coin, 3), with_card(monkeypatch), Processor("auto")
+    processor.expect(expected)
     assert same(analytic.toss_rows(rows, law=law, device=processor), analytic.toss_rows(rows, law=law))
+    assert bool(card.given) == is_taken
+
+
+REFUSED = {
+    "air": (analytic, None, r"^air.exponent = 0.5: accepted with `device` cuda: 0;"),
+    "law": (analytic, LAW, r"^law: given, accepted: none with `device` cuda;"),
+    "engine": (coin_mj, None, r"^`device` cuda: accepted by the MuJoCo engine: cpu, auto$"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_no_card_tosses_is_refused_by_name(monkeypatch, name):
+    card, (package, law, words) = with_card(monkeypatch), REFUSED[name]
+    with pytest.raises(UnsupportedError, match=words):
+        package.toss_rows(np.vstack([rows_in(), rows_in(OTHER_AIR)]), law=law, device="cuda")
     assert not card.given
 
 
@@ -94,14 +90,13 @@ def test_where_a_card_is_lost_auto_goes_on_by_the_cpu(monkeypatch, calls):
 
 
 def test_where_a_card_is_lost_or_missing_cuda_ends(monkeypatch):
-    rows = rows_in()
     with_card(monkeypatch, calls=0)
     with pytest.raises(DeviceError, match=r"^`device` cuda: the card was lost; accepted: cpu, auto$"):
-        analytic.toss_rows(rows, device="cuda")
+        analytic.toss_rows(rows_in(), device="cuda")
     without_card(monkeypatch)
     with pytest.raises(DeviceError, match="no NVIDIA driver was found"):
-        analytic.toss_rows(rows, device="cuda")
-    assert same(analytic.toss_rows(rows, device="auto"), analytic.toss_rows(rows))
+        analytic.toss_rows(rows_in(), device="cuda")
+    assert same(analytic.toss_rows(rows_in(), device="auto"), analytic.toss_rows(rows_in()))
 
 
 def test_a_usual_processor_tosses_where_no_device_is_named(monkeypatch):
