@@ -6,14 +6,14 @@ import pytest
 from cointoss import analytic
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.records import Ending, Outcome
+from tests.helpers.bits import cases
 from tests.helpers.draws import AIR, PAPER_LAWS, THIN, ZLOTY, draw_coin, draw_release, scenario
 from tests.helpers.referee import Referee
-from tests.helpers.states import gaps
+from tests.helpers.states import energies, gaps
 
 
 @pytest.mark.slow_after_first
-@pytest.mark.parametrize("b", [0.5, 1.0])
-@pytest.mark.parametrize("thickness", [0.0, 2e-3])
+@pytest.mark.parametrize(("b", "thickness"), [(0.5, 0.0), (1.0, 2e-3)])
 def test_impacts_in_air_of_any_exponent_are_those_of_an_independent_integration(b, thickness):
     """The air is thick enough to move the last impact by far more than the tolerance."""
     rng = np.random.default_rng([5, int(10 * b), int(1e4 * thickness)])
@@ -94,15 +94,12 @@ def test_a_coin_that_rattles_between_two_rim_points_lies():
     assert gaps(tossed.scenario.body, tossed.impacts).min() > -1e-12 * 1.25e-2
 
 
-@pytest.mark.usefixtures("without_horizon")
-def test_the_first_contact_is_the_first():
-    rng = np.random.default_rng(22)
-    for _ in range(30):
-        case = scenario(coin=draw_coin(rng), release=draw_release(rng, spin=300), ending={"max_impacts": 3})
-        tossed, body = analytic.toss(case), case.body
-        for start, end in zip(tossed.impacts.time[:-1], tossed.impacts.time[1:], strict=True):
-            inside = start + (end - start) * np.linspace(1e-6, 1 - 1e-6, 2000)
-            assert gaps(body, tossed.sample(inside)).min() > 0
+@pytest.mark.parametrize("name", ["coulomb", "imperfect, air, smooth", "stout"])
+def test_the_energy_at_the_end_is_that_of_the_last_state(name):
+    tossed = analytic.toss(cases()[name])
+    said = {line.name: line.value for line in tossed.certificate}
+    last = energies(tossed.scenario, tossed.sample([tossed.end_time]))
+    assert [said["energy at the end"]] == pytest.approx(last, rel=1e-9)
 
 
 @pytest.mark.parametrize("angular_velocity", [[0, 0, 0], [0, 0, 30.0]])

@@ -12,6 +12,7 @@ from cointoss.analytic.runs import horizon_of, run
 from cointoss.analytic.settings import MANY, AnalyticSettings
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.records import Ending, Outcome
+from tests.helpers.bits import cases
 from tests.helpers.corpus import draw_toss
 from tests.helpers.draws import AIR, ZLOTY, scenario
 
@@ -73,13 +74,21 @@ def test_a_coin_that_lands_between_two_outcomes_is_not_certain(tie):
 def test_of_random_tosses_another_outcome_is_found_in_no_time(tolerance):
     """Where rounding alone decides, the toss made again from its last trusted impact ends otherwise."""
     rng, found, settings = np.random.default_rng(7), [], AnalyticSettings(contact_tolerance=tolerance)
-    for number in range(150):
+    for number in range(60):
         case = draw_toss(rng, imperfect=number % 2 == 1)
         tossed = analytic.toss(case, settings=settings)
         found.append(tossed.other_outcome)
         assert tossed.other_outcome is None or not tossed.outcome_certain
         assert tossed.other_outcome is None or tossed.other_outcome.outcome != tossed.outcome
     assert any(found)
+
+
+def test_another_outcome_is_another_one():
+    """Of a toss whose neighbours differ from it in their touches alone there is none."""
+    tosses = [analytic.toss(case) for case in cases().values() if case.air.exponent == 0]
+    assert sum(toss.outcome_certain is False for toss in tosses if toss.outcome != Outcome.UNDECIDED) > 1
+    for toss in tosses:
+        assert toss.other_outcome is None or toss.other_outcome.outcome != toss.outcome
 
 
 ROUNDING_DECIDES = {

@@ -94,8 +94,8 @@ def test_where_air_takes_quadratures_the_growth_is_known_as_well(exponent):
     air = {"normal": 2.0, "tangential": 0.5, "exponent": exponent}
     case = scenario(coin=coin, air=air, release=draw_release(np.random.default_rng(41)))
     start = state_at_release(case.release)
-    assert max(strayed(case, start, 0.2, FINE)) < 1e-4
-    assert max(strayed(case, start, 0.2, COARSE)) < 3 * COARSE
+    assert max(strayed(case, start, 0.05, FINE)) < 1e-4
+    assert max(strayed(case, start, 0.05, COARSE)) < 3 * COARSE
 
 
 def test_the_tangent_map_of_a_coin_that_does_not_turn_is_a_fall():
