@@ -106,7 +106,7 @@ def by_numbers(engine, name):
     toss_one(row, answer, impacts, pieces, sizes)
     # In a hand a page's force is the hand's.
     end = followed.end_time if followed.ending == Ending.CAUGHT else followed.path_end
-    times = np.linspace(0, end, 40)[:-1]
+    times = np.sort(np.append(np.linspace(0, end, 40)[:-1], followed.contacts[:, 0]))
     states, more = np.empty((len(times), 13)), np.empty((len(times), 4))
     sample_path(row, pieces[: int(sizes[1])].copy(), times, states, more)
     struck, started = followed.impacts, followed.path.started
@@ -121,6 +121,7 @@ def by_numbers(engine, name):
 def followed_on(engine, name):
     """Compare a toss that is followed on with the toss: what is said of it, and its path up to its end."""
     tosses = toss_of(engine, name), toss_of(engine, name, LATER)
+    assert not np.isin(tosses[1].later_times, tosses[1].later.contacts).any(), "a lift-off is no bounce"
     before = np.linspace(0, tosses[0].end_time, 60)[:-1]
     return [
         [answer_of(toss), toss.trust_end, toss.certificate, toss.contacts.tolist()]
