@@ -12,6 +12,7 @@ from cointoss.models.attitude import rotation_matrix
 from cointoss.models.ending import REST_WAIT
 from cointoss.models.reading import load
 from cointoss.models.records import Ending, Outcome
+from tests.helpers.bits import cases
 from tests.helpers.draws import scenario
 from tests.helpers.states import last_state
 
@@ -155,6 +156,13 @@ def test_a_coin_on_a_smooth_floor_in_air_bounces_and_wobbles_on():
     assert after.max() < 2 * toss.scenario.coin.radius
     # It has bounced low ever since, and wobbles in contact at the end.
     assert toss.later.contacts[-1, 1] == 3
+
+
+def test_where_a_coin_lifts_off_it_does_not_bounce():
+    toss = analytic.toss(cases()["smooth"].replace("ending.until", 0.85))
+    lifts_off = toss.later.contacts[:, 1]
+    assert (lifts_off < toss.path_end).sum() > 0
+    assert not np.isin(toss.later_times, lifts_off).any()
 
 
 def test_a_coin_that_never_rests_is_followed_for_a_named_time():

@@ -30,7 +30,7 @@ ANSWERS = {
     "cuOccupancyMaxActiveBlocksPerMultiprocessor": (1,),
 }
 """What it answers whatever it is told."""
-KINDS = (
+KINDS: tuple[str, ...] = (
     "MULTIPROCESSOR_COUNT",
     "KERNEL_EXEC_TIMEOUT",
     "CLOCK_RATE",

@@ -88,20 +88,6 @@ def test_samples_are_states_of_the_flight(air):
         assert closed[:, 10:] == pytest.approx(integrated[:, 10:], abs=1e-10)
 
 
-def test_a_coin_at_rest_sinks_through_air_as_its_drag_says():
-    """It keeps its attitude; edge-on it falls as v = (g m/c_t)(1 - exp(-c_t t/m)), broadside with c_n."""
-    for angle, across in ((np.pi / 2, False), (0.0, True)):
-        case = scenario(air=STRONG_AIR, release={"position": [0, 0, 5.0], "angles": [0.4, angle, 0.0]})
-        body, times, states = case.body, np.linspace(0, 0.5, 20), np.empty((20, 13))
-        rate = (body.drag.force_normal if across else body.drag.force_tangential) / body.mass
-        sample(body, state_at_release(case.release), 0.0, times, states)
-        speed = body.gravity / rate * -np.expm1(-rate * times)
-        assert rate * 0.5 > 1, "the air should matter"
-        assert states[:, 5] == pytest.approx(-speed, abs=1e-13)
-        assert states[:, 2] == pytest.approx(5 - (body.gravity * times - speed) / rate, abs=1e-13)
-        assert np.all(states[:, 6:10] == states[0, 6:10])
-
-
 def test_thin_air_is_nearly_none():
     """The change is of first order in λ, whichever of the two forms a flight has."""
     release = draw_release(np.random.default_rng(63))

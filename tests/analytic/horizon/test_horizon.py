@@ -142,17 +142,6 @@ def test_as_many_impacts_are_trusted_in_every_unit(name):
     assert trusted.pop() > 2
 
 
-def test_larger_errors_shorten_the_horizon():
-    case = draw_toss(np.random.default_rng(53), 4)
-    toss = run(case.body, case.rules, state_at_release(case.release))
-    trusted = [
-        horizon_of(case.body, case.rules, toss, ErrorsMade(1e-15 * factor, 3e-15 * factor)).impacts
-        for factor in (1, 1e2, 1e4, 1e8)
-    ]
-    assert trusted == sorted(trusted, reverse=True)
-    assert trusted[0] > trusted[1] > trusted[2] > trusted[3] >= 0
-
-
 def test_a_coin_kept_flat_by_symmetry_is_trusted_to_its_end():
     """Rounding keeps its zeros; tilted in the last digit the coin isn't trusted to land on one point."""
     for spin in (0.0, 30.0):
