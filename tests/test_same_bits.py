@@ -171,19 +171,19 @@ WAYS = {
 BY_ALL = ("one after the other", "mixed, by three threads", "followed on", "at any times")
 LINEAR_ALONE = ("by the entry of cards", "mirrored in eta", "mirrored in zeta")
 """Ways for air that is linear in the velocity."""
-USUAL = ("analytic", "analytic, coarse", "mujoco, spring, explicit")
+USUAL = ("analytic, coarse", "mujoco, spring, explicit")
 
 
 def marks_of(way, engine, name):
-    """Mark what takes long: further settings of MuJoCo, and the quadratures of other air but once."""
-    is_usual = engine in USUAL and (CASES[name].air.exponent == 0 or way == "one after the other")
-    return [] if is_usual else pytest.mark.slow
+    """Mark what takes long: MuJoCo's settings, its paths and coarse ones, quadratures but once."""
+    is_dear = way in ("followed on", "at any times") if engine in USUAL else engine != "analytic"
+    return pytest.mark.slow if is_dear or (CASES[name].air.exponent and way != "one after the other") else []
 
 
 TABLE = [
     pytest.param(way, engine, name, marks=marks_of(way, engine, name))
     for engine in ENGINES
-    for way in (WAYS if engine == "analytic" else BY_ALL)
+    for way in (WAYS if engine == "analytic" else BY_ALL if engine in USUAL else BY_ALL[:1])
     for name in TOSSED[engine]
     if way not in LINEAR_ALONE or CASES[name].air.exponent == 0
 ]

@@ -68,22 +68,6 @@ def test_an_energetic_impact_gives_back_the_square_of_its_restitution_of_the_wor
     assert impact["contact_velocity_after"][2] == pytest.approx(1.5 * 0.5 * 1.5**-0.25, rel=1e-9)
 
 
-@pytest.mark.parametrize("tilt", [1e-3, 0.3, 1.2])
-@pytest.mark.parametrize("speed", [0.08, 1.5])
-def test_a_planar_smooth_impact_has_the_derivatives_of_its_closed_form(tilt, speed):
-    """S_z = (1 + χ(v)) v/K, v = -v_Az, so that dS_z/dv_z = -(1 + (1 - p) χ(v))/K by the power law."""
-    case = scenario(coin=ZLOTY, floor=POWER)
-    body, w = case.body, 7.0
-    x = body.thickness / 2 * np.sin(tilt) - body.radius * np.cos(tilt)
-    v_z = -speed - w * x
-    y = np.array([0, 0, 0.01, 0.3, 0.2, v_z, np.cos(tilt / 2), np.sin(tilt / 2), 0, 0, w, 0, 0])
-    touch = touch_derivatives(body, case.rules, y)
-    K, chi = 1 / body.mass + x * x / body.inertia[0][0], 0.5 * speed**-0.25
-    assert touch.closing == pytest.approx(-speed)
-    assert touch.impulse[2, 5] == pytest.approx(-(1 + 0.75 * chi) / K, rel=1e-6)
-    assert touch.impulse[2, 10] == pytest.approx(-(1 + 0.75 * chi) * x / K, rel=1e-6)
-
-
 @pytest.mark.parametrize("floor", [POWER, VISCOUS, BOTH])
 @pytest.mark.parametrize("contact", ["smooth", "coulomb", "knurled"])
 def test_the_derivatives_of_an_impact_are_its_differences(floor, contact):

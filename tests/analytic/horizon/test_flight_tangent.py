@@ -98,21 +98,6 @@ def test_where_air_takes_quadratures_the_growth_is_known_as_well(exponent):
     assert max(strayed(case, start, 0.05, COARSE)) < 3 * COARSE
 
 
-def test_the_tangent_map_of_a_coin_that_does_not_turn_is_a_fall():
-    """A change of velocity grows with time, one of the place stays, one of the spin turns the coin."""
-    case = scenario(release={"angles": [0.3, 0.7, 0.2], "velocity": [0.1, 0.2, 0.3]})
-    start, duration = state_at_release(case.release), 0.25
-    tangent = tangent_of(case, start, duration)
-    expected = np.eye(6)
-    expected[:3, 3:] = duration * np.eye(3)
-    assert tangent[:6, :6] == pytest.approx(expected, abs=1e-14)
-    assert tangent[:6, 6:] == pytest.approx(np.zeros((6, 7)), abs=1e-14)
-    assert tangent[10:, 10:] == pytest.approx(np.eye(3), abs=1e-14)
-    a, b, c, d = start[6:10]
-    turn = np.array([[-b, -c, -d], [a, -d, c], [d, a, -b], [-c, b, a]]) / 2
-    assert tangent[6:10, 10:] == pytest.approx(duration * turn, abs=1e-14)
-
-
 @pytest.mark.parametrize("air", [{}, AIR])
 def test_a_flight_shrinks_volumes_as_the_air_s_drag_says(air):
     """Liouville: without air volumes of states are kept; with b = 0 they shrink by the drag's trace."""
