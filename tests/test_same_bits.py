@@ -32,14 +32,22 @@ ENGINES = {
     for contact, friction in product(Realisation, Friction)
 }
 REALISED = (ContactLaw.SMOOTH, ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH)
+
+
+def is_tossed(package, settings, floor):
+    """Return whether an engine tosses on a floor: MuJoCo by three laws; its cone resists no rolling."""
+    if package is analytic:
+        return True
+    is_resisted = floor.rolling_friction > 0 or floor.contour_friction > 0
+    kinematic = floor.restitution_kind == RestitutionKind.KINEMATIC
+    return (
+        floor.contact in REALISED and kinematic and not (is_resisted and settings.friction == Friction.NATIVE)
+    )
+
+
 TOSSED = {
-    engine: [
-        name
-        for name, case in CASES.items()
-        if package is analytic
-        or (case.floor.contact in REALISED and case.floor.restitution_kind == RestitutionKind.KINEMATIC)
-    ]
-    for engine, (package, _) in ENGINES.items()
+    engine: [name for name, case in CASES.items() if is_tossed(*how, case.floor)]
+    for engine, how in ENGINES.items()
 }
 """The situations that an engine tosses."""
 LIMITS = contact_limits(analytic.MANY)
