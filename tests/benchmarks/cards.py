@@ -12,55 +12,16 @@ from cointoss import analytic
 from cointoss.analytic.by_rows import CERTAIN, NO_TRUST
 from cointoss.analytic.on_device import toss_on_device
 from cointoss.analytic.settings import MANY, contact_limits
-from cointoss.models.answers import NOT_TOSSED, Trust, unanswered
+from cointoss.models.answers import NOT_TOSSED, unanswered
 from cointoss.models.batch import rows_of
 from cointoss.models.cores import cores_used
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.cuda import GraphicsCard, card
 from cointoss.models.reading import load
+from tests.benchmarks.classes import CLASSES, TossClass
 
 SECONDS = 4.0
 """About how long the cores work on a case [s]."""
-VACUUM = {"air.normal": 0.0, "air.tangential": 0.0}
-
-
-@dataclass(frozen=True, kw_only=True)
-class Case:
-    """Tosses of one kind, on a grid of height and spin."""
-
-    what: str
-    scenario: str
-    changed: dict[str, float]
-    tosses: int
-    """By the card."""
-    trust: Trust | None = None
-
-    def rows(self, n: int) -> Array:
-        """Return about n releases."""
-        side = int(n**0.5)
-        spin, height = np.meshgrid(np.linspace(20, 60, side), np.linspace(0.2, 0.6, side))
-        varied = {"release.angular_velocity.eta": spin.ravel(), "release.position.z": height.ravel()}
-        return rows_of(load(self.scenario), side * side, varied | self.changed)
-
-
-CASES = (
-    Case(
-        what="planar in vacuum, 10 touches",
-        scenario="fig24a",
-        changed={**VACUUM, "ending.max_impacts": 10},
-        tosses=8_000_000,
-    ),
-    Case(
-        what="planar in air, to the third touch",
-        scenario="fig24a",
-        changed={"ending.max_impacts": 3},
-        tosses=8_000_000,
-    ),
-    Case(what="planar in air, to the end", scenario="fig24a", changed={}, tosses=2_000_000),
-    Case(what="the same with certainty", scenario="fig24a", changed={}, tosses=400_000, trust="certain"),
-    Case(what="imperfect coin in air, to the end", scenario="zloty", changed={}, tosses=40_000),
-    Case(what="a euro on its table, to the end", scenario="table", changed={}, tosses=1_000),
-)
 
 
 @dataclass(frozen=True)
@@ -77,10 +38,16 @@ class Measured:
     equal: int
 
 
-def measured(case: Case, on: GraphicsCard) -> Measured:
-    """Toss a case on a card and on all cores."""
-    timed(case, on, case.rows(min(case.tosses // 20, 4000)))  # what is done once is done
-    rows = case.rows(case.tosses)
+def rows_by(case: TossClass, n: int) -> Array:
+    """Return about n tosses as rows."""
+    return rows_of(load(case.scenario), int(n**0.5) ** 2, case.varied(n))
+
+
+def measured(what: str, on: GraphicsCard) -> Measured:
+    """Toss a class on a card and on all cores."""
+    case = CLASSES[what]
+    timed(case, on, rows_by(case, min(case.card // 20, 4000)))  # what is done once is done
+    rows = rows_by(case, case.card)
     found, seconds = timed(case, on, rows)
     few = np.ascontiguousarray(rows[:: max(1, len(rows) // 1000)])
     begun = time.perf_counter()
@@ -94,7 +61,7 @@ def measured(case: Case, on: GraphicsCard) -> Measured:
     is_tossed = found[:, 0] != NOT_TOSSED
     same = (found[::step].view(np.int64) == wanted.view(np.int64)).all(1)[is_tossed[::step]]
     return Measured(
-        case.what,
+        what,
         len(rows),
         len(rows) / seconds,
         by_cores,
@@ -104,7 +71,7 @@ def measured(case: Case, on: GraphicsCard) -> Measured:
     )
 
 
-def timed(case: Case, on: GraphicsCard, rows: Array) -> tuple[Array, float]:
+def timed(case: TossClass, on: GraphicsCard, rows: Array) -> tuple[Array, float]:
     """Return the answers of a card, and its time [s]."""
     found = unanswered(len(rows))
     wanted = NO_TRUST if case.trust is None else CERTAIN
@@ -119,8 +86,8 @@ def main() -> None:
     print(f"{on.name} beside the {cores_used()} cores of its machine:\n")
     heads = ("tosses", "number", "card, 1/s", "cores, 1/s", "ratio", "handed over", "compared", "the same")
     print(f"| {' | '.join(heads)} |\n|{'---|' * len(heads)}")
-    for case in CASES:
-        each = measured(case, on)
+    for what in (name for name, case in CLASSES.items() if case.card):
+        each = measured(what, on)
         rates = [f"{rate:.2g}" for rate in (each.by_card, each.by_cores, each.by_card / each.by_cores)]
         counts = [f"{count:,d}" for count in (each.handed_over, each.compared, each.equal)]
         print("|", " | ".join([each.what, f"{each.tosses:,d}", *rates, *counts]), "|", flush=True)

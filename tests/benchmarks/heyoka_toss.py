@@ -1,23 +1,60 @@
 """Tosses by heyoka's Taylor series in double precision, whose event detection misses no touch."""
 
+from collections.abc import Callable, Sequence
+
 import heyoka as hy
+import numba
 import numpy as np
 
-from cointoss.analytic.flight.state_vector import STATE_SIZE
-from tests.benchmarks.one_coin import OneCoin
+from cointoss.analytic.contact.resets import hit
+from cointoss.analytic.flight.state_vector import STATE_SIZE, state_of
+from cointoss.models.ending import final_face
+from cointoss.models.geometry import evaluate_gap
+from cointoss.models.records import IMPACT_ROW, Array, Ending
+from cointoss.models.scenario import Scenario
 from tests.helpers.extended import Extended, integrator
 
 Impacts = tuple[list[float], list[int]]
 """Their times [s], and the faces that are up at them."""
+Strike = Callable[[Array], tuple[int, bool]]
+"""Of y at a touch, which becomes the state after the impact: the face up, and whether the toss ends."""
+LIFT = 1e-16
+"""Above the floor at lift-off [m]: else that too would be a zero of the gap to heyoka."""
+LATEST = 10.0
+"""End of a flight without a touch [s]."""
 
 
-def toss(numbers: Extended, coin: OneCoin, latest: float, most: int | None = None) -> Impacts:
-    """Give the impacts of a toss.
+def prepared(scenarios: Sequence[Scenario], *, in_lanes: bool = False) -> Callable[[], list[Impacts]]:
+    """Return what makes tosses of one coin, one by one or in heyoka's batch mode."""
+    numbers, strike = [Extended(one) for one in scenarios], striking(scenarios[0])
+    most = scenarios[0].ending.max_impacts
+    if in_lanes:
+        return lambda: toss_batch(numbers, strike, most)
+    return lambda: [toss(one, strike, most) for one in numbers]
+
+
+def striking(scenario: Scenario) -> Strike:
+    """Compile the engine's impacts of a coin as a function of its state alone, for a call costs little so."""
+    body, rules = scenario.body, scenario.rules
+
+    @numba.njit(error_model="numpy")
+    def strike(y):
+        row = np.zeros(1, dtype=IMPACT_ROW)
+        ending = hit(body, rules, rules.restitution, y, row[0])
+        y[2] += max(LIFT - evaluate_gap(body, state_of(y)).gap, 0.0)
+        if ending == Ending.NONE:
+            _, ending = final_face(body, rules, state_of(y), 0.0)
+        return row[0].face, ending != Ending.NONE
+
+    return strike
+
+
+def toss(numbers: Extended, strike: Strike, most: int | None) -> Impacts:
+    """Return the impacts of a toss.
 
     Args:
         numbers: the parameters of the motion, and the release.
-        coin: the same, for the impacts.
-        latest: end of a flight without a touch [s].
+        strike: the impacts of the same coin.
         most: impacts after which the toss ends, if not before.
     """
     flight = integrator(float, True)
@@ -27,23 +64,23 @@ def toss(numbers: Extended, coin: OneCoin, latest: float, most: int | None = Non
     y = np.zeros(STATE_SIZE)
     times, faces, ended = [], [], False
     while not ended and len(times) != most:
-        flight.propagate_until(latest)
+        flight.propagate_until(LATEST)
         y[2:] = flight.state
-        face, ended = coin.strike(y)
+        face, ended = strike(y)
         flight.state[:] = y[2:]
         times.append(flight.time)
         faces.append(face)
     return times, faces
 
 
-def toss_batch(numbers: list[Extended], coin: OneCoin, most: int) -> list[Impacts]:
-    """Give the impacts of many tosses in heyoka's batch mode: so many at once as a processor's vector holds.
+def toss_batch(numbers: list[Extended], strike: Strike, most: int | None) -> list[Impacts]:
+    """Return the impacts of many tosses in heyoka's batch mode: as many at once as a vector holds.
 
     Each lane flies and bounces by itself, and takes the next toss when its own is over.
 
     Args:
         numbers: the parameters of the motion, the same for all, and the releases.
-        coin: the same, for the impacts.
+        strike: the impacts of the same coin.
         most: impacts after which a toss ends, if not before.
     """
     lanes = hy.recommended_simd_size()
@@ -64,7 +101,7 @@ def toss_batch(numbers: list[Extended], coin: OneCoin, most: int) -> list[Impact
             if not -len(flight.t_events) <= int(outcome) < 0:
                 continue
             y[2:] = flight.state[:, lane]
-            face, ended = coin.strike(y)
+            face, ended = strike(y)
             flight.state[:, lane] = y[2:]
             if flown[lane] >= len(tosses):
                 continue

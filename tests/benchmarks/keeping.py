@@ -6,9 +6,9 @@ no commit changes, timed just before and after it; their ratio is compared betwe
 
 import csv
 import platform
-from collections.abc import Generator, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from importlib.metadata import version
-from math import sin
+from math import hypot, sin
 from pathlib import Path
 from statistics import quantiles
 from time import process_time
@@ -25,6 +25,8 @@ COLUMNS: tuple[str, ...] = (
 """Seconds of processor time: the best round, half the middle half of all, and the best of the reference."""
 STEPS = 50_000
 """Of the reference: some milliseconds."""
+SLOWER = 0.2
+"""Part of its time by which a benchmark must differ from the last one kept to be called slower or faster."""
 
 
 @numba.njit
@@ -116,21 +118,34 @@ def write_table(path: Path, rows: Iterable[Mapping[str, Any]]) -> None:
     aside.replace(path)
 
 
+def compared(row: Mapping[str, Any], table: Iterable[Mapping[str, Any]]) -> str:
+    """Return a benchmark's ratio to the reference, and how it compares with the last one kept, in a line.
+
+    That is the last of another commit on the same machine. The interval is of the spread of both.
+    """
+    line = f"{row['benchmark']}: {float(row['ratio']):.4g} of the reference"
+    earlier = [
+        old
+        for old in table
+        if old["benchmark"] == row["benchmark"]
+        and old["machine"] == row["machine"]
+        and old["commit"] != row["commit"]
+    ]
+    if not earlier:
+        return f"{line}, the first on this machine"
+    last = max(earlier, key=lambda old: old["date"])
+    times = float(row["ratio"]) / float(last["ratio"])
+    error = times * hypot(*(float(each["spread"]) / float(each["seconds"]) for each in (row, last)))
+    line += f", {times:.2f} [{times - error:.2f}, {times + error:.2f}] of that of {last['commit'][:7]}"
+    if times > 1 + SLOWER:
+        return f"{line}: slower by {100 * (times - 1):.0f} %"
+    return f"{line}: faster by {100 * (1 - times):.0f} %" if times < 1 - SLOWER else line
+
+
 def pytest_sessionstart() -> None:
-    """Refuse a tree that is no commit's; compile the reference."""
+    """Refuse a tree that is no commit's."""
     if get_commit_info()["dirty"]:
         raise pytest.UsageError("make bench KEEP=1: the tree is no commit's; accepted: commit first")
-    pendulum(1)
-
-
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_call(item: Any) -> Generator[None, Any, Any]:
-    """Time the reference before and after each benchmark."""
-    before = reference()
-    result = yield
-    if (benchmark := item.funcargs.get("benchmark")) is not None:
-        benchmark.extra_info["reference"] = min(before, reference())
-    return result
 
 
 def pytest_benchmark_update_json(output_json: dict[str, Any]) -> None:
