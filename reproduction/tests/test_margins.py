@@ -5,7 +5,6 @@ import pytest
 
 from cointoss_reproduction.frame.cells import Cells, column, read_table, table_of
 from cointoss_reproduction.frame.files import TABLE
-from cointoss_reproduction.setups.estimates import quantile
 from cointoss_reproduction.studies.margins.study import (
     ACCURACIES,
     HAND,
@@ -29,15 +28,6 @@ def test_fewer_tosses_are_uncertain_within_an_accuracy_than_have_a_smaller_margi
     least, _, uncertain = shares_within(FOUND, accuracy)
     # A change by ε is one of those that are tried.
     assert uncertain.value <= least.value
-
-
-def test_the_interval_of_a_quantile_contains_it_as_often_as_it_says():
-    rng, part = np.random.default_rng(3), 0.1
-    quantiles = [quantile(rng.uniform(size=120), part) for _ in range(2000)]
-    assert np.mean([one.low <= part <= one.high for one in quantiles]) > 0.985
-    assert np.mean([one.high - one.low for one in quantiles]) < 0.17
-    few = quantile([1.0, 2.0, np.inf], 0.5)
-    assert (few.low, few.value, few.high) == (-np.inf, 2.0, np.inf)
 
 
 def test_a_margin_is_at_most_what_is_found_and_at_least_what_is_proved():

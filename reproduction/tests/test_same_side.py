@@ -47,6 +47,21 @@ def test_the_counts_are_those_published():
     assert sum(int(one.flips.sum()) for one in read_started()) == 350_757
 
 
+@pytest.mark.parametrize(
+    ("family", "parameters", "part", "p", "spread"),
+    [
+        (NORMAL, (0.02, 0.49), 0.8413447, 0.51, 0.02),
+        (EXPONENTIAL, (0.012,), 1 - 1 / np.e, 0.512, 0.012),
+    ],
+    ids=["normal", "exponential"],
+)
+def test_p_is_spread_over_people_by_its_closed_form(family, parameters, part, p, spread):
+    """One standard deviation above a normal's mean; an exponential's mean, which is its deviation too."""
+    given = np.array(parameters)
+    assert quantiles(family, given, np.array([part])) == pytest.approx(p, abs=1e-7)
+    assert spread_of(PeopleFit(family, given, np.zeros(1))) == pytest.approx(spread, rel=1e-6)
+
+
 def test_the_spread_of_psi_is_the_root_of_its_mean_square():
     """p = 1/2 + asin(tan² φ)/π, solved for φ = 90° - ψ."""
     p = quantiles(WOBBLING, np.array([0.1]), (np.arange(4000) + 0.5) / 4000)
