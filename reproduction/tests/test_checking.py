@@ -67,86 +67,76 @@ def of(folder, name):
     return folder / "reproduction" / "fake" / name
 
 
-def test_the_same_run_agrees_to_the_bit(kept):
-    status, lines = check(kept[0])
-    assert status == 0
-    assert lines[0].startswith("fake: 0 of 1 verdicts change, 0 of 8 numbers are off")
-    assert lines[1:] == ["  8 equal to the bit"]
+CLAIM = SAID[SAID.index("[[claim]]") :]
+LAST_BIT = ("LENGTH = 0.123456", "LENGTH = 0.12345600000000001")
+CHANGED = {
+    "nothing": (
+        (), SAID, True, 0, 0, ["fake: 0 of 1 verdicts change, 0 of 8 numbers are off", "  8 equal to the bit"]
+    ),
+    "a last bit": (LAST_BIT, SAID, True, 1, 3, ["fake: 0 of 1 verdicts change, 3 of 8 numbers are off"]),
+    "a last bit elsewhere": (LAST_BIT, SAID, False, 0, 0, ["  not to the bit: no provenance.json there"]),
+    "words": (
+        (), f'{SAID}mujoco = "by 0.2"\n', True, 1, 0, ["  in other words: it is short: - there, by 0.2 here"]
+    ),
+    "words elsewhere": (
+        (), f'{SAID}mujoco = "by 0.2"\n', False, 0, 0, ["  in other words: it is short: - there, by 0.2 here"]
+    ),
+    "a verdict": (
+        LONGER, SAID, True, 1, 3,
+        [
+            "  changes: it is short: holds there, does not hold here",
+            "  off: it is short: length: 0.123456 there, 1.5 here",
+            "  off: cells.csv length[0]: 0.123456 there, 1.5 here",
+        ],
+    ),
+    "more claims": (
+        (), SAID + CLAIM + CLAIM.replace("short", "new"), True, 1, 0,
+        [
+            "fake: 2 of 3 verdicts change, ",
+            "  changes: it is short (2): no such claim there, holds here",
+            "  changes: it is new: no such claim there, holds here",
+        ],
+    ),
+    "fewer criteria": (
+        (), SAID.replace(', ["share", "share", "<", 0.9, "so"]', ""), True, 1, 1,
+        ["  off: it is short: 2 criteria there, 1 criteria here"],
+    ),
+    "fewer rows": (
+        ('("thin", "thick")', '("thin",)'), SAID, True, 1, 3,
+        ["  off: cells.csv length: 2 rows there, 1 rows here"],
+    ),
+    "more columns": (
+        ('{"length": LENGTH,', '{"length": LENGTH, "width": 1,'), SAID, True, 1, 1,
+        ["  off: cells.csv width: 0 rows there, 2 rows here"],
+    ),
+    # A hundredth of its threshold is rounding of what a claim measures.
+    "a hundredth of the threshold": (
+        ("LENGTH = 0.123456", "LENGTH = 0.133"), SAID, False, 1, 2, ["  off: cells.csv length[1]: 0.1"]
+    ),
+    "more than a hundredth": (
+        ("LENGTH = 0.123456", "LENGTH = 0.134"), SAID, False, 1, 3, ["  off: it is short: length: 0.1"]
+    ),
+    "more than a hundredth of the smaller": (
+        ("LENGTH = 0.123456", "LENGTH = 0.173456"), SAID.replace('"<", 1.0,', '"<", 10.0,'), False, 1, 3,
+        ["  off: it is short: length: 0.123456 there"],
+    ),
+    "a time": (("LENGTH = 0.123456", "LENGTH = 0.9"), f"timed = true\n{SAID}", True, 0, 0, []),
+    "a time and a verdict": (LONGER, f"timed = true\n{SAID}", True, 1, 0, []),
+}  # fmt: skip
 
 
-def test_a_last_bit_is_off_where_bits_are_the_same_and_not_elsewhere(kept):
+@pytest.mark.parametrize("what", CHANGED)
+def test_what_a_run_changes_is_named(kept, what):
     folder, write = kept
-    write("LENGTH = 0.123456", "LENGTH = 0.12345600000000001")
+    code, said, as_made, due, off, named = CHANGED[what]
+    write(*code, said=said)
+    if not as_made:
+        of(folder, "provenance.json").unlink()
     status, lines = check(folder)
-    assert status == 1
-    assert len([line for line in lines if line.startswith("  off: ")]) == 3
-    of(folder, "provenance.json").unlink()
-    status, lines = check(folder)
-    assert status == 0
-    assert lines[1] == "  not to the bit: no provenance.json there"
-
-
-def test_words_that_a_claim_says_otherwise_are_shown_and_are_off_where_bits_are_the_same(kept):
-    folder, write = kept
-    write(said=f'{SAID}mujoco = "by 0.2"\n')
-    status, lines = check(folder)
-    assert status == 1
-    assert lines[-1] == "  in other words: it is short: - there, by 0.2 here"
-    of(folder, "provenance.json").unlink()
-    status, lines = check(folder)
-    assert status == 0
-    assert lines[-1].startswith("  in other words: ")
-
-
-def test_a_claim_that_would_change_and_a_number_that_is_off_are_named(kept):
-    folder, write = kept
-    write(*LONGER)
-    status, lines = check(folder)
-    assert status == 1
-    assert "  changes: it is short: holds there, does not hold here" in lines
-    for place in ("it is short: length", "cells.csv length[0]"):
-        assert any(line.startswith(f"  off: {place}: 0.123456 there, 1.5 here") for line in lines)
-
-
-def test_claims_and_criteria_that_one_run_alone_has_are_off(kept):
-    folder, write = kept
-    claim = SAID[SAID.index("[[claim]]") :]
-    write(said=SAID + claim + claim.replace("short", "new"))
-    status, lines = check(folder)
-    assert status == 1
-    assert lines[0].startswith("fake: 2 of 3 verdicts change, ")
-    for name in ("it is short (2)", "it is new"):
-        assert f"  changes: {name}: no such claim there, holds here" in lines
-    write(said=SAID.replace(', ["share", "share", "<", 0.9, "so"]', ""))
-    status, lines = check(folder)
-    assert status == 1
-    assert any(line.startswith("  off: it is short: 2 criteria there, 1 criteria here") for line in lines)
-
-
-def test_rows_and_columns_that_one_run_alone_has_are_off(kept):
-    folder, write = kept
-    write('("thin", "thick")', '("thin",)')
-    assert any("off: cells.csv length: 2 rows there, 1 rows here" in line for line in check(folder)[1])
-    write('{"length": LENGTH,', '{"length": LENGTH, "width": 1,')
-    assert any("off: cells.csv width: 0 rows there, 2 rows here" in line for line in check(folder)[1])
-
-
-def test_a_hundredth_of_its_threshold_is_rounding_of_what_a_claim_measures(kept):
-    folder, write = kept
-    of(folder, "provenance.json").unlink()
-    table = ["cells.csv length[0]", "cells.csv length[1]"]
-    for length, off in (("0.133", table), ("0.134", ["it is short: length", *table])):
-        write("LENGTH = 0.123456", f"LENGTH = {length}")
-        found = [line.removeprefix("  off: ") for line in check(folder)[1] if line.startswith("  off: ")]
-        assert [place.partition(": 0.1")[0] for place in found] == off
-
-
-def test_of_times_the_verdicts_alone_are_compared(kept):
-    folder, write = kept
-    write("LENGTH = 0.123456", "LENGTH = 0.9", said=f"timed = true\n{SAID}")
-    assert check(folder)[0] == 0
-    write(*LONGER, said=f"timed = true\n{SAID}")
-    assert check(folder)[0] == 1
+    assert status == due
+    assert len([line for line in lines if line.startswith("  off: ")]) == off
+    for start in named:
+        assert any(line.startswith(start) for line in lines), f"{start} is not among {lines}"
 
 
 def test_a_run_of_another_size_is_compared_with_one_of_the_same_size(kept):
@@ -222,32 +212,42 @@ def test_words_in_place_of_numbers_are_off(kept):
     assert lines[0].startswith("fake: 0 of 1 verdicts change, 2 of ")
 
 
-def alike(there, here, **how):
-    one = compared("here", there, here, exact=False, **how)
-    return one.agrees, one.reason
+@pytest.mark.parametrize(
+    ("there", "here", "small", "agrees", "reason"),
+    [
+        (Estimate(0.5, 0.4, 0.6, 9), Estimate(0.59, 0.4, 0.6, 9), 0, True, ESTIMATE),
+        (Estimate(0.5, 0.4, 0.6, 9), Estimate(0.61, 0.4, 0.7, 9), 0, False, ESTIMATE),
+        (Estimate(0.5, 0.4, 0.6, 9), Estimate(0.55, 0.54, 0.56, 9), 0, False, ESTIMATE),
+        # 2.58 √129 = 29.30, 2.58 √130 = 29.42; 2.58 √6 = 6.3, 2.58 √7 = 6.8
+        (100, 129, 0, True, COUNT),
+        (100, 130, 0, False, COUNT),
+        (0, 6, 0, True, COUNT),
+        (0, 7, 0, False, COUNT),
+        (1.23, 1.2399, 0, True, PRINTED),
+        (1.23, 1.2401, 0, False, PRINTED),
+        (0.999, 1.0005, 0, True, PRINTED),
+        (1.0005, 0.999, 0, True, PRINTED),
+        (1e-15, 4e-15, 1e-10, True, SMALL),
+        (1e-15, 2e-10, 1e-10, False, SMALL),
+    ],
+)
+def test_each_kind_of_number_has_its_own_tolerance(there, here, small, agrees, reason):
+    one = compared("here", there, here, exact=False, small=small)
+    assert (one.agrees, one.reason) == (agrees, reason)
 
 
-def in_a_column(*there_and_here):
-    found = _columns(*({"x": list(column)} for column in zip(*there_and_here, strict=True)), exact=False)
-    return [(one.agrees, one.reason) for one in found]
-
-
-def test_each_kind_of_number_has_its_own_tolerance():
-    assert alike(Estimate(0.5, 0.4, 0.6, 9), Estimate(0.59, 0.4, 0.6, 9)) == (True, ESTIMATE)
-    assert alike(Estimate(0.5, 0.4, 0.6, 9), Estimate(0.61, 0.4, 0.7, 9)) == (False, ESTIMATE)
-    assert alike(Estimate(0.5, 0.4, 0.6, 9), Estimate(0.55, 0.54, 0.56, 9)) == (False, ESTIMATE)
-    # 2.58 √129 = 29.30, 2.58 √130 = 29.42; 2.58 √6 = 6.3, 2.58 √7 = 6.8
-    assert alike(100, 129) == (True, COUNT)
-    assert alike(100, 130) == (False, COUNT)
-    assert alike(0, 6) == (True, COUNT)
-    assert alike(0, 7) == (False, COUNT)
-    assert alike(1.23, 1.2399) == (True, PRINTED)
-    assert alike(1.23, 1.2401) == (False, PRINTED)
-    assert alike(0.999, 1.0005) == alike(1.0005, 0.999) == (True, PRINTED)
-    assert alike(1e-15, 4e-15, small=1e-10) == (True, SMALL)
-    assert alike(1e-15, 2e-10, small=1e-10) == (False, SMALL)
-    assert in_a_column((100.0, 100.0), (1e-9, 0.09)) == [(True, PRINTED), (True, BESIDE)]
-    assert in_a_column((100.0, 100.0), (1e-9, 0.2)) == [(True, PRINTED), (False, BESIDE)]
+@pytest.mark.parametrize(
+    ("beside", "there", "here", "agrees", "reason"),
+    [
+        (100.0, 1e-9, 0.09, True, BESIDE),
+        (100.0, 1e-9, 0.2, False, BESIDE),
+        (-100.0, 1e-9, 0.09, True, BESIDE),
+        (1e-12, 1e-9, 1e-6, False, PRINTED),
+    ],
+)
+def test_a_thousandth_of_the_largest_in_its_column_is_rounding(beside, there, here, agrees, reason):
+    _, one = _columns({"x": [beside, there]}, {"x": [beside, here]}, exact=False)
+    assert (one.agrees, one.reason) == (agrees, reason)
 
 
 NUMBERS = st.integers(-200, 200) | st.floats(-200, 200)
@@ -266,13 +266,6 @@ def test_two_runs_agree_alike_whichever_is_the_earlier(there, here):
         for a, b in ((there, here), (here, there))
     )
     assert one == other
-
-
-def test_criteria_of_other_thresholds_agree_alike_whichever_is_the_earlier(kept):
-    folder, write = kept
-    of(folder, "provenance.json").unlink()
-    write("LENGTH = 0.123456", "LENGTH = 0.173456", said=SAID.replace('"<", 1.0,', '"<", 10.0,'))
-    assert any("off: it is short: length: 0.123456 there" in line for line in check(folder)[1])
 
 
 @pytest.mark.parametrize("exact", [True, False])
