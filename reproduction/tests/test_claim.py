@@ -57,7 +57,8 @@ def test_a_share_of_no_trials_decides_nothing():
 
 
 @pytest.mark.parametrize(
-    ("low", "high", "verdict"), [(2.1, 3.1, True), (1.0, 1.9, False), (1.9, 3.0, None), (2.0, 3.0, None)]
+    ("low", "high", "verdict"),
+    [(2.1, 3.1, True), (1.0, 1.9, False), (1.9, 3.0, None), (2.0, 3.0, None), (1.0, 2.0, None)],
 )
 def test_an_estimate_decides_where_its_interval_leaves_the_threshold_out(low, high, verdict):
     criterion = Criterion("x", Estimate((low + high) / 2, low, high, 400), ">", 2.0, "")

@@ -80,6 +80,9 @@ def test_boundaries_of_few_groups_are_no_share():
     assert flat_share(found, 6) is not None
     few = np.where(np.arange(GROUPS)[:, None] < 4, found.boundaries, 0)
     assert flat_share(replace(found, boundaries=few, flat=few), 6) is None
+    seventh = np.where(np.arange(len(ACCURACIES)) == 7, found.boundaries, 0)
+    alone = [flat_share(replace(found, boundaries=seventh), level) is None for level in range(5, 10)]
+    assert alone == [True, False, False, False, True], "those of the neighbours count too"
 
 
 def test_spin_and_tilt_vary_where_the_papers_coin_bounces_on_a_smooth_floor(monkeypatch):
