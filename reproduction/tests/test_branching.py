@@ -157,11 +157,11 @@ def test_chances_sum_to_the_population_and_follow_the_scores(scores, population)
     "is_long", [pytest.param(False, marks=pytest.mark.slow), pytest.param(True, marks=pytest.mark.long)]
 )
 @pytest.mark.parametrize(
-    ("chi", "law", "intervals"), [(0.0, "smooth", 60), (0.6, "smooth", 16), (0.3, "perfectly_rough", 16)]
+    ("chi", "law", "intervals"), [(0.0, "smooth", 30), (0.6, "smooth", 8), (0.3, "perfectly_rough", 8)]
 )
 def test_no_dead_part_holds_a_boundary(chi, law, intervals, is_long):
     """Parts of it, and parts of these, are tossed."""
-    intervals, most, least = (150, 60, 200) if is_long else (intervals, 8, 30)
+    intervals, most, least = (150, 60, 200) if is_long else (intervals, 4, 15)
     coin, own = coin_of(chi, law)
     rng, count = np.random.default_rng(5), 0
     parents = drawn(intervals)
@@ -187,7 +187,7 @@ def test_no_dead_part_holds_a_boundary(chi, law, intervals, is_long):
 @pytest.mark.parametrize(
     ("times", "number", "levels", "population", "pairs"),
     [
-        pytest.param(6, 80, 5, 12, 800, marks=pytest.mark.slow),
+        pytest.param(5, 60, 3, 12, 400, marks=pytest.mark.slow),
         pytest.param(10, 100, 7, 40, 3000, marks=pytest.mark.long),
     ],
 )
