@@ -46,7 +46,7 @@ slow: $(VENV)/.ready-slow opengl chromium engines
 
 # Lint, and the tests of the mechanics.
 check: lint engines
-	$(PYTEST) tests/analytic tests/test_conformance*.py
+	$(PYTEST) tests/analytic tests/test_conformance*.py tests/test_situations.py
 
 test-all: $(VENV)/.ready-slow opengl chromium lint engines
 	$(PYTEST) -m ""

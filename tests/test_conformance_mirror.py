@@ -39,7 +39,7 @@ def test_mujocos_toss_is_mirrored_within_its_error(mirror):
     here, there = (coin_mj.toss(each) for each in (case, mirror.scenario(case)))
     n = min(here.trusted_impacts, there.trusted_impacts)
     assert n > 0
-    # Rounding moves the first step in a contact; see test_conformance_contacts.
+    # Rounding moves the first step in a contact, and impacts multiply it.
     assert there.impacts.time[:n] == pytest.approx(here.impacts.time[:n], abs=5e-7)
     assert there.sequence[:n] == mirror.sequence(here.sequence[:n])
 

@@ -176,7 +176,7 @@ def test_a_zoom_glides_where_one_likes_motion_and_pictures_follow_a_slider(tab, 
     assert tab.value("draws.length") > before
     assert all(tab.value("draws.map(({ isWhole }) => isWhole)"))
     # A scenario that cannot be is told, and the state stays.
-    slides(tab, HEIGHT, 0.001, least=0)
+    slides(tab, HEIGHT, 0.001, least="0")
     tab.wait_for("document.getElementById('problem').textContent.includes('release.position.z')")
     assert float(tab.value(f"document.querySelector('[data-field=\"{HEIGHT}\"]').value")) == pytest.approx(
         0.40001
