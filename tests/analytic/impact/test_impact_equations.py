@@ -64,13 +64,14 @@ def test_an_impact_obeys_the_equations_of_its_law(law, equation, kind):
 
 
 @pytest.mark.parametrize(
-    ("equation", "kind", "subscripts", "from_B"),
+    ("equation", "kind", "subscripts", "from_B", "of", "least"),
     [
-        pytest.param(90, "any", AS_PRINTED, False, id="(90) with the subscripts printed"),
-        pytest.param(91, "any", MEANT, False, id="of a rough floor on a smooth one"),
-        pytest.param(95, "imperfect", MEANT, False, id="without the products of inertia"),
-        pytest.param(88, "imperfect", MEANT, True, id="with A from the middle"),
+        pytest.param(90, "any", AS_PRINTED, False, np.min, 1e-3, id="(90) with the subscripts printed"),
+        pytest.param(91, "any", MEANT, False, np.min, 1e-3, id="of a rough floor along x on a smooth one"),
+        pytest.param(92, "any", MEANT, False, np.min, 1e-3, id="of a rough floor along y on a smooth one"),
+        pytest.param(95, "imperfect", MEANT, False, np.median, 1e-3, id="without the products of inertia"),
+        pytest.param(88, "imperfect", MEANT, True, np.median, 1e-3, id="with A from the middle"),
     ],
 )
-def test_on_a_smooth_floor_an_equation_fails(equation, kind, subscripts, from_B):
-    assert np.median(left_over(ContactLaw.SMOOTH, equation, kind, subscripts, from_B)) > 1e-3
+def test_on_a_smooth_floor_an_equation_fails(equation, kind, subscripts, from_B, of, least):
+    assert of(left_over(ContactLaw.SMOOTH, equation, kind, subscripts, from_B)) > least
