@@ -9,16 +9,14 @@ from cointoss.analytic.contact.automaton import (
     Event,
     Mode,
     contact_at,
-    flow,
     margin_event,
     mode_after,
     project,
 )
-from cointoss.analytic.contact.contact import SustainedContact, lower_rim_of
+from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.integrator import ContactStep, contact_work, step_contact
 from cointoss.analytic.contact.resets import stop_slip, tip_over
 from cointoss.analytic.contact.resistance import FloorFriction
-from cointoss.analytic.contact.rim_contact import rim_contact
 from cointoss.analytic.flight.state_vector import state_of
 from cointoss.analytic.numerics.tolerances import STEP_ERROR
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
@@ -43,16 +41,6 @@ def put_on_floor(body: Body, friction: FloorFriction, mode: int, y: Array) -> No
     project(held(body, friction, mode, y), y)
 
 
-def assert_lowest_point_stays(body: Body, friction: FloorFriction, mode: int, y: Array) -> None:
-    """Check that D v_A/dt = 0, by differences, where the coin sticks; else its vertical part."""
-    rim, dy, dt = lower_rim_of(y), np.empty(13), 1e-6
-    flow(held(body, friction, mode, y), y, dy)
-    after, before = (np.array(rim_contact(body, y + side * dt * dy, rim).velocity) for side in (1, -1))
-    part = slice(None) if mode == Mode.STICKING else slice(2, 3)
-    change = ((after - before) / (2 * dt))[part]
-    assert np.abs(change).max() <= 1e-6 * float(np.linalg.norm(dy))
-
-
 def end_mode(body: Body, friction: FloorFriction, mode: int, y: Array) -> Event:
     """Return the event of a mode whose margin is zero, past `TOUCHING`, and apply its reset to y."""
     contact = held(body, friction, mode, y)
@@ -71,26 +59,12 @@ def follow_step(body: Body, friction: FloorFriction, mode: int, y: Array, dt: fl
     return step_contact(contact, y, dt, STEP_ERROR, contact_work(contact, y))
 
 
-def follow_for(
-    body: Body,
-    friction: FloorFriction,
-    mode: int,
-    y: Array,
-    time: float,
-    longest: float = np.inf,
-    *,
-    least: float = 0.0,
-    error: float = STEP_ERROR,
-) -> tuple[Array, Array]:
-    """Return the states and times after every step, at most `longest`, of a contact that goes on so long.
-
-    Or down to the tilt `least` [rad]; `error` is that of a step.
-    """
+def follow_for(body: Body, friction: FloorFriction, mode: int, y: Array, time: float) -> tuple[Array, Array]:
+    """Return the states and times after every step of a contact that goes on so long."""
     y, states, times, dt = y.copy(), [y.copy()], [0.0], np.inf
     stages = contact_work(held(body, friction, mode, y), y)
-    while times[-1] < time and tilts_of(states[-1]) > least:
-        contact, most = held(body, friction, mode, y), min(dt, longest, time - times[-1])
-        step = step_contact(contact, y, most, error, stages)
+    while times[-1] < time:
+        step = step_contact(held(body, friction, mode, y), y, min(dt, time - times[-1]), STEP_ERROR, stages)
         assert not step.is_over
         dt = step.next_dt
         states.append(y.copy())
@@ -102,16 +76,6 @@ def tilts_of(y: Array) -> Array:
     """Return the tilts of coins up to 90 degrees, (..., 13) to (...) [rad]."""
     e = y[..., 6:10]
     return np.arcsin(np.minimum(2 * np.hypot(e[..., 0], e[..., 3]) * np.hypot(e[..., 1], e[..., 2]), 1.0))
-
-
-def eulers_disk(tilt: float) -> Array:
-    """Return the state of the thin zloty that rolls round its fixed mass centre at a small tilt.
-
-    Ω² sin α = 4 g/r for the thin disc; ω lies along the diameter through A, with |ω| = Ω sin α.
-    """
-    r, sine = ZLOTY["radius"], np.sin(tilt)
-    turn = 2 * (9.81 * sine / r) ** 0.5
-    return np.array([0, 0, r * sine, 0, 0, 0, *quaternion_from_angles((0.0, tilt, 0.0)), 0, turn, 0])
 
 
 def set_upright(

@@ -15,8 +15,6 @@ from cointoss.analytic.contact.landing import landing, time_to_landing
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.rest import rests, rolls_upright
 from cointoss.analytic.events import NO_LOSS, Setup, Spent, TossEnd, hold_to_event
-from cointoss.analytic.flight.state_vector import state_of
-from cointoss.analytic.flight.touch_search import is_chattering
 from cointoss.analytic.runs import run
 from cointoss.analytic.settings import AnalyticSettings, contact_limits
 from cointoss.analytic.toss import state_at_release
@@ -91,15 +89,6 @@ def test_a_guard_of_a_contact_never_writes_to_the_state(guard):
     for contact, y in contacts_with_states():
         as_given = y.copy()
         guard(contact, y)
-        assert np.array_equal(y, as_given)
-
-
-def test_the_guard_of_a_touch_never_writes_to_the_state():
-    body = scenario().body
-    y = np.array([0, 0, 0.01, 0.1, 0, -1e-3, *state_at_release(scenario().release)[6:10], 3.0, 1.0, 2.0])
-    for chi in (0.0, 0.5, 1.0):
-        as_given = y.copy()
-        is_chattering(body, chi, state_of(y))
         assert np.array_equal(y, as_given)
 
 

@@ -6,22 +6,16 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from cointoss.analytic.contact import sliding, smooth
+from cointoss.analytic.contact import smooth
 from cointoss.analytic.contact.automaton import Event, Mode, flow, margin_event
-from cointoss.analytic.contact.edge.restoring import held_on_edge
-from cointoss.analytic.contact.edge.standing import stands
-from cointoss.analytic.contact.floor_force import friction_holds, holding_force, slip_direction, starting_slip
+from cointoss.analytic.contact.floor_force import friction_holds, holding_force, starting_slip
 from cointoss.analytic.contact.integrator import contact_work, short_step, step_of_length
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.rim_contact import rim_contact
-from cointoss.analytic.contact.sampling import floor_force, sample_contact
-from cointoss.analytic.numerics.tolerances import STEP_ERROR
+from cointoss.analytic.contact.sampling import floor_force
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
-from cointoss.models.kernel.compiled import by_numba
-from tests.helpers.contacts import follow_for, follow_step, held, put_on_floor
-from tests.helpers.draws import AIR, IMPERFECT, THIN, ZLOTY, draw_coin, scenario
-
-sample_contact = by_numba(sample_contact)
+from tests.helpers.contacts import follow_step, held, put_on_floor
+from tests.helpers.draws import AIR, IMPERFECT, THIN, ZLOTY, scenario
 
 SMOOTH = FloorFriction(0.0)
 G, R_COIN, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
@@ -86,25 +80,6 @@ def test_a_contact_ends_as_its_closed_form_says(coin, mu, angles, w, speed, land
     assert {name: found[name] for name in held_values} == held_values
 
 
-@pytest.mark.parametrize(
-    ("coin", "phase", "w", "held_now", "steady"),
-    [
-        (ZLOTY, 0.0, (0.0, 0.0, 0.0), True, True),
-        (ZLOTY, 0.0, (0.0, 20.0, 5.0), True, True),
-        (ZLOTY, 0.0, (0.0, 60.0, 60.0), False, False),
-        # C is level with B: as it swings down and the coin rolls on, its spin would tip it.
-        (IMPERFECT, 3 * np.pi / 4, (42.0, -42.0, 0.0), True, False),
-        (IMPERFECT, 3 * np.pi / 4, (0.0, 0.0, 0.0), True, True),
-    ],
-)
-def test_a_coin_stands_on_its_edge_while_it_does_not_turn_and_roll_too_fast(coin, phase, w, held_now, steady):
-    """Turning about the vertical at Ω it takes the moment J_ζ ω_ζ Ω to roll: the edge has m g h/2."""
-    body = scenario(coin=coin).body
-    y = on_floor(body, Mode.SLIDING, (0.0, np.pi / 2, phase), w)
-    assert held_on_edge(held(body, SMOOTH, Mode.SLIDING, y), y) == held_now
-    assert stands(held(body, SMOOTH, Mode.SLIDING, y), y) == steady
-
-
 @pytest.mark.parametrize("air", [{}, AIR])
 def test_an_ideal_coin_on_a_smooth_floor_gets_no_spin_about_its_axis(air):
     rng, body, dy = np.random.default_rng(13), scenario(coin=ZLOTY, air=air).body, np.empty(13)
@@ -142,42 +117,6 @@ def test_a_short_step_errs_by_the_fifth_power_of_its_length(backward):
         rng = np.random.default_rng(12)
     assert errors[0] == pytest.approx(32 * errors[1], rel=0.05)
     assert errors[1] < 1e-5
-
-
-@pytest.mark.parametrize("seed", range(8))
-def test_a_smooth_floor_is_one_whose_friction_is_0(seed):
-    """Its normal force is found by itself, by fewer sums."""
-    rng = np.random.default_rng([seed, 7])
-    coin = {**draw_coin(rng), **({"thickness": 0.0, "center_of_mass": (1e-3, 2e-3, 0)} if seed % 2 else {})}
-    body = scenario(coin=coin, air=AIR).body
-    y = draw_wobble(rng, body, Mode.SLIDING)
-    y[3:6] += rng.uniform(-1, 1, 3)
-    dy, dy_general, contact = np.empty(13), np.empty(13), held(body, SMOOTH, Mode.SLIDING, y)
-    left = smooth.flow(contact, y, dy)
-    assert left == pytest.approx(sliding.flow_with_friction(contact, y, dy_general), rel=1e-12)
-    assert dy == pytest.approx(dy_general, rel=1e-12, abs=1e-12)
-    stopped = y.copy()
-    smooth.project(contact, stopped)
-    sliding.project_with_friction(contact, y)
-    assert stopped == pytest.approx(y, rel=1e-12, abs=1e-12)
-
-
-@pytest.mark.parametrize("mode", [Mode.SLIDING, Mode.STICKING])
-@pytest.mark.parametrize("tilt", [0.3, 1.0, 1.3])
-def test_eulers_disk_precesses_at_its_rate(mode, tilt):
-    """Ω² = 4 g/(r sin s) for a thin disk that rolls with C at rest: a state of the smooth floor too."""
-    body = scenario(coin=THIN).body
-    rate = np.sqrt(4 * G / (R_COIN * np.sin(tilt)))
-    # Upright in the coin's plane the spin is Ω sin s, along the normal none; φ = 0 puts that axis along η.
-    y = on_floor(body, mode, (0.2, tilt, 0.0), (0.0, rate * np.sin(tilt), 0.0))
-    assert y[3:6] == pytest.approx(0, abs=1e-15)
-    mu = 0.0 if mode == Mode.SLIDING else 0.5
-    assert floor_force(held(body, FloorFriction(mu), mode, y), y) == pytest.approx([0, 0, M * G], abs=1e-14)
-    states, times = follow_for(body, FloorFriction(mu), mode, y, 30 / rate)
-    assert np.array([up_of(s)[2] for s in states]) == pytest.approx(np.cos(tilt), abs=1e-9)
-    R = np.array(rotation_matrix(tuple(states[-1][6:10])))
-    turned = np.arctan2(R[0, 2], -R[1, 2])
-    assert np.angle(np.exp(1j * (turned - 0.2 - rate * times[-1]))) == pytest.approx(0, abs=1e-7)
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -241,24 +180,3 @@ def test_friction_does_not_press_down_a_point_that_free_flight_lifts():
             assert margin_event(contact, y) == Event.LIFTS_OFF
     assert lifted > 100
     assert pressed > 10
-
-
-@pytest.mark.parametrize("mode", [Mode.SLIDING, Mode.STICKING])
-def test_a_sampled_state_does_not_hang_on_the_other_times_asked_for(mode):
-    body = scenario(coin=THIN).body
-    y = on_floor(body, mode, (0.0, 1.0, 0.0), (3.0, 20.0, 3.0))
-    mu, end = 0.0 if mode == Mode.SLIDING else 50.0, 2.0
-    states, times = follow_for(body, FloorFriction(mu), mode, y, end)
-    alone, among = np.empty((1, 13)), np.empty((301, 13))
-    contact = held(body, FloorFriction(mu), mode, y)
-    sample_contact(contact, y, 0.0, times[-2:-1], STEP_ERROR, alone)
-    assert alone[0] == pytest.approx(states[-2], abs=1e-10)
-    asked = np.append(np.linspace(0, times[-2], 301)[:-1], times[-2])
-    sample_contact(contact, y, 0.0, asked, STEP_ERROR, among)
-    assert np.array_equal(among[-1], alone[0])
-
-
-def test_the_direction_of_no_slip_is_none():
-    assert slip_direction((0.0, 0.0, 1.0), 0.3) == (0.0, 0.0)
-    assert slip_direction((3.0, 4.0, 1.0), 0.0) == (0.0, 0.0)
-    assert slip_direction((3.0, 4.0, 1.0), 0.3) == pytest.approx((0.6, 0.8))

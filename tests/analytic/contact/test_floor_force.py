@@ -2,7 +2,7 @@
 
 import pytest
 
-from cointoss.analytic.contact.floor_force import friction_holds, holding_force
+from cointoss.analytic.contact.floor_force import friction_holds, holding_force, slip_direction
 
 IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
@@ -21,3 +21,8 @@ def test_a_force_on_the_cone_holds_and_one_outside_does_not():
     assert friction_holds(0.5, (0.3, -0.4, 1.0))
     assert not friction_holds(0.5, (0.3, -0.4, 0.999))
     assert not friction_holds(0.5, (0.3, -0.4, -2.0))
+
+
+def test_what_does_not_slip_has_no_direction_nor_has_slip_on_a_smooth_floor():
+    assert slip_direction((0.0, 0.0, 1.0), 0.3) == (0.0, 0.0)
+    assert slip_direction((3.0, 4.0, 1.0), 0.0) == (0.0, 0.0)

@@ -1,35 +1,19 @@
-"""Resistance to rolling and pivoting: closed forms, rest, and Euler's disk; its power is in test_power.py."""
+"""Resistance to rolling and pivoting: of slow motion, and at rest; its power is in test_power.py."""
 
 import numpy as np
 import pytest
 
-from cointoss import analytic
 from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.resistance import FloorFriction, moment_per_force
 from cointoss.analytic.contact.rest import rests
 from cointoss.analytic.numerics.tolerances import SLOW
 from cointoss.models.attitude import quaternion_from_angles
-from cointoss.models.certificate import CONTACT_ENERGY
-from cointoss.models.records import Ending, Outcome
-from tests.helpers.contacts import follow_for, held, put_on_floor, set_upright
-from tests.helpers.corpus import draw_toss
+from cointoss.models.contour import Contour
+from tests.helpers.contacts import held, put_on_floor, set_upright
 from tests.helpers.draws import THIN, ZLOTY, scenario
 
-pytestmark = pytest.mark.usefixtures("without_horizon")
-
-G, R, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
+G, R = 9.81, ZLOTY["radius"]
 UNIT = (G / R) ** 0.5
-
-
-def test_a_disc_that_pivots_upright_is_slowed_by_its_resistance():
-    """J_ξ dω_z/dt = -p m g."""
-    p, spin, body = 1e-4, 80.0, scenario(coin=THIN).body
-    slowing = p * M * G / body.inertia[1][1]
-    time = 0.9 * spin / slowing
-    states, times = follow_for(
-        body, FloorFriction(50.0, 0.0, p), Mode.STICKING, set_upright(spin=(0.0, spin, 0.0)), time
-    )
-    assert states[:, 11] == pytest.approx(spin - slowing * times, rel=1e-9)
 
 
 def test_slow_motion_is_resisted_in_proportion_to_it():
@@ -42,40 +26,95 @@ def test_slow_motion_is_resisted_in_proportion_to_it():
     assert moment_per_force(body, friction, (0.0, 0.0, 1.0), (0.0, 0.0, 0.0)) == (0.0, 0.0, 0.0)
 
 
-@pytest.mark.parametrize("lean", [0.5, -0.9, 1.2])
-def test_a_coin_at_rest_stays_while_its_mass_centre_is_within_delta_of_the_contact(lean):
-    """The weight's moment is m g a, a the horizontal distance of C from A."""
-    delta, body = 1e-3, scenario(coin=THIN).body
-    y = set_upright()
-    y[6:10] = quaternion_from_angles((0.0, np.pi / 2 + np.arcsin(lean * delta / R), 0.0))
-    put_on_floor(body, FloorFriction(0.3), Mode.STICKING, y)
-    for mu in (0.0, 0.3):
-        mode = Mode.STICKING if mu else Mode.SLIDING
-        assert rests(held(body, FloorFriction(mu, delta, 0.0), mode, y), y) == (abs(lean) < 1)
-    assert not rests(held(body, FloorFriction(0.3, 0.0, delta), Mode.STICKING, y), y)
-    y[10] = 0.1 * UNIT
-    assert not rests(held(body, FloorFriction(0.3, delta, 0.0), Mode.STICKING, y), y)
+THICK, NICKEL = {**ZLOTY, "thickness": 4e-3}, {"mass": 5e-3, "radius": 10.6e-3, "thickness": 1.95e-3}
+DELTA, SLOPE = 1e-3, 0.1
+OF_NICKEL, OF_RIM = NICKEL["radius"] * np.tan(np.radians(0.54)), Contour(1e-4)
+DEFAULT = {
+    "coin": THIN,
+    "mode": Mode.STICKING,
+    "friction": FloorFriction(0.3, DELTA),
+    **{"slope": 0.0, "across": 0.0, "lean": 0.0, "spin": 0.0},
+}
+ON_LINE = {"coin": THICK, "mode": Mode.UPRIGHT}
+HELD = {
+    # The weight's moment is m g a, a the horizontal distance of C from A: a <= δ.
+    **{
+        f"C {share} δ from its point, μ = {mu}": (
+            {"lean": np.arcsin(share * DELTA / R), "friction": FloorFriction(mu, DELTA), "mode": mode},
+            abs(share) < 1,
+        )
+        for share in (0.5, -0.9, 1.2)
+        for mu, mode in ((0.0, Mode.SLIDING), (0.3, Mode.STICKING))
+    },
+    "against pivoting alone": ({"friction": FloorFriction(0.3, 0.0, DELTA)}, False),
+    "while it turns": ({"spin": 0.1 * UNIT}, False),
+    # On both rims a is the distance from the line, and contour friction holds it too.
+    **{
+        f"C {share} c from its line": (
+            {
+                **ON_LINE,
+                "coin": {**THICK, "center_of_mass": [share * OF_RIM.friction, 0, 0]},
+                "friction": FloorFriction(0.3, contour=OF_RIM),
+            },
+            share < 1,
+        )
+        for share in (0.5, 0.9, 1.1)
+    },
+    "against nothing": ({**ON_LINE, "friction": FloorFriction(0.3)}, False),
+    "by viscosity": ({**ON_LINE, "friction": FloorFriction(0.3, contour=Contour(0.0, 1e-4))}, False),
+    "on a point by its contour": ({"friction": FloorFriction(0.3, contour=OF_RIM)}, False),
+    # On a slope tan(a) <= δ/r, of a nickel 0.54°, and friction must hold it.
+    **{
+        f"nickel at {degrees}°, h = {thickness}, μ = {mu}": (
+            {
+                "coin": {**NICKEL, "thickness": thickness},
+                "mode": Mode.UPRIGHT if thickness else Mode.STICKING,
+                "friction": FloorFriction(mu, OF_NICKEL),
+                "slope": np.radians(degrees),
+            },
+            is_held,
+        )
+        for thickness in (NICKEL["thickness"], 0.0)
+        for degrees, mu, is_held in (
+            (0.5, 0.3, True),
+            (0.53, 0.3, True),
+            (0.55, 0.3, False),
+            (0.5, 8e-3, False),
+        )
+    },
+    # The weight meets the floor downhill of C by r tan(a).
+    **{
+        f"C {-side:+} r tan(a) along the slope from its line": (
+            {
+                "coin": {
+                    **{**ZLOTY, "center_of_mass": [-side * R * np.tan(SLOPE), 0, 0]},
+                    "inertia": np.diag([8e-8, 8e-8, 1.6e-7]),
+                },
+                "mode": Mode.UPRIGHT,
+                "friction": FloorFriction(0.9, 1e-4),
+                "slope": SLOPE,
+            },
+            side > 0,
+        )
+        for side in (1, -1)
+    },
+    # It may pivot: C is above the point where it leans uphill by the slope, and would fall from there.
+    **{
+        f"leaning by {lean} across a slope": (
+            {"friction": FloorFriction(0.9, 1.5e-3), "slope": SLOPE, "across": np.pi / 2, "lean": lean},
+            lean == 0,
+        )
+        for lean in (0.0, -SLOPE, SLOPE)
+    },
+}
+"""What is special of coins at rest on their edges, and whether the floor's resistance holds them."""
 
 
-@pytest.mark.parametrize("seed", range(8))
-def test_contacts_of_random_tosses_never_gain_energy(seed):
-    rng = np.random.default_rng((17, seed))
-    case = draw_toss(rng, imperfect=seed % 2 == 1)
-    law = ("smooth", "coulomb", "perfectly_rough")[seed % 3]
-    case = case.replace(
-        "floor.contact",
-        law,
-        "floor.restitution_kind",
-        "kinematic",
-        "floor.restitution",
-        0.4,
-        "floor.rolling_friction",
-        rng.uniform(1e-5, 1e-3),
-        "floor.pivoting_friction",
-        rng.uniform(1e-5, 1e-3),
-    )
-    tossed = analytic.toss(case)
-    gained = [float(setting.value) for setting in tossed.certificate if setting.name == CONTACT_ENERGY]
-    assert max(gained, default=0.0) < 1e-7
-    assert len(tossed.contacts) > 0 or tossed.ending in (Ending.SETTLED, Ending.PAPER)
-    assert tossed.outcome in (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE)
+@pytest.mark.parametrize(("special", "is_held"), HELD.values(), ids=HELD)
+def test_resistance_holds_a_coin_on_its_edge_by_where_its_weight_meets_the_floor(special, is_held):
+    coin, mode, friction, slope, across, lean, spin = (DEFAULT | special).values()
+    body = scenario(coin=coin, floor={"contact": "smooth", "slope": slope}).body
+    y = set_upright(coin, spin=(spin, 0.0, 0.0))
+    y[6:10] = quaternion_from_angles((across, np.pi / 2 + lean, 0.0))
+    put_on_floor(body, friction, mode, y)
+    assert rests(held(body, friction, mode, y), y) == is_held
