@@ -17,8 +17,20 @@ LEAN = 0.01
 
 
 @pytest.mark.parametrize("side", [1, -1])
-@pytest.mark.parametrize(("rate", "acceleration"), [(0.3, 0.0), (0.3, 40.0), (0.3, -2.0), (-0.3, 20.0)])
-def test_the_other_rim_lands_where_the_parabola_of_the_lean_ends(side, rate, acceleration):
+@pytest.mark.parametrize(
+    ("rate", "acceleration"),
+    [
+        (0.3, 0.0),
+        (0.3, 40.0),
+        (0.3, -2.0),
+        (-0.3, 20.0),
+        (-0.3, -2.0),
+        (-0.3, -5.0),
+        (0.0, -1.0),
+        (0.3, -10.0),
+    ],
+)
+def test_the_other_rim_lands_where_the_parabola_of_the_lean_ends_if_it_does(side, rate, acceleration):
     """A coin that turns about the horizontal ξ alone: n_z is the cosine of its tilt θ.
 
     Args:
@@ -34,16 +46,7 @@ def test_the_other_rim_lands_where_the_parabola_of_the_lean_ends(side, rate, acc
     parabola = [(-c * rate**2 - s * acceleration) / 2, -s * rate, c]
     roots = [root.real for root in np.roots(np.trim_zeros(parabola, "f")) if root.imag == 0 and root.real > 0]
     contact = held(scenario().body, FloorFriction(0.0), Mode.SLIDING, y)
-    assert time_to_landing(contact, y, dy) == pytest.approx(min(roots), rel=1e-12)
-
-
-def test_a_coin_that_turns_away_or_back_in_time_does_not_land():
-    for rate, acceleration in ((-0.3, -5.0), (0.0, -1.0), (0.3, -10.0)):
-        y = np.array([0, 0, 0.01, 0, 0, 0, *quaternion_from_angles((0.0, np.pi / 2 - LEAN, 0.0)), rate, 0, 0])
-        dy = np.zeros(13)
-        dy[10] = acceleration
-        contact = held(scenario().body, FloorFriction(0.0), Mode.SLIDING, y)
-        assert time_to_landing(contact, y, dy) == np.inf
+    assert time_to_landing(contact, y, dy) == pytest.approx(min(roots, default=np.inf), rel=1e-12)
 
 
 @pytest.mark.parametrize("side", [1, -1])
