@@ -215,7 +215,7 @@ def test_the_force_is_homogeneous_and_odd(seed, b):
     assert np.abs(change(body, v, w, v, w) - (1 + b) * here).max() < 1e-11 * size
 
 
-@pytest.mark.parametrize(("b", "is_needed"), [(0.0, False), (0.5, True)])
+@pytest.mark.parametrize(("b", "is_needed"), [(0.0, False), pytest.param(0.5, True, marks=pytest.mark.slow)])
 def test_linear_air_is_compiled_without_the_quadrature(b, is_needed):
     """Beside it the few lines of linear air are slower: their calls are no longer inlined."""
     written: Any = force_and_moment_of

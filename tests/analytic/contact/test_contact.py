@@ -102,19 +102,16 @@ def draw_wobble(rng, body, mode):
 @pytest.mark.parametrize("backward", [1, -1])
 def test_a_short_step_errs_by_the_fifth_power_of_its_length(backward):
     """The end of a contact is bracketed by such steps, 1e-2 times as long as the step that passed it."""
-    rng, errors = np.random.default_rng(12), []
-    body = scenario(coin=IMPERFECT).body
-    for dt in (1.6e-3, 0.8e-3):
-        error = 0.0
-        for _ in range(10):
-            y = draw_wobble(rng, body, Mode.SLIDING)
-            contact, by_one, by_two = held(body, SMOOTH, Mode.SLIDING, y), y.copy(), y.copy()
-            stages = contact_work(contact, y)
+    body, errors = scenario(coin=IMPERFECT).body, np.zeros(2)
+    for seed in range(10):
+        y = draw_wobble(np.random.default_rng([12, seed]), body, Mode.SLIDING)
+        contact = held(body, SMOOTH, Mode.SLIDING, y)
+        stages = contact_work(contact, y)
+        for number, dt in enumerate((1.6e-3, 0.8e-3)):
+            by_one, by_two = y.copy(), y.copy()
             step_of_length(contact, y, backward * dt, stages, by_one)
             short_step(contact, y, stages[0], backward * dt, by_two)
-            error += np.abs(by_one - by_two)[10:13].max() / 12
-        errors.append(error / 10)
-        rng = np.random.default_rng(12)
+            errors[number] += np.abs(by_one - by_two)[10:13].max() / 120
     assert errors[0] == pytest.approx(32 * errors[1], rel=0.05)
     assert errors[1] < 1e-5
 
