@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import DOP853
 
-from cointoss.analytic.flight.runge_kutta import end_point, stage_point, step_error
+from cointoss.analytic.flight.runge_kutta import combined_error, end_point, stage_point, step_error
 from cointoss.analytic.numerics.tableau import STAGES, TERMS, WEIGHTED, WEIGHTS, A, B
 from tests.helpers.draws import ZLOTY, scenario
 
@@ -34,3 +34,11 @@ def test_points_and_error_are_the_weighted_sums_of_the_slopes():
     # As SciPy combines them.
     error = dt * fifth / np.sqrt(13 * (fifth + 0.01 * third))
     assert step_error(body, y, dt, stages) == pytest.approx(error, rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("sum_5", "sum_3"), [(1e300, 1e302), (1e304, 1e308), (1e306, np.inf), (np.inf, np.inf)]
+)
+def test_a_step_that_overflows_is_never_accepted(sum_5, sum_3):
+    """The squares of its slopes leave the range of floating-point numbers one after the other."""
+    assert not combined_error(1e-3, sum_5, sum_3, 13) <= 1

@@ -23,12 +23,6 @@ def flown(body, y, times):
     return states
 
 
-def test_the_parts_of_gravity_are_those_along_the_normal_and_downhill():
-    body, level = scenario(floor=FLOOR).body, scenario().body
-    assert (body.gravity, body.downhill) == pytest.approx((G * np.cos(SLOPE), G * np.sin(SLOPE)))
-    assert (level.gravity, level.downhill) == (G, 0.0)
-
-
 @pytest.mark.parametrize("coin", [ZLOTY, IMPERFECT])
 def test_a_coin_in_vacuum_moves_on_a_parabola_and_turns_as_over_a_level_floor(coin):
     release = {**draw_release(np.random.default_rng(7)), "position": [0.3, 0.1, 2.0]}
@@ -39,20 +33,6 @@ def test_a_coin_in_vacuum_moves_on_a_parabola_and_turns_as_over_a_level_floor(co
     assert found[:, :3] == pytest.approx(y[:3] + np.outer(t, y[3:6]) + np.outer(t**2 / 2, g), abs=1e-14)
     assert found[:, 3:6] == pytest.approx(y[3:6] + np.outer(t, g), abs=1e-13)
     assert found[:, 6:] == pytest.approx(level[:, 6:], abs=1e-11)
-
-
-@pytest.mark.parametrize("spin", [(0.0, 0.0, 0.0), (0.0, 0.0, 7.0)])
-def test_a_flat_coin_in_linear_air_nears_both_its_terminal_speeds(spin):
-    """v_x = (m g_x/c_t)(1 - exp(-c_t t/m)), and likewise downwards with c_n."""
-    release = {"position": [0.0, 0.0, 5.0], "angular_velocity": spin}
-    case = scenario(coin=ZLOTY, air=HEAVY_AIR, floor=FLOOR, release=release)
-    body, t = case.body, np.linspace(0.0, 0.5, 6)
-    found = flown(body, state_at_release(case.release), t)
-    drag = body.drag
-    for axis, g, c in ((3, body.downhill, drag.force_tangential), (5, -body.gravity, drag.force_normal)):
-        rate = c / body.mass
-        assert rate * t[-1] > 0.5, "the air should be felt"
-        assert found[:, axis] == pytest.approx(-g / rate * np.expm1(-rate * t), abs=1e-13)
 
 
 @pytest.mark.parametrize("coin", [ZLOTY, IMPERFECT])

@@ -1,17 +1,19 @@
-"""What the search for a touch says of the impacts to come, against the impacts themselves."""
+"""What the search for a touch says of the gap and of the impacts to come, against flights and impacts."""
 
 import numpy as np
 import pytest
 
 from cointoss.analytic.contact.resets import hit, rebound_at, restitution_at
-from cointoss.analytic.flight.flying import fly
+from cointoss.analytic.flight.equations_of_motion import flight_of
+from cointoss.analytic.flight.flying import fly, sample
 from cointoss.analytic.flight.state_vector import state_of
-from cointoss.analytic.flight.touch_search import is_chattering
+from cointoss.analytic.flight.touch_search import gap_acceleration, is_chattering
 from cointoss.analytic.numerics.tolerances import CHATTERING
+from cointoss.analytic.toss import state_at_release
 from cointoss.models.geometry import evaluate_gap
 from cointoss.models.records import IMPACT_ROW
 from tests.helpers.contacts import touching
-from tests.helpers.draws import THIN, scenario
+from tests.helpers.draws import AIR, THIN, draw_coin, draw_release, scenario
 
 POWER = {"restitution": 0.5, "restitution_exponent": 0.25}
 FLOORS = [
@@ -51,3 +53,16 @@ def test_impacts_chatter_that_all_come_while_the_coin_hardly_turns(floor):
     taken, chi = elapsed * turning / (CHATTERING * np.sin(0.6)), floor["restitution"]
     assert taken < 1.02
     assert len(floor) > 1 or taken == pytest.approx(chi * (1 - chi**impacts), rel=2e-2)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_acceleration_of_the_gap_is_that_of_its_samples(seed):
+    rng = np.random.default_rng(seed)
+    release = {**draw_release(rng, 60.0), "position": [0.1, -0.2, 5.0]}
+    case = scenario(coin=draw_coin(rng), air=AIR, release=release)
+    body, dt, states = case.body, 1e-4, np.empty((3, 13))
+    sample(body, state_at_release(case.release), 0.0, np.array([0.2 - dt, 0.2, 0.2 + dt]), states)
+    gaps = [evaluate_gap(body, state_of(y)).gap for y in states]
+    # Second differences err by the gap's fourth derivative, ~ r w^4 dt^2/12, and by rounding, 1e-15/dt^2.
+    due = np.diff(gaps, 2)[0] / dt**2
+    assert gap_acceleration(body, flight_of(body, states[1])) == pytest.approx(due, rel=1e-3, abs=1e-3)
