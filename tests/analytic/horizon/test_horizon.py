@@ -142,61 +142,85 @@ def test_as_many_impacts_are_trusted_in_every_unit(name):
     assert trusted.pop() > 2
 
 
-def test_a_coin_kept_flat_by_symmetry_is_trusted_to_its_end():
-    """Rounding keeps its zeros; tilted in the last digit the coin isn't trusted to land on one point."""
-    for spin in (0.0, 30.0):
-        flat = analytic.toss(scenario(release={"angular_velocity": [0, 0, spin]}))
-        assert flat.trusted_impacts == len(flat.impacts) > 5
-    thrown_down = analytic.toss(scenario(release={"position": [0, 0, 1e-3], "velocity": [0, 0, -1.0]}))
-    assert thrown_down.impacts.time[0] == 0
-    assert thrown_down.trusted_impacts == len(thrown_down.impacts) > 2
-    assert analytic.toss(scenario(release={"angles": [0, 3e-14, 0]})).trusted_impacts == 0
-
-
-def test_errors_are_carried_through_so_many_steps_and_no_impact_after_them_is_trusted():
-    """A coin that hardly turns takes few between its touches."""
-    case = scenario(release={"angular_velocity": [0, 0, 5.0]}, ending={"max_impacts": 8})
-    log = run(case.body, case.rules, state_at_release(case.release))
-    few = [ErrorsMade(most_carried=touches * 2 * TOUCH_COST) for touches in (0, 3, 100)]
-    trusted = [horizon_of(case.body, case.rules, log, made).impacts for made in few]
-    assert trusted[0] == 0
-    assert 2 <= trusted[1] < 6
-    assert trusted[2] == 8
-
-
-def test_a_flight_costs_what_its_tangent_map_does_also_of_a_coin_that_no_body_can_be():
-    """Its spin about the axis could be J_ξ/J_ζ times as fast as the coin turns: such steps are as short."""
-    coin = {**THIN, "inertia": [[1e-6, 0, 0], [0, 1e-6, 0], [0, 0, 1e-8]]}
-    case = scenario(coin=coin, release={"angular_velocity": [10.0, 20.0, 0]}, ending={"max_impacts": 1})
-    for cost, trusted in ((1e3, 0), (1e5, 1)):
-        assert (
-            horizon_of(case.body, case.rules, logged(case), ErrorsMade(most_carried=cost)).impacts == trusted
+THICK = {"mass": 0.01, "radius": 0.0125, "thickness": 0.01}
+TRUSTED = {
+    # Rounding keeps its zeros.
+    **{
+        f"flat, turns at {spin} rad/s": ({"release": {"angular_velocity": [0, 0, spin]}}, "all")
+        for spin in (0.0, 30.0)
+    },
+    "flat, thrown down from the floor": (
+        {"release": {"position": [0, 0, 1e-3], "velocity": [0, 0, -1.0]}},
+        "all",
+    ),
+    "flat but for the last digit": ({"release": {"angles": [0, 3e-14, 0]}}, "none"),
+    # The whole face touches at once, and the gap has no rate.
+    "flat, turns about a diameter": (
+        {
+            "release": {"position": [0, 0, 1e-3], "angular_velocity": [5.0, 0, 0]},
+            "ending": {"max_impacts": 3},
+        },
+        "none",
+    ),
+    # Its lowest point is taken under C up to 1e-14 rad: another impulse by half.
+    **{
+        f"upright but for {lean} rad": (
+            {
+                "coin": THICK,
+                "floor": {"restitution": 0.5},
+                "release": {"position": [0, 0, 0.05], "angles": [0, np.pi / 2 + lean, 0]},
+            },
+            "none",
         )
+        for lean in (3.55e-15, 9.8e-15, 1.14e-14, 5e-14)
+    },
+    # Its impacts spin it at 1e5 rad/s, and to carry errors through the next flight would take an hour.
+    "falls for a thousand seconds": (
+        {
+            "floor": {"restitution": 0.6},
+            "release": {
+                "position": [0, 0, 1e6],
+                "quaternion": [0.9, 0.3, 0.3, 0.1],
+                "angular_velocity": [3, 30, 5],
+            },
+        },
+        "some",
+    ),
+}
+"""Tosses, and which of their impacts are trusted."""
 
 
-def test_a_coin_that_falls_for_a_thousand_seconds_is_not_trusted_beyond_what_takes_seconds():
-    """Its impacts spin it at 1e5 rad/s, and to carry errors through the next flight would take an hour."""
-    release = {"position": [0, 0, 1e6], "quaternion": [0.9, 0.3, 0.3, 0.1], "angular_velocity": [3, 30, 5]}
-    tossed = analytic.toss(scenario(floor={"restitution": 0.6}, release=release))
-    assert 0 < tossed.trusted_impacts < len(tossed.impacts)
-
-
-@pytest.mark.parametrize("lean", [3.55e-15, 9.8e-15, 1.14e-14, 5e-14])
-def test_a_touch_so_near_to_upright_that_either_rim_may_land_is_not_trusted(lean):
-    """Its lowest point is taken under C up to 1e-14 rad: another impulse by half."""
-    coin = {"mass": 0.01, "radius": 0.0125, "thickness": 0.01}
-    release = {"position": [0, 0, 0.05], "angles": [0, np.pi / 2 + lean, 0]}
-    assert (
-        analytic.toss(scenario(coin=coin, floor={"restitution": 0.5}, release=release)).trusted_impacts == 0
-    )
-
-
-def test_a_flat_coin_that_turns_and_does_not_fall_is_not_trusted():
-    """The whole face touches at once, and the gap has no rate."""
-    release = {"position": [0, 0, 1e-3], "angular_velocity": [5.0, 0, 0]}
-    tossed = analytic.toss(scenario(release=release, ending={"max_impacts": 3}))
+@pytest.mark.parametrize("name", TRUSTED)
+def test_no_impact_is_trusted_that_rounding_decides_or_that_takes_an_hour(name):
+    parts, trusted = TRUSTED[name]
+    tossed = analytic.toss(scenario(**parts))
     assert len(tossed.impacts) > 0
-    assert tossed.trusted_impacts == 0
+    assert {0: "none", len(tossed.impacts): "all"}.get(tossed.trusted_impacts, "some") == trusted
+
+
+FLAT = scenario(release={"angular_velocity": [0, 0, 5.0]}, ending={"max_impacts": 8})
+"""It hardly turns, and takes few steps between its touches."""
+NO_BODY = scenario(
+    coin={**THIN, "inertia": [[1e-6, 0, 0], [0, 1e-6, 0], [0, 0, 1e-8]]},
+    release={"angular_velocity": [10.0, 20.0, 0]},
+    ending={"max_impacts": 1},
+)
+"""Its spin about the axis could be J_ξ/J_ζ times as fast as the coin turns: such steps are as short."""
+
+
+@pytest.mark.parametrize(
+    ("case", "cost", "trusted"),
+    [
+        (FLAT, 0, {0}),
+        (FLAT, 6 * TOUCH_COST, {2, 3, 4, 5}),
+        (FLAT, 200 * TOUCH_COST, {8}),
+        (NO_BODY, 1e3, {0}),
+        (NO_BODY, 1e5, {1}),
+    ],
+)
+def test_errors_are_carried_as_far_as_their_cost_goes_and_no_impact_after_is_trusted(case, cost, trusted):
+    made = ErrorsMade(most_carried=cost)
+    assert horizon_of(case.body, case.rules, logged(case), made).impacts in trusted
 
 
 CLOSED = SAFETY * CLOSED_FORM
@@ -258,9 +282,8 @@ def test_the_flight_to_a_trusted_touch_is_known_to_a_thousandth_or_their_order_m
     Its errors go as those of the lean, by a factor between 1/4 and 4.
     """
     lean = 1e-5
-    coin = {"mass": 0.01, "radius": 0.0125, "thickness": 0.01}
     release = {"position": [0, 0, 0.05], "angles": [0, np.pi / 2 - lean, 0]}
-    case = scenario(coin=coin, floor={"restitution": 0.5}, release=release, ending={"max_impacts": 2})
+    case = scenario(coin=THICK, floor={"restitution": 0.5}, release=release, ending={"max_impacts": 2})
     toss = logged(case)
     assert np.diff(toss.rows["time"]) < 0.1 * lean
     assert toss.rows["face"].tolist() == [1, 2]
