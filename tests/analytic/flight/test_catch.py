@@ -7,32 +7,24 @@ from cointoss.analytic.flight.catch import fly_to_hand
 from cointoss.analytic.toss import state_at_release
 from tests.helpers.draws import scenario
 
-HEIGHT, SPEED, G = 0.5, 2.0, 9.81
+HEIGHT, G = 0.5, 9.81
 
 
-def thrown(height, speed):
-    release = {"position": [0, 0, height], "velocity": [0, 0, speed], "angular_velocity": [0, 5.0, 0]}
-    case = scenario(release=release)
-    return case.body, state_at_release(case.release)
-
-
-@pytest.mark.parametrize("below", [0.0, 0.1])
-def test_a_coin_thrown_up_from_the_hand_or_below_is_caught_as_it_comes_down(below):
-    body, y = thrown(HEIGHT - below, SPEED)
-    falling = (SPEED**2 - 2 * G * below) ** 0.5
-    assert fly_to_hand(body, HEIGHT, y, 10.0) == pytest.approx((SPEED + falling) / G, rel=1e-12)
-    assert (y[2], y[5]) == pytest.approx((HEIGHT, -falling), rel=1e-12)
-
-
-@pytest.mark.parametrize("below", [0.0, 0.1])
-def test_a_coin_thrown_down_from_the_hand_or_below_never_comes_down_to_it(below):
-    body, y = thrown(HEIGHT - below, -SPEED)
-    as_given = y.copy()
-    assert fly_to_hand(body, HEIGHT, y, 10.0) == np.inf
-    assert np.array_equal(y, as_given)
-
-
-def test_a_coin_thrown_down_from_above_the_hand_is_caught_at_once_on_its_way():
-    body, y = thrown(HEIGHT + 0.1, -SPEED)
-    falling = (SPEED**2 + 2 * G * 0.1) ** 0.5
-    assert fly_to_hand(body, HEIGHT, y, 10.0) == pytest.approx((falling - SPEED) / G, rel=1e-12)
+@pytest.mark.parametrize(
+    ("above", "upwards", "is_caught"),
+    [
+        (0.0, 2.0, True),
+        (-0.1, 2.0, True),
+        (0.0, -2.0, False),
+        (-0.1, -2.0, False),
+        (0.1, -2.0, True),
+    ],
+)
+def test_a_coin_is_caught_as_it_comes_down_to_the_hand_and_never_from_below(above, upwards, is_caught):
+    """It comes down with v² = v_0² + 2 g z, z above the hand; else its state stays as given."""
+    release = {"position": [0, 0, HEIGHT + above], "velocity": [0, 0, upwards]}
+    case = scenario(release={**release, "angular_velocity": [0, 5.0, 0]})
+    y = state_at_release(case.release)
+    falling = (upwards**2 + 2 * G * above) ** 0.5
+    due = ((upwards + falling) / G, HEIGHT, -falling) if is_caught else (np.inf, *y[[2, 5]])
+    assert (fly_to_hand(case.body, HEIGHT, y, 10.0), y[2], y[5]) == pytest.approx(due, rel=1e-12)

@@ -43,13 +43,12 @@ def draw_flight(
     return case, y
 
 
-@pytest.mark.slow_after_first
 @pytest.mark.parametrize("thickness", [2e-3, 0.0, 2e-2])
 @pytest.mark.parametrize("air", [{}, AIR, STRONG_AIR])
-def test_a_flight_in_closed_form_is_the_integrated_one(thickness, air):
+def test_a_flight_in_closed_form_is_the_integrated_one_and_samples_are_its_states(thickness, air):
     rng = np.random.default_rng([61, int(1e4 * thickness), len(air)])
-    turned, evaluations = 0.0, 0
-    for _ in range(30):
+    turned, evaluations, sampled, also = 0.0, 0, np.empty((9, 13)), np.empty((9, 13))
+    for _ in range(10):
         case, start = draw_flight(rng, thickness, air)
         body, closed, integrated = case.body, start.copy(), start.copy()
         assert turns_in_closed_form(body, spin_of(start))
@@ -59,31 +58,21 @@ def test_a_flight_in_closed_form_is_the_integrated_one(thickness, air):
         assert also_touches
         # The integrated flight errs by 1e-13 on the scales of the coin, over tens of steps.
         assert flown == pytest.approx(other, abs=1e-12)
-        assert closed[:10] == pytest.approx(integrated[:10], abs=1e-11)
-        assert closed[10:] == pytest.approx(integrated[10:], abs=1e-10)
+        times = np.linspace(0, flown, 9)
+        sample_closed(body, start, 0.0, times, sampled)
+        sample_flight(body, start, 0.0, times, also)
+        assert sampled[0] == pytest.approx(start, abs=1e-15)
+        assert sampled[-1] == pytest.approx(closed, abs=1e-13)
+        for found, due in ((closed, integrated), (sampled.T, also.T)):
+            assert found[:10] == pytest.approx(due[:10], abs=1e-11)
+            assert found[10:] == pytest.approx(due[10:], abs=1e-10)
         # Late in a long flight one step of floating-point time lowers the coin by 1e-14 of its radius.
         assert abs(evaluate_gap(body, state_of(closed)).gap) < 1e-13 * body.radius
         turned += float(np.linalg.norm(start[10:13])) * flown
         evaluations += evaluated
-    assert turned > 90, "the coins should turn"
+    assert turned > 30, "the coins should turn"
     # In strong air the bounds are wide.
-    assert evaluations < 30 * (40 if air == STRONG_AIR else 12)
-
-
-@pytest.mark.parametrize("air", [{}, AIR, STRONG_AIR])
-def test_samples_are_states_of_the_flight(air):
-    rng = np.random.default_rng(62)
-    for _ in range(20):
-        case, start = draw_flight(rng, 2e-3, air)
-        body, end = case.body, start.copy()
-        times = np.linspace(0, fly_closed(body, end, 10.0, False).time, 9)
-        closed, integrated = np.empty((9, 13)), np.empty((9, 13))
-        sample_closed(body, start, 0.0, times, closed)
-        sample_flight(body, start, 0.0, times, integrated)
-        assert closed[0] == pytest.approx(start, abs=1e-15)
-        assert closed[-1] == pytest.approx(end, abs=1e-13)
-        assert closed[:, :10] == pytest.approx(integrated[:, :10], abs=1e-11)
-        assert closed[:, 10:] == pytest.approx(integrated[:, 10:], abs=1e-10)
+    assert evaluations < 10 * (40 if air == STRONG_AIR else 12)
 
 
 def test_thin_air_is_nearly_none():
