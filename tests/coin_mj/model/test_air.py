@@ -1,22 +1,15 @@
 """MuJoCo's air with b > 0: its force against the paper's mechanics, and that each coin feels its own."""
 
 import math
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 
 from cointoss.analytic.entries import force_and_moment
-from cointoss.coin_mj.entries import air_force, forward
+from cointoss.coin_mj.entries import air_force
 from cointoss.coin_mj.model.air import PowerLaw
-from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.settings import MujocoSettings
-from cointoss.coin_mj.steps import free_step as steps
-from cointoss.models.kernel.compiled import by_numba
-from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, draw_release, scenario
+from tests.helpers.draws import AIR, ZLOTY, scenario
 from tests.helpers.tuples import vector
-
-free_step = by_numba(steps.free_step)
 
 R, H = ZLOTY["radius"], ZLOTY["thickness"]
 LN, LT = AIR["normal"], AIR["tangential"]
@@ -78,63 +71,3 @@ def test_a_spin_whose_square_underflows_is_none():
 
 def test_a_coin_at_rest_feels_no_air():
     assert air_force(R, H, PowerLaw(LN, LT, 0.5), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)) == ((0, 0, 0), (0, 0, 0))
-
-
-def coin_in_air(b, normal=LN, tangential=LT):
-    case = scenario(
-        coin=IMPERFECT,
-        air={"normal": normal, "tangential": tangential, "exponent": b},
-        release=draw_release(np.random.default_rng(1)),
-    )
-    return machine_of(case, MujocoSettings())
-
-
-@pytest.mark.parametrize("b", [0.5, 1.0])
-def test_a_coin_feels_the_force_at_B_in_mujocos_frames(b):
-    machine = coin_in_air(b)
-    forward(machine.coin)
-    data = machine.data
-    rotation = data.body("coin").xmat.reshape(3, 3)
-    f, m = air_force(R, H, PowerLaw(LN, LT, b), vector(rotation.T @ data.qvel[:3]), vector(data.qvel[3:]))
-    assert np.linalg.norm(f) > 1e-6, "there should be drag"
-    assert data.qfrc_passive == pytest.approx([*(rotation @ f), *m], rel=1e-12, abs=1e-20)
-    assert np.all(data.qfrc_actuator == 0)
-
-
-@pytest.mark.parametrize("air", [{"b": 0.5, "normal": 0.0, "tangential": 0.0}, {"b": 0.0}])
-def test_linear_air_drags_and_vacuum_does_not(air):
-    machine = coin_in_air(**air)
-    forward(machine.coin)
-    vacuum = air.get("normal") == 0
-    assert np.all(machine.data.qfrc_passive == 0) == vacuum
-
-
-def flown(machine, steps=20):
-    """The states of a coin on its way, (steps, 13)."""
-    return np.array([fly_a_step(machine) for _ in range(steps)])
-
-
-def fly_a_step(machine):
-    free_step(machine.coin, 1e-3)
-    return np.concatenate([machine.data.qpos, machine.data.qvel])
-
-
-@pytest.mark.slow
-def test_interleaved_coins_each_feel_their_own_air():
-    cases = [{"b": 0.5}, {"b": 1.0, "normal": 3.0}, {"b": 0.0}, {"b": 0.5, "normal": 0.0, "tangential": 0.0}]
-    alone = [flown(coin_in_air(**case)) for case in cases]
-    machines = [coin_in_air(**case) for case in cases]
-    rows = [[fly_a_step(machine) for machine in machines] for _ in range(20)]
-    together = np.array(rows).transpose(1, 0, 2)
-    assert np.array_equal(together, np.array(alone))
-    ends = np.array(alone)[:, -1, 7:]
-    assert all(np.abs(ends[i] - ends[j]).max() > 1e-3 for i in range(4) for j in range(i))
-
-
-@pytest.mark.slow
-def test_coins_on_several_threads_each_feel_their_own_air():
-    exponents = [0.3, 0.5, 0.8, 1.0]
-    alone = [flown(coin_in_air(b), 100) for b in exponents]
-    with ThreadPoolExecutor(4) as pool:
-        together = list(pool.map(lambda b: flown(coin_in_air(b), 100), exponents))
-    assert np.array_equal(together, alone)

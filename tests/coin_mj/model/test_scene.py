@@ -9,8 +9,7 @@ import pytest
 
 from cointoss.coin_mj.model.scene import build, shape_thickness
 from cointoss.coin_mj.model.settings import MujocoSettings, rebound_of
-from cointoss.coin_mj.model.state import of_release
-from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, draw_release, scenario
+from tests.helpers.draws import ZLOTY, scenario
 
 
 def built(case):
@@ -58,32 +57,3 @@ def test_a_mass_center_less_than_a_micrometre_off_is_kept():
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     assert data.body("coin").xipos[2] - data.body("coin").xpos[2] == pytest.approx(5e-7, abs=1e-15)
-
-
-def test_mujoco_agrees_about_the_velocity_of_the_mass_center():
-    case = scenario(coin=IMPERFECT, release=draw_release(np.random.default_rng(3)))
-    model = built(case)
-    data = mujoco.MjData(model)
-    data.qpos[:], data.qvel[:] = of_release(case.body, case.release)
-    mujoco.mj_forward(model, data)
-    assert data.body("coin").xipos == pytest.approx(case.release.position, abs=1e-16)
-    velocity = np.zeros(6)
-    mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, model.body("coin").id, velocity, 1)
-    R = data.body("coin").ximat.reshape(3, 3)
-    # mjOBJ_BODY is the inertial frame, at C; the last argument turns the answer into its axes.
-    assert R @ velocity[3:] == pytest.approx(case.release.velocity, abs=1e-14)
-
-
-def test_damping_and_actuator_are_the_closed_form_drag():
-    case = scenario(coin=IMPERFECT, air=AIR, release=draw_release(np.random.default_rng(4)))
-    model, body = built(case), case.body
-    data = mujoco.MjData(model)
-    data.qpos[:], data.qvel[:] = of_release(body, case.release)
-    mujoco.mj_forward(model, data)
-    R = data.body("coin").xmat.reshape(3, 3)
-    d = body.drag
-    v_B, w = R.T @ data.qvel[:3], data.qvel[3:]
-    force = -R @ (np.array([d.force_tangential, d.force_tangential, d.force_normal]) * v_B)
-    moment = -np.array([d.moment_tangential, d.moment_tangential, d.moment_normal]) * w
-    assert np.linalg.norm(force) > 1e-6, "there should be drag"
-    assert data.qfrc_actuator + data.qfrc_passive == pytest.approx([*force, *moment], rel=1e-12, abs=1e-20)
