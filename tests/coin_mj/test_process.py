@@ -66,69 +66,36 @@ class Foreign(threading.Thread):
         return np.concatenate([self.data.qpos, self.data.qvel])
 
 
-def tossed_beside(beside, tosses=2):
-    """The impacts of a coin in air, tossed while another thread steps a foreign model."""
-    beside.start()
-    try:
-        found = [impacts_of(in_air(), settings=MANY) for _ in range(tosses)]
-    finally:
-        beside.stopped = True
-        beside.join()
-    assert beside.steps > 100
-    return found
-
-
-@pytest.mark.slow
-def test_a_model_that_another_thread_steps_meanwhile_is_left_alone():
-    held = tuple(pointer.value for pointer in HELD)
-    beside, alone = Foreign(), Foreign()
-    tossed_beside(beside)
-    alone.most = beside.steps
-    alone.run()
-    assert np.array_equal(beside.state(), alone.state())
-    assert np.abs(alone.state()).max() > 5
-    assert beside.held == alone.held == {held}
-    # MuJoCo's timers run on.
-    assert beside.data.timer[mujoco.mjtTimer.mjTIMER_STEP].duration > 0
-
-
 @pytest.mark.slow
 @pytest.mark.usefixtures("restored")
-def test_a_callback_of_the_users_acts_on_their_model_and_not_on_the_coin():
-    expected = impacts_of(in_air(), settings=MANY)
-    seen = set()
+@pytest.mark.parametrize("has_callback", [False, True])
+def test_a_model_that_another_thread_steps_meanwhile_is_left_alone_and_so_is_the_coin(has_callback):
+    """Also where its user's callback acts on it."""
+    expected, seen = impacts_of(in_air(), settings=MANY), set()
 
     def users(model, data):
         seen.add(model.nbody)
         data.qfrc_passive[0] = 7.0
 
     beside, alone = Foreign(), Foreign()
-    mujoco.set_mjcb_passive(users)
-    found = tossed_beside(beside)
-    assert mujoco.get_mjcb_passive() is users
-    assert seen == {beside.model.nbody}
+    mujoco.set_mjcb_passive(users if has_callback else None)
+    held = tuple(pointer.value for pointer in HELD)
+    beside.start()
+    try:
+        found = impacts_of(in_air(), settings=MANY)
+    finally:
+        beside.stopped = True
+        beside.join()
     alone.most = beside.steps
     alone.run()
-    assert beside.data.qfrc_passive[0] == 7
+    assert alone.steps > 100
+    assert np.array_equal(found.impulse, expected.impulse)
     assert np.array_equal(beside.state(), alone.state())
-    assert all(np.array_equal(one.impulse, expected.impulse) for one in found)
-
-
-@pytest.mark.usefixtures("restored")
-def test_a_callback_that_is_set_during_a_toss_stays_set(monkeypatch):
-    def users(_model, _data):
-        pass
-
-    toss_coin = sys.modules["cointoss.coin_mj.toss"].toss_coin
-
-    def set_after(*arguments):
-        result = toss_coin(*arguments)
-        mujoco.set_mjcb_passive(users)
-        return result
-
-    monkeypatch.setattr(sys.modules["cointoss.coin_mj.toss"], "toss_coin", set_after)
-    impacts_of(in_air(), settings=MANY)
-    assert mujoco.get_mjcb_passive() is users
+    assert beside.held == alone.held == {held}
+    assert mujoco.get_mjcb_passive() is (users if has_callback else None)
+    assert seen == ({beside.model.nbody} if has_callback else set())
+    # MuJoCo's timers run on.
+    assert beside.data.timer[mujoco.mjtTimer.mjTIMER_STEP].duration > 0
 
 
 @pytest.mark.usefixtures("restored")
@@ -149,17 +116,23 @@ def test_where_the_user_filters_contacts_no_coin_is_tossed(make):
     make(described)
 
 
-def test_a_toss_sets_the_time_of_mujoco_and_says_it_to_those_who_wait(monkeypatch):
+@pytest.mark.usefixtures("restored")
+def test_a_toss_sets_the_time_of_mujoco_tells_those_who_wait_and_keeps_a_callback_set_meanwhile(monkeypatch):
     described, told = scenario(ending={"max_impacts": 3}), []
-    machine = machine_of(described, MANY)
-    toss_coin = sys.modules["cointoss.coin_mj.toss"].toss_coin
+    machine, module = machine_of(described, MANY), sys.modules["cointoss.coin_mj.toss"]
+    toss_coin = module.toss_coin
+
+    def users(_model, _data):
+        pass
 
     def told_after(*arguments):
         result = toss_coin(*arguments)
         told.append(at_work[-1].detail())
+        mujoco.set_mjcb_passive(users)
         return result
 
-    monkeypatch.setattr(sys.modules["cointoss.coin_mj.toss"], "toss_coin", told_after)
+    monkeypatch.setattr(module, "toss_coin", told_after)
     end_time = run(machine, described.rules).end_time
     assert machine.data.time == end_time > 0
     assert told == [f"3 impacts in {end_time:.3g} s of the coin's time"]
+    assert mujoco.get_mjcb_passive() is users
