@@ -87,8 +87,10 @@ def test_differences_are_of_the_second_order_and_the_step_chosen_is_short_enough
 
 @pytest.mark.parametrize("floor", LAWS[::3])
 def test_the_velocity_after_an_impact_changes_as_its_impulse_over_the_mass(floor):
-    """The velocity of C by S/m."""
+    """The velocity of C by S/m; the Euler parameters e as they did, of which norm 1 is kept: by 1 - e eᵀ."""
     case = on_floor(floor, center_of_mass=PAPER_OFFSET)
-    touch = touch_derivatives(case.body, case.rules, draw_touch(np.random.default_rng(8)))
+    y = draw_touch(np.random.default_rng(8))
+    touch, e = touch_derivatives(case.body, case.rules, y), y[6:10]
     assert touch.after[3:6] - np.eye(13)[3:6] == pytest.approx(touch.impulse / case.body.mass, rel=1e-12)
     assert np.abs(touch.impulse[:, 3:6]).max() > 0.1 * case.body.mass
+    assert touch.after[6:10, 6:10] == pytest.approx(np.eye(4) - np.outer(e, e), abs=1e-12)
