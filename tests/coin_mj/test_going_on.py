@@ -21,15 +21,6 @@ def tossed(release, until):
     return coin_mj.toss(scenario(coin=COIN, floor=floor, release=release, ending={"until": until}))
 
 
-def test_a_coin_that_lies_slides_as_a_point_on_the_floor():
-    v = 0.5
-    toss = tossed({"position": [0, 0, h / 2], "velocity": [v, 0, 0]}, 2)
-    assert toss.path_end == pytest.approx(2, rel=1e-12)
-    assert last_state(toss)[0][0] == pytest.approx(v**2 / (2 * mu * g), rel=1e-3)
-    times = np.array([0.2, 0.5, 0.8]) * v / (mu * g)
-    assert toss.sample(times).velocity[:, 0] == pytest.approx(v - mu * g * times, rel=1e-2)
-
-
 def test_a_coin_on_its_edge_with_backspin_stops_where_friction_has_taken_both():
     d = 0.4
     v = sqrt(2 * mu * g * d)
