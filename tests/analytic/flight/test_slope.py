@@ -5,10 +5,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from cointoss.analytic.flight.equations_of_motion import derivative
-from cointoss.analytic.flight.flying import fly, sample
-from cointoss.analytic.flight.state_vector import state_of
+from cointoss.analytic.flight.flying import sample
 from cointoss.analytic.toss import state_at_release
-from cointoss.models.geometry import evaluate_gap
 from tests.helpers.draws import IMPERFECT, ZLOTY, draw_release, scenario
 
 G, SLOPE = 9.81, 0.4
@@ -54,19 +52,3 @@ def test_a_flight_in_air_is_that_of_an_independent_integration(coin, exponent, s
 
     expected = solve_ivp(rate, (0.0, duration), y, method="DOP853", rtol=1e-11, atol=1e-12).y[:, -1]
     assert flown(body, y, [duration])[0] == pytest.approx(expected, abs=1e-9)
-
-
-@pytest.mark.parametrize("coin", [ZLOTY, IMPERFECT])
-@pytest.mark.parametrize("seed", range(3))
-def test_the_first_touch_is_found_where_drag_presses_a_sliding_coin_down(coin, seed):
-    """On a steep slope through thick air: no gap is negative before it."""
-    floor, rng = {**FLOOR, "slope": 1.0}, np.random.default_rng(seed)
-    release = {**draw_release(rng), "position": [0.0, 0.0, 0.05], "velocity": [1.0, 0.0, 0.4]}
-    case = scenario(coin=coin, air=HEAVY_AIR, floor=floor, release=release)
-    y = state_at_release(case.release)
-    start = y.copy()
-    found = fly(case.body, y, 2.0, False)
-    assert found.touches
-    assert abs(evaluate_gap(case.body, state_of(y)).gap) < 1e-12
-    states = flown(case.body, start, np.linspace(0.0, found.time, 200))
-    assert min(evaluate_gap(case.body, state_of(row)).gap for row in states) > -1e-12
