@@ -100,6 +100,12 @@ GEOMS = [
     (FLOOR + HELD, ("a", "b"), "equality constraints hold them"),
     (FLOOR + ball('solref="nan 1"'), ("a", "b"), "geom b solref = nan: accepted: finite numbers"),
     (FLOOR + ball('solimp="0.9 inf 1"'), ("a", "b"), "geom b solimp = inf: accepted: finite numbers"),
+    (
+        '</worldbody><asset><hfield name="h" nrow="6" ncol="6" size="1 1 0.1 0.1"/></asset><worldbody>'
+        '<geom name="a" type="hfield" hfield="h"/>' + ball("", "3 0 1"),
+        ("a", "b"),
+        "not above the height field",
+    ),
     (TWO_GEOMS, (-1, "a"), A_GEOM),
     (TWO_GEOMS, (2, "a"), A_GEOM),
     (TWO_GEOMS, (True, "a"), A_GEOM),
