@@ -61,19 +61,6 @@ def test_what_is_told_of_weight_holds_for_another_gravity_and_mass():
     assert (model.opt.gravity[2], model.body_mass[1]) == (-50, 2)
 
 
-def test_weight_takes_from_a_rebound_out_of_a_long_contact():
-    def errors(restitution, dt, steps):
-        contact = recipe_of(restitution, dt, steps)
-        return [abs(drops_of(contact, gravity=g).restitutions - restitution).max() for g in (0.0, 9.81)]
-
-    alone, weighing = errors(0.1, 1e-3, 40)
-    assert alone < 0.01
-    assert weighing > 0.05  # hardly leaves the floor
-    taken = [b - a for a, b in (errors(0.1, 1e-5 / part, 40) for part in (1, 2))]
-    assert taken[1] > 1e-4
-    assert taken[0] / taken[1] == pytest.approx(2, rel=0.1)  # first order in a contact's length
-
-
 @pytest.mark.parametrize("height", [0.2, 0.05])
 @pytest.mark.parametrize("e", [0.4, 0.8, 1.0])
 def test_a_ball_that_is_dropped_loses_to_its_weight_what_the_closed_form_says(e, height):
@@ -91,22 +78,6 @@ def test_a_ball_that_is_dropped_loses_to_its_weight_what_the_closed_form_says(e,
     # What is printed is the plain drop's.
     if height == 0.2:
         assert found.error_with_weight == pytest.approx(max(abs(e - r) for r in rebounds), abs=1e-3)
-
-
-@pytest.mark.parametrize("body", ["sphere", "box"])
-@pytest.mark.parametrize("mass", ["0.001", "50"])
-def test_what_is_pasted_elsewhere_holds_for_another_body(body, mass):
-    found = solref(0.6, 1e-3)
-    size, lowest = {"sphere": ("0.1", 0.1), "box": ("0.1 0.2 0.05", 0.05)}[body]
-    text = f"""<mujoco>{found.option}<worldbody><geom type="plane" size="0 0 1"/>
-        <body pos="0 0 0.4"><freejoint/><geom type="{body}" size="{size}" mass="{mass}" {found.geom}/></body>
-        </worldbody></mujoco>"""
-    model = mujoco.MjModel.from_xml_string(text)
-    assert rebound(model, lowest, 0.4 - lowest) == pytest.approx(0.6, abs=found.error_with_weight)
-    # The stiffness takes up to 5e-4; contacts at four corners share a softness of 1 - 0.9999.
-    exactly = {"sphere": 5.1e-4, "box": 6e-4}[body]
-    left = [data.qvel[2] / 2.0 for data in thrown(model, 2.0, lowest, 0.4)]
-    assert left == pytest.approx([0.6] * 8, abs=exactly)
 
 
 def test_the_depth_is_that_of_a_spring_or_of_a_step():
