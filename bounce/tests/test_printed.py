@@ -1,4 +1,4 @@
-"""Every XML of page and command, stepped by plain `mujoco`: a thousand bounces, and an hour at rest."""
+"""Every XML of page and command, stepped by plain `mujoco`: its bounces, and an hour at rest."""
 
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
@@ -14,6 +14,7 @@ import pytest
 
 from cointoss_bounce import solref
 from tests.helpers.command_line import mj_bounce
+from two_geoms import thrown
 
 DOCS = Path(__file__).parents[2] / "docs"
 TWO_LINES = re.compile(r"(<option .*>)\n\W*(<geom .*/>)")
@@ -99,24 +100,6 @@ def printed(name: str) -> Printed:
     return Printed(text, float(asked), 16 / 15 * error)
 
 
-def rebounds(model: mujoco.MjModel, number: int, speed: float = 2.0) -> np.ndarray:
-    """Return the restitutions of a body's touches at random phases of a step, without weight."""
-    model.opt.gravity[:] = 0
-    data, way = mujoco.MjData(model), speed * model.opt.timestep
-    height = lowest(model)
-    rng, found = np.random.default_rng(1), []
-    for _ in range(number):
-        mujoco.mj_resetData(model, data)
-        data.qpos[2] = height + way * (1 + rng.random())
-        data.qvel[2] = -speed
-        for _ in range(1000):
-            mujoco.mj_step(model, data)
-            if data.qvel[2] > 0 and data.qpos[2] >= height:
-                break
-        found.append(max(data.qvel[2], 0.0) / speed)
-    return np.array(found)
-
-
 def lowest(model: mujoco.MjModel) -> float:
     """Return the height of a body, flat or round, where it touches the plane."""
     return float(model.geom_size[1, 2 if model.geom_type[1] == mujoco.mjtGeom.mjGEOM_BOX else 0])
@@ -133,20 +116,24 @@ def test_every_xml_of_the_page_is_among_them():
     assert chart.geom_solref[1] == pytest.approx(solref(0.8, 2e-3).solref, rel=1e-12)
 
 
-LONG = [pytest.param(name, True, marks=pytest.mark.long) for name in (*PRINTED, *COMMANDS)]
-CASES = [*((name, False) for name in QUICK), *LONG]
-"""Of each model that is printed, whether it bounces a thousand times and rests for an hour."""
+ASKED = [name if name in QUICK else pytest.param(name, marks=pytest.mark.long) for name in COMMANDS]
 
 
-@pytest.mark.parametrize(("name", "long"), CASES)
-def test_what_is_printed_bounces_as_it_says(name, long):
+@pytest.mark.parametrize("name", [*PRINTED, *ASKED])
+def test_what_is_printed_bounces_as_it_says(name):
+    """Without weight, in eight phases of a step."""
     given = printed(name)
-    e = rebounds(given.model, 1000 if long else 100)
+    model = given.model
+    left = thrown(model, 2.0, lowest(model), model.qpos0[2])
+    e = np.array([max(data.qvel[2], 0.0) / 2.0 for data in left])
     assert np.abs(e - given.e).max() < given.error
     assert e.mean() == pytest.approx(given.e, abs=max(0.5 * given.error, 1e-9))
 
 
-@pytest.mark.parametrize(("name", "long"), CASES)
+LONG = [pytest.param(name, True, marks=pytest.mark.long) for name in (*PRINTED, *COMMANDS)]
+
+
+@pytest.mark.parametrize(("name", "long"), [*((name, False) for name in QUICK), *LONG])
 def test_what_is_printed_comes_to_rest(name, long):
     """It falls from where it is printed, bounces out, rises in b/k, and lies still (1 - d) g/k deep."""
     model = printed(name).model
