@@ -10,12 +10,12 @@ import pytest
 from cointoss import analytic, coin_mj
 from cointoss.analytic.air.force import force_and_moment
 from cointoss.models import certificate
-from cointoss.models.certificate import Changes, InContact, linear_air_power, measurements
+from cointoss.models.certificate import Changes, InContact, measurements
 from cointoss.models.laws import ContactLaw
 from cointoss.models.reading import load
 from cointoss.models.records import Array, Impacts, States, Toss
 from cointoss.models.scenario import Scenario
-from tests.helpers.draws import AIR, LONG_TRANSIENT, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
+from tests.helpers.draws import AIR, LONG_TRANSIENT, ZLOTY, draw_coin, draw_release, scenario
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
@@ -159,31 +159,23 @@ def test_a_damaged_velocity_of_the_contact_point_shows(law, axis):
         assert found[certificate.IMPACT_ENERGY] > 1e3 * measured(toss)[certificate.IMPACT_ENERGY]
 
 
-def test_air_that_took_a_different_work_shows(monkeypatch):
-    toss = analytic.toss(draw(1))
-    monkeypatch.setattr(certificate, "linear_air_power", lambda *motion: 0.999 * linear_air_power(*motion))
-    exact, found = measured(toss)[certificate.FLIGHT_ENERGY], again(toss)
-    assert found[certificate.FLIGHT_ENERGY] > 1e-4 > 1e4 * exact
-
-
-def test_a_damaged_path_shows():
+@pytest.mark.parametrize(
+    ("sink", "stretch", "line", "low", "high"),
+    [
+        (0.0, 1e-7, certificate.NORM, 0.999e-7, 1.001e-7),
+        (0.5, 0.0, certificate.GAP, -0.6 / 0.0125, -0.1 / 0.0125),
+    ],
+)
+def test_a_damaged_path_shows(sink, stretch, line, low, high):
     toss = analytic.toss(draw(2))
 
     class Damaged:
-        def __init__(self, sink: float, stretch: float) -> None:
-            self.sink, self.stretch = sink, stretch
-
         def sample(self, times: Array) -> States:
             states = toss.path.sample(times)
-            return replace(
-                states,
-                position=states.position - [0, 0, self.sink],
-                quaternion=states.quaternion * (1 + self.stretch),
-            )
+            lowered = states.position - [0, 0, sink]
+            return replace(states, position=lowered, quaternion=states.quaternion * (1 + stretch))
 
-    assert again(toss, path=Damaged(0.0, 1e-7))[certificate.NORM] == pytest.approx(1e-7)
-    assert again(toss, path=Damaged(0.5, 0.0))[certificate.GAP] < -0.1 / toss.scenario.coin.radius
-    assert again(toss, path=Damaged(0.0, 0.0)) == again(toss)
+    assert low < again(toss, path=Damaged())[line] < high
 
 
 def test_contacts_are_measured_where_there_are_any():
@@ -305,12 +297,20 @@ def test_a_toss_without_impacts_measures_none():
     [{"velocity": [0, 0, 1e4]}, {"angular_velocity": [0, 1e4, 0]}],
     ids=["up at 10 km/s", "spinning"],
 )
-@pytest.mark.usefixtures("without_horizon")
 def test_a_flight_that_the_quadrature_cannot_follow_is_not_measured(thrown):
     case = scenario(air=AIR, release={"velocity": [0, 0, 3], **thrown}, ending={"max_impacts": 1})
     assert certificate.FLIGHT_ENERGY not in measured(analytic.toss(case))
     gentle = case.replace("release.velocity", [0, 0, 3], "release.angular_velocity", [0, 100, 0])
     assert measured(analytic.toss(gentle))[certificate.FLIGHT_ENERGY] < 1e-10
+
+
+def test_the_work_of_air_that_is_not_linear_is_measured():
+    case = scenario(
+        air={**AIR, "exponent": 0.5},
+        release={"angles": [0, 0.4, 0], "angular_velocity": [3.0, 5.0, 2.0], "position": [0, 0, 0.05]},
+        ending={"max_impacts": 2},
+    )
+    assert outside(analytic.toss(case), {certificate.FLIGHT_ENERGY: (-1, 1e-9)}) == {}
 
 
 def test_a_flat_landing_is_measured_as_vertical():
@@ -320,57 +320,3 @@ def test_a_flat_landing_is_measured_as_vertical():
     assert found[certificate.LAW] < 1e-12
     S = toss.impacts.impulse + np.array([1e-9, 0, 0])
     assert again(toss, replace(toss.impacts, impulse=S))[certificate.LAW] > 1e-7
-
-
-@pytest.mark.parametrize("offset", [[0.0, 0.0, 0.0], PAPER_OFFSET])
-def test_the_power_of_linear_air_is_that_of_its_force(offset):
-    body = scenario(coin={"center_of_mass": offset}, air=AIR).body
-    rng = np.random.default_rng(6)
-    v, w = rng.normal(size=(10, 3)), 30 * rng.normal(size=(10, 3))
-    expected = []
-    for a, b in zip(v, w, strict=True):
-        f, m = force_and_moment(body, tuple(a), tuple(b))
-        expected.append(np.dot(f, a) + np.dot(m, b))
-    assert max(expected) < 0
-    assert linear_air_power(body, v, w) == pytest.approx(expected, rel=1e-12)
-
-
-SPRINGS = {
-    certificate.LAW: (1e-9, 5e-3),
-    certificate.MOMENTUM: (-1, 1e-2),
-    certificate.FLIGHT_ENERGY: (-1, 1e-5),
-    certificate.NORM: (-1, 1e-12),
-    certificate.GAP: (-1, 1e-4),
-}
-
-
-@pytest.mark.parametrize("air", [{}, AIR, {**AIR, "exponent": 0.5}])
-def test_mujoco_measures_the_same(air):
-    """A spring's contact takes time: its impacts keep the law to some 1e-3, its flights their energy."""
-    case = scenario(
-        air=air,
-        release={"angles": [0, 0.4, 0], "angular_velocity": [3.0, 5.0, 2.0], "position": [0, 0, 0.05]},
-        ending={"max_impacts": 2},
-    )
-    tosses = coin_mj.toss(case), analytic.toss(case)
-    by_engine = [measured(toss).keys() for toss in tosses]
-    assert by_engine[0] == by_engine[1] >= {*ROUNDING}
-    assert outside(tosses[0], SPRINGS) == {}
-    assert outside(tosses[1], {certificate.FLIGHT_ENERGY: (-1, 1e-9)}) == {}
-
-
-def test_mujoco_measures_its_contacts():
-    rolls = scenario(
-        coin={"thickness": 0.0},
-        floor={"contact": "coulomb", "friction": 5.0, "restitution": 0.5},
-        release={
-            "position": [0, 0, 1.25e-2 * np.sin(1.3)],
-            "angles": [0, 1.3, 0],
-            "angular_velocity": [0, 8.0, 40.0],
-            "velocity": [-0.5, 0, 0],
-        },
-        ending={"test": "paper", "max_time": 0.2},
-    )
-    toss = coin_mj.toss(rolls)
-    assert np.sum(np.diff(toss.contacts, axis=1)) > 0.1
-    assert 0 < measured(toss)[certificate.CONTACT_ENERGY] < 5e-3
