@@ -40,6 +40,9 @@ def test_what_is_left_out_has_its_documented_default():
     assert (read.floor.pivoting_friction, read.ending.max_time) == (0, 1_000_000)
 
 
+POWER = {"contact": "smooth", "restitution": 0.5, "restitution_exponent": 0.25}
+
+
 @pytest.mark.parametrize(
     ("floor", "lossless"),
     [
@@ -50,6 +53,11 @@ def test_what_is_left_out_has_its_documented_default():
         ({"contact": "coulomb", "restitution": 0.95, "restitution_kind": "energetic"}, False),
         ({"contact": "perfectly_rough", "restitution": 0.5}, False),
         ({"contact": "knurled", "restitution": 0.2}, True),
+        ({"contact": "smooth", "restitution": 0.5, "restitution_viscous": 0.1}, False),
+        (POWER, True),
+        # The power law gives back all up to 0.5⁴ m/s.
+        ({**POWER, "restitution_threshold": 1.01 * 0.5**4}, False),
+        ({**POWER, "restitution_threshold": 0.99 * 0.5**4}, True),
     ],
 )
 def test_a_toss_has_patience_where_impacts_take_energy(floor, lossless):
