@@ -1,5 +1,6 @@
 """Outcomes, endings, faces and laws are words to a person, and integers in arrays and compiled code."""
 
+import operator
 import pickle
 
 import numpy as np
@@ -29,10 +30,8 @@ def test_a_member_prints_as_its_word_and_equals_it(member):
 
 def test_a_number_in_an_array_equals_its_member():
     codes = np.array([0, 1, 2], np.int8)
-    assert (codes == Outcome.TAILS).tolist() == [False, False, True]
-    assert (Outcome.TAILS == codes).tolist() == [False, False, True]
-    assert (codes != Outcome.TAILS).tolist() == [True, True, False]
-    assert (Outcome.TAILS != codes).tolist() == [True, True, False]
+    for is_so, due in ((operator.eq, [False, False, True]), (operator.ne, [True, True, False])):
+        assert is_so(codes, Outcome.TAILS).tolist() == is_so(Outcome.TAILS, codes).tolist() == due
     assert (Outcome.TAILS != np.ma.masked) is (Outcome.TAILS == np.ma.masked) is np.ma.masked
     assert codes[1] == Outcome.HEADS == codes[1] == 1
     assert np.full(2, Outcome.EDGE, np.int8).tolist() == [3, 3]
