@@ -131,13 +131,6 @@ def test_a_library_that_is_stale_damaged_or_anothers_is_not_loaded_but_built_aga
     assert asked == [(MODULE, cached[0].parent, [SYSTEM])]
 
 
-@pytest.mark.slow
-def test_a_library_that_is_damaged_is_built_again_as_it_was(cached):
-    whole = cached[1].read_bytes()
-    HARMS["cut"](*cached)
-    assert library_file(MODULE).read_bytes() == whole
-
-
 def test_a_wheel_carries_a_library_for_its_system(cached, monkeypatch, tmp_path):
     there = tmp_path / f"small-{SYSTEM}.so"
     monkeypatch.setattr(building, "CARRIED", tmp_path)
