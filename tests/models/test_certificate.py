@@ -142,6 +142,16 @@ def test_a_missed_restitution_is_taken_of_the_change_that_is_asked_for():
     assert certificate.restitution_residuals(plastic, toss.impacts)[1] == pytest.approx(0.7)
 
 
+ALL_OF_IT, OF_EDGE = (0.999e-6, 1.001e-6), (0.7e-6, 1.01e-6)
+ALONG_THE_FLOOR = {
+    ContactLaw.PERFECTLY_ROUGH: ALL_OF_IT,
+    ContactLaw.SLIP_PRESERVING: ALL_OF_IT,
+    ContactLaw.SHARP_EDGE: OF_EDGE,
+    ContactLaw.KNURLED: OF_EDGE,
+}
+"""What a law says of the slip after an impact, over what it is off."""
+
+
 @pytest.mark.parametrize("law", list(ContactLaw))
 @pytest.mark.parametrize("axis", range(3))
 def test_a_damaged_velocity_of_the_contact_point_shows(law, axis):
@@ -149,12 +159,8 @@ def test_a_damaged_velocity_of_the_contact_point_shows(law, axis):
     v = toss.impacts.contact_velocity_after.copy()
     v[1, axis] += 1e-6 * np.linalg.norm(toss.impacts.contact_velocity_before[1])
     found = again(toss, replace(toss.impacts, contact_velocity_after=v))
-    of_edge = (ContactLaw.SHARP_EDGE, ContactLaw.KNURLED)
-    all_of_it = (ContactLaw.PERFECTLY_ROUGH, ContactLaw.SLIP_PRESERVING)
-    if axis == 2 or law in all_of_it:
-        assert found[certificate.LAW] == pytest.approx(1e-6, rel=1e-3)
-    elif law in of_edge:
-        assert 0.7e-6 < found[certificate.LAW] < 1.01e-6
+    low, high = ALL_OF_IT if axis == 2 else ALONG_THE_FLOOR.get(law, (-1, 1))
+    assert low < found[certificate.LAW] < high
     if toss.impacts.impulse[1, axis] != 0:
         assert found[certificate.IMPACT_ENERGY] > 1e3 * measured(toss)[certificate.IMPACT_ENERGY]
 
