@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from cointoss.models.contact_laws.slip_stop import (
     BEFORE,
@@ -75,30 +74,6 @@ def test_on_its_way_to_the_stop_slip_has_the_speed_and_direction_of_the_series()
         S, _ = impulse_until(stop, series, 0.0)
         assert slip + (np.array(K) @ S)[:2] == pytest.approx([0, 0], abs=1e-14 * scale.max())
     assert turned > 0.2
-
-
-def test_the_impulse_to_the_stop_is_that_of_an_integration():
-    """Of dS/dτ = (-μ v_t, q), dX/dτ = q², dv_A/dτ = K dS/dτ, until slip is a ten-billionth of what it was."""
-    rng = np.random.default_rng(2)
-    for _ in range(30):
-        K, mu, slip, stop, series = draw_stopping(rng)
-        matrix, little = np.array(K), 1e-10 * np.hypot(*slip)
-
-        def rate(_, y, matrix=matrix, mu=mu):
-            q = np.hypot(y[0], y[1])
-            S = np.array([-mu * y[0], -mu * y[1], q])
-            return [*(matrix @ S)[:2], *S, q * q]
-
-        def stops(_, y, little=little):
-            return np.hypot(y[0], y[1]) - little
-
-        stops.terminal = True  # pyright: ignore[reportFunctionMemberAccess]
-        end = solve_ivp(
-            rate, (0, np.inf), [*slip, 0, 0, 0, 0], method="DOP853", rtol=1e-12, atol=1e-16, events=stops
-        ).y[:, -1]
-        S, path = impulse_until(stop, series, 0.0)
-        assert end[2:5] == pytest.approx(S, abs=2e-9 * float(np.linalg.norm(S)))
-        assert end[5] == pytest.approx(path, rel=2e-9)
 
 
 def test_a_direction_that_is_kept_has_no_turning_and_draws_slip_to_it():
