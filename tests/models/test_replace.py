@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from cointoss.models.errors import ScenarioError
 from cointoss.models.fields import UNITS
-from cointoss.models.laws import ContactLaw
 from cointoss.models.parts import Air, Coin, Release
 from cointoss.models.scenario import Scenario
 from tests.helpers.draws import AIR, ZLOTY, draw_quaternion, scenario
@@ -31,14 +30,6 @@ def test_several_fields_are_replaced_and_no_other():
         3,
     )
     assert changed.replace("floor", HERE.floor, "release", HERE.release, "ending", HERE.ending) == HERE
-
-
-@pytest.mark.parametrize("law", ContactLaw)
-def test_a_law_by_its_name_is_the_law(law):
-    changed = HERE.replace("floor.contact", str(law))
-    assert changed.floor.contact is law
-    assert changed == HERE.replace("floor.contact", law)
-    assert changed.rules.law is law
 
 
 def test_a_part_is_given_as_a_table_or_as_itself():
