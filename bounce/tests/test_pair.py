@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from cointoss_bounce import bounce, pair, solref_of
+from cointoss_bounce import bounce, pair
 from cointoss_bounce.approach import Pair
 from cointoss_bounce.bounce_lines import bounce_table
 from cointoss_bounce.pair import PairOutcome
@@ -93,17 +93,6 @@ def test_every_kind_of_geom_rebounds_from_every_other_as_the_page_says(above, be
     found = bounce(model(text, contact.integrator), "b", "a").restitutions[1:5]
     promised = (2e-3 if above == below == "ellipsoid" else 6e-4) if steps is None else 7e-3
     assert found == pytest.approx(0.8, abs=promised)
-
-
-@pytest.mark.long
-def test_it_is_that_of_the_ball_with_the_same_settings():
-    found = bounce(model(FLOOR + ball('solref="0.01 0.37"'), "Euler"), "b", "a")
-    same = solref_of((0.01, 0.37), DT, other=(0.02, 1))
-    assert found.solref == pytest.approx(same.solref)
-    fast = list(found.speeds).index(2.0)
-    assert found.restitutions[fast].mean() == pytest.approx(same.restitution, abs=2e-3)
-    assert found.with_gravity[fast].mean() == pytest.approx(same.restitution_with_weight, abs=2e-3)
-    assert found.with_gravity[0].max() < 0.05  # at 0.1 m/s it hardly leaves
 
 
 PENDULUM = (
