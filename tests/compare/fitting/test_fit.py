@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from cointoss import Observed, analytic, fit
+from cointoss.compare.fitting.fit import Fitted
+from cointoss.compare.sweep.axes import Span
 from cointoss.models.scenario import Scenario
 
 MS = 1e-3
@@ -64,81 +66,6 @@ def test_touches_that_come_ever_later_are_those_of_no_coin():
     assert replace(found, chi_square=1e5).verdict.endswith("freedom, p < 1e-300")
 
 
-def flat_misses(count: int, seed: int) -> tuple[np.ndarray, int]:
-    """Return by how many deviations fits of random flat coins miss the truth, and how many are rejected."""
-    rng, misses, rejected = np.random.default_rng(seed), [], 0
-    for _ in range(count):
-        truth = (rng.uniform(0.5, 0.9), rng.uniform(0.15, 0.5))
-        coin = FLAT.replace(
-            "floor.restitution", truth[0], "release.position.z", truth[1],
-            "release.angular_velocity.zeta", rng.uniform(-20, 20),
-        )  # fmt: skip
-        found = fit(seen(coin, 6, rng), coin, ANY, starts=64)
-        values = zip(found.values, (*truth, 1.0), strict=True)
-        misses.append([(each.value - true) / each.sd for each, true in values])
-        rejected += not found.is_possible
-    return np.abs(misses), rejected
-
-
-def filmed(scenario: Scenario, rng: np.random.Generator) -> Observed:
-    """Return three touches, and heights and tilts of a film of 60 frames a second until after the second."""
-    times = touches(scenario, 3)
-    toss = analytic.toss(scenario.replace("ending.test", "lying"))
-    at = np.arange(0, min(times[1] + 0.1, toss.end_time), 1 / 60)
-    states = toss.sample(at)
-    tilts = np.arccos(states.normal[:, 2]) + rng.normal(0, 0.05, len(at))
-    return Observed(
-        touch_times=times + rng.normal(0, MS, 3),
-        touch_sd=MS,
-        times=at,
-        heights=states.position[:, 2] + rng.normal(0, 2 * MS, len(at)),
-        height_sd=2 * MS,
-        tilts=np.clip(tilts, 0, np.pi),
-        tilt_sd=0.05,
-    )
-
-
-FILMED = {
-    "floor.restitution": (0.4, 1.0),
-    "release.position.z": (0.15, 0.5),
-    "release.angular_velocity.xi": (-25.0, 25.0),
-}
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("seed", [2, 3, 4, 5])
-def test_intervals_of_flat_coins_cover_the_truth(seed):
-    """Intervals of 99 % and of 68 % hold the truth as often as they say, within 3.3 binomial deviations."""
-    n = 50
-    misses, rejected = flat_misses(n, seed)
-    for level, half in ((0.99, 2.576), (0.683, 1.0)):
-        share = np.mean(misses < half, axis=0)
-        assert np.all(np.abs(share - level) < 3.3 * np.sqrt(level * (1 - level) / n) + 1 / n), (level, share)
-    assert rejected <= 0.01 * n + 3.3 * np.sqrt(0.0099 * n)
-
-
-@pytest.mark.slow
-def test_a_coin_of_another_law_is_rejected():
-    rng, rough = np.random.default_rng(4), TUMBLING.replace("floor.contact", "perfectly_rough")
-    shown = filmed(rough, rng)
-    found = fit(shown, TUMBLING, FILMED, starts=64)
-    assert not found.is_possible
-    assert found.degrees == 3 + 2 * len(shown.times) - 3
-
-
-def test_touches_of_mujocos_coin_are_explained_by_the_analytic_engine():
-    """MuJoCo's impacts take time, some 1e-5 s here: less than what a microphone errs."""
-    from cointoss import coin_mj
-
-    times = coin_mj.toss(TUMBLING.replace("ending.test", "lying", "ending.max_impacts", 4)).impacts.time[:3]
-    heard = Observed(touch_times=times, touch_sd=0.2 * MS)
-    spans = {"floor.restitution": (0.6, 0.95), "release.position.z": (0.28, 0.32)}
-    found = fit(heard, TUMBLING, spans, starts=256)
-    assert found.is_possible
-    values = [each["floor.restitution"] for each in (found, *found.others)]
-    assert any(abs(each.value - 0.8) < 3 * each.sd + 1e-4 for each in values)
-
-
 @pytest.mark.slow
 def test_touches_beyond_the_horizon_test_nothing():
     toss = analytic.toss(TUMBLING.replace("ending.test", "lying"))
@@ -182,14 +109,36 @@ def test_a_face_rejects_the_toss_that_shows_the_other(faces, is_possible):
     assert found.degrees == 2, "three touches less one value: a face is no number"
 
 
-def test_an_attitude_fixes_the_side_and_the_spin_about_the_normal():
+@pytest.mark.parametrize("ends", [(-10.0, 10.0), (10.0, -10.0)])
+def test_an_attitude_fixes_the_side_and_the_spin_about_the_normal(ends):
     coin = FLAT.replace("release.angular_velocity.zeta", 7.0)
     at = np.array([0.05, 0.1, 0.15])
     shown = Observed(times=at, quaternions=-analytic.toss(coin).sample(at).quaternion, quaternion_sd=0.01)
-    found = fit(shown, coin, {"release.angular_velocity.zeta": (-10.0, 10.0)}, starts=32)
+    found = fit(shown, coin, {"release.angular_velocity.zeta": ends}, starts=32)
     spin = found["release.angular_velocity.zeta"]
     assert spin.value == pytest.approx(7.0, abs=1e-6)
     assert spin.sd == pytest.approx(0.01 / np.sqrt(np.sum(at**2)), rel=1e-3)
+    far = 6.635**0.5 * spin.sd
+    assert spin.interval == pytest.approx((7.0 - far, 7.0 + far), abs=far / 50)
+
+
+@pytest.mark.parametrize("ends", [(0.5, 0.9), (0.9, 0.5)])
+@pytest.mark.parametrize(
+    ("value", "interval", "is_cut", "at_end"),
+    [
+        (0.7, (0.6, 0.8), False, False),
+        (0.7, (0.5, 0.8), True, False),
+        (0.7, (0.6, 0.9), True, False),
+        (0.9, (0.6, 0.9), True, True),
+        (0.5, None, False, True),
+    ],
+)
+def test_a_value_at_the_end_of_its_span_and_an_interval_that_is_cut_there_are_told(
+    ends, value, interval, is_cut, at_end
+):
+    span = Span(field="floor.restitution", unit="", start=ends[0], stop=ends[1])
+    found = Fitted(span=span, value=value, sd=0.1, interval=interval)
+    assert (found.is_cut, found.at_end) == (is_cut, at_end)
 
 
 @pytest.mark.slow
@@ -199,33 +148,3 @@ def test_the_same_seed_finds_the_same_on_any_number_of_cores(monkeypatch):
         monkeypatch.setenv("COINTOSS_THREADS", cores)
         found.append(fit(shown, FLAT, ANY, starts=16, seed=3).as_dict())
     assert found[0] == found[1]
-
-
-@pytest.mark.slow
-def test_an_interval_ends_with_its_span_and_says_so():
-    """The clock of the fall is 1 s; its span ends a third of a deviation later, and half of one before."""
-    shown = seen(FLAT, 5, np.random.default_rng(9))
-    clock = fit(shown, FLAT, ANY, starts=16)["clock"]
-    assert not clock.is_cut
-    for ends in ((0.5, clock.value + clock.sd / 3), (clock.value - clock.sd / 2, 1.5)):
-        cut = fit(shown, FLAT, {**ANY, "clock": ends}, starts=16)["clock"]
-        assert cut.is_cut
-        assert not cut.at_end
-        assert clock.interval
-        assert cut.interval
-        assert ends[0] <= cut.interval[0] <= cut.value <= cut.interval[1] <= ends[1]
-        kept = 0 if ends[0] == 0.5 else 1
-        assert cut.interval[kept] == pytest.approx(clock.interval[kept], abs=clock.sd / 50)
-    beyond = fit(shown, FLAT, {**ANY, "clock": (0.5, 1 - 30 * clock.sd)}, starts=16)["clock"]
-    assert beyond.at_end
-    assert beyond.interval is None, "30 deviations away the model is refused"
-
-
-@pytest.mark.slow
-def test_a_span_may_run_downwards():
-    shown = seen(FLAT, 5, np.random.default_rng(8))
-    up = fit(shown, FLAT, ANY, starts=16)
-    down = fit(shown, FLAT, {field: (stop, start) for field, (start, stop) in ANY.items()}, starts=16)
-    for one, other in zip(up.values, down.values, strict=True):
-        assert other.value == pytest.approx(one.value, abs=one.sd / 100)
-        assert other.interval == pytest.approx(one.interval, abs=one.sd / 50)

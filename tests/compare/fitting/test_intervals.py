@@ -46,49 +46,45 @@ def region(
     )
 
 
-def test_the_region_of_a_parabola_has_the_ends_of_its_marginals():
+def parabola(p):
     """The sum of x and y is known to 1e-3, the difference to 0.1: each to half the root of their squares."""
-
-    def valley(p):
-        return np.column_stack([(p[:, 0] + p[:, 1] - 1) / 1e-3, (p[:, 0] - p[:, 1]) / 0.1])
-
-    sd = np.hypot(1e-3, 0.1) / 2
-    found = region(valley, [[0.5, 0.5]])
-    far = ABOVE**0.5 * sd
-    assert found.ends == pytest.approx(np.array([[0.5 - far, 0.5 + far]] * 2), abs=0.01 * far)
-    assert found.best == pytest.approx([0.5, 0.5])
-    assert found.least == pytest.approx(0)
+    return np.column_stack([(p[:, 0] + p[:, 1] - 1) / 1e-3, (p[:, 0] - p[:, 1]) / 0.1])
 
 
-def test_the_region_follows_a_valley_in_which_steps_of_least_squares_are_slow():
+def bent(p):
     """y is x, seen by exp 60 y: Newton's steps from afar are of 1/60, those along the valley exact."""
-
-    def valley(p):
-        return np.column_stack([np.expm1(60 * (p[:, 1] - p[:, 0])) / 1e-3, (p[:, 0] - 0.5) / 0.1])
-
-    found = region(valley, [[0.5, 0.5]])
-    far = ABOVE**0.5 * 0.1
-    assert found.ends == pytest.approx(np.array([[0.5 - far, 0.5 + far]] * 2), abs=0.01 * far)
+    return np.column_stack([np.expm1(60 * (p[:, 1] - p[:, 0])) / 1e-3, (p[:, 0] - 0.5) / 0.1])
 
 
-def test_a_region_goes_on_beyond_a_jump():
+def torn(p):
     """From x = 0.6 on y is 0.8, before 0.2, and no slope leads from one to the other."""
-
-    def torn(p):
-        y = np.where(p[:, 0] < 0.6, 0.2, 0.8)
-        return np.column_stack([np.tanh((p[:, 1] - y) / 0.05) / 0.02, (p[:, 0] - 0.5) / 0.1])
-
-    without_y = Known(np.array([[0.5, 0.5]]), np.array([[[100.0, 0.0], [0.0, 0.0]]]))
-    found = region(torn, [[0.5, 0.2]], (without_y,))
-    far = ABOVE**0.5 * 0.1
-    assert found.ends[0] == pytest.approx([0.5 - far, 0.5 + far], abs=0.01 * far)
-    assert found.ends[1, 0] == pytest.approx(0.2 - ABOVE**0.5 * 1e-3, abs=1e-4)
-    assert found.ends[1, 1] == pytest.approx(0.8 + (ABOVE - 1) ** 0.5 * 1e-3, abs=0.01 * 0.6)
+    y = np.where(p[:, 0] < 0.6, 0.2, 0.8)
+    return np.column_stack([np.tanh((p[:, 1] - y) / 0.05) / 0.02, (p[:, 0] - 0.5) / 0.1])
 
 
-def test_a_region_ends_with_its_span():
-    found = region(lambda p: (p - 0.1) / 0.1, [[0.1]])
-    assert found.ends[0] == pytest.approx([0, 0.1 + ABOVE**0.5 * 0.1], abs=2e-3)
+FAR = ABOVE**0.5 * np.array([np.hypot(1e-3, 0.1) / 2, 0.1, 1e-3])
+WITHOUT_Y = Known(np.array([[0.5, 0.5]]), np.array([[[100.0, 0.0], [0.0, 0.0]]]))
+
+
+@pytest.mark.parametrize(
+    ("formula", "point", "earlier", "ends", "within"),
+    [
+        (parabola, [0.5, 0.5], (), [[0.5 - FAR[0], 0.5 + FAR[0]]] * 2, 0.01 * FAR[0]),
+        (bent, [0.5, 0.5], (), [[0.5 - FAR[1], 0.5 + FAR[1]]] * 2, 0.01 * FAR[1]),
+        (
+            torn,
+            [0.5, 0.2],
+            (WITHOUT_Y,),
+            [[0.5 - FAR[1], 0.5 + FAR[1]], [0.2 - FAR[2], 0.8 + (ABOVE - 1) ** 0.5 * 1e-3]],
+            [[0.01 * FAR[1]] * 2, [1e-4, 6e-3]],
+        ),
+        # It ends with its span.
+        (lambda p: (p - 0.1) / 0.1, [0.1], (), [[0.0, 0.1 + FAR[1]]], 2e-3),
+    ],
+)
+def test_a_region_has_the_ends_of_its_formula(formula, point, earlier, ends, within):
+    found = region(formula, [point], earlier)
+    assert np.all(np.abs(found.ends - ends) <= within), found.ends
 
 
 def test_a_deeper_minimum_that_is_met_on_the_way_is_told():

@@ -14,6 +14,17 @@ from cointoss.models.unused import UnusedFieldWarning
 SD = {"time": 0.001, "height": 0.002, "attitude": 0.03}
 
 
+@pytest.fixture
+def read(tmp_path):
+    """Read the text of a table, by default with standard deviations."""
+
+    def read_text(text: str, sd=SD) -> Observed:
+        (path := tmp_path / "seen.csv").write_text(text, encoding="utf-8")
+        return read_seen(path, sd)
+
+    return read_text
+
+
 @pytest.mark.parametrize(
     "text",
     [
@@ -94,13 +105,6 @@ def test_a_path_that_this_program_wrote(read):
 def test_what_is_wrong_is_named_with_its_file(read, text, named):
     with pytest.raises(ObservationError, match=rf"seen\.csv: .*{named}"):
         read(text)
-
-
-def test_a_number_without_its_deviation_is_refused(read):
-    with pytest.raises(
-        ObservationError, match=r"no standard deviation of time; accepted: a column sd_t, or --sd-time"
-    ):
-        read("t\n0.1\n", {})
 
 
 def test_a_row_without_its_deviation_is_named(read):
