@@ -15,6 +15,9 @@ HALF_KNOWN = halves(4, 12)
 HALF_KNOWN[:2] = UNDECIDED
 LESS_KNOWN = HALF_KNOWN.copy()
 LESS_KNOWN[2, :4] = UNDECIDED
+# Boundaries 17 pixels apart cut boxes of 5 everywhere alike.
+CUT = np.arange(1, 5) / 5
+MEAN = np.mean(entr(CUT) + entr(1 - CUT))
 
 
 @pytest.mark.parametrize(
@@ -31,6 +34,7 @@ LESS_KNOWN[2, :4] = UNDECIDED
         # Undecided pixels do not count, nor do boxes of which less than half is decided.
         (HALF_KNOWN, 4, LOG2 / 3, LOG2, 3, 1),
         (LESS_KNOWN, 4, LOG2 / 2, LOG2, 2, 1),
+        (stripes(10, 850, 17), 5, MEAN * 4 / 17, MEAN, 340, 80),
         (np.zeros((8, 8), np.int8), 4, np.nan, np.nan, 0, 0),
     ],
 )
@@ -42,31 +46,18 @@ def test_the_entropy_of_boxes_is_that_of_their_shares(outcomes, box, basin, boun
     assert found.log_2_test is Log2Test.SILENT, "of two outcomes"
 
 
-def test_boundary_entropy_of_upright_stripes_is_the_mean_over_where_the_boundary_cuts_the_box():
-    box, width = 5, 17  # without common divisor: the boundary cuts the boxes everywhere alike
-    found = basin_entropy(stripes(10, box * width * 10, width), box=box)
-    cut = np.arange(1, box) / box
-    mean = np.mean(entr(cut) + entr(1 - cut))
-    assert found.boundary == pytest.approx(mean, rel=1e-12)
-    assert found.basin == pytest.approx(mean * (box - 1) / width, rel=1e-12)
+Y, X = np.mgrid[-1:1:300j, -1:1:300j]
+SECTORS = (np.arctan2(Y, X) // (2 * np.pi / 3) % 3 + 1).astype(np.int8)
+TWO, THREE = (np.random.default_rng(1).integers(1, most, size=(300, 300)) for most in (3, 4))
 
 
-def test_the_log_2_test_is_silent_on_three_smooth_basins_and_on_two_of_any_kind():
-    y, x = np.mgrid[-1:1:300j, -1:1:300j]
-    sectors = (np.arctan2(y, x) // (2 * np.pi / 3) % 3 + 1).astype(np.int8)
-    smooth = basin_entropy(sectors, box=5)
-    assert smooth.boundary_boxes > 50
-    assert smooth.log_2_test is Log2Test.SILENT
-    two = basin_entropy(np.random.default_rng(1).integers(1, 3, size=(300, 300)), box=5)
-    assert two.log_2_test is Log2Test.SILENT
-
-
-def test_the_log_2_test_finds_three_intermingled_basins():
-    found = basin_entropy(np.random.default_rng(2).integers(1, 4, size=(1000, 1000)), box=5)
-    # Of k outcomes drawn n times the entropy falls short of log k by (k - 1)/(2 n), and a little more.
-    assert found.boundary == pytest.approx(np.log(3) - 1 / 25, abs=3e-3)
-    assert found.basin == found.boundary
-    assert found.log_2_test is Log2Test.FRACTAL
+@pytest.mark.parametrize(
+    ("outcomes", "said"), [(SECTORS, Log2Test.SILENT), (TWO, Log2Test.SILENT), (THREE, Log2Test.FRACTAL)]
+)
+def test_the_log_2_test_is_silent_on_smooth_basins_and_on_two_of_any_kind(outcomes, said):
+    found = basin_entropy(outcomes, box=5)
+    assert found.boundary_boxes > 50
+    assert found.log_2_test is said
 
 
 @pytest.mark.parametrize("box", [1, 5])

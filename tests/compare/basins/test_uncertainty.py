@@ -12,7 +12,6 @@ from tests.helpers.made_maps import (
     faces,
     gaussian_faces,
     halves,
-    hyperbolas,
     stripes,
     uncertain_fraction,
 )
@@ -30,7 +29,7 @@ def test_stripes_have_as_many_uncertain_pixels_as_lie_within_epsilon_of_a_bounda
     # Nine boundaries, all farther than ε from the pixels at the ends, which are not known.
     assert found.fractions == pytest.approx(2 * 9 * epsilon / (1000 - 2 * epsilon), rel=1e-14)
     assert found.alpha == pytest.approx(1, abs=0.01)
-    assert found.low < 1 < found.high
+    assert found.low < 1 < found.high < 1.02
 
 
 def test_the_axis_chooses_where_uncertainty_is_looked_for():
@@ -41,34 +40,12 @@ def test_the_axis_chooses_where_uncertainty_is_looked_for():
     )
 
 
-def test_smooth_hyperbolas_have_alpha_1():
-    outcomes = hyperbolas(np.linspace(1, 9, 1500), np.linspace(1, 3, 700))
-    for found in (exponent(outcomes, [1, 2, 4, 8], along="x"), exponent(outcomes, [1, 2, 4, 8], along="y")):
-        # Less than a thousandth: ε stays below half of the narrowest stripe, so only the map's ends count.
-        assert found.alpha == pytest.approx(1, abs=1e-3)
-        assert found.local == pytest.approx(np.ones(3), abs=1e-3)
-        assert found.low < 1 < found.high < 1.01
-
-
-def test_stripes_narrower_than_epsilon_feign_a_fractal_and_the_local_slopes_tell():
-    found = exponent(hyperbolas(np.linspace(1, 9, 1500), np.linspace(1, 30, 700)), [1, 2, 4, 8, 16])
-    assert found.alpha < 0.85
-    assert found.local[0] > 0.97
-    assert (np.diff(found.local) < 0).all()
-
-
-def test_stripes_narrower_than_a_pixel_give_alpha_0_until_the_map_is_finer():
-    coarse = exponent(hyperbolas(np.linspace(1000, 9000, 1000), np.linspace(1, 3, 100)), [1, 2, 4])
-    finer = exponent(hyperbolas(np.linspace(1000, 1008, 1000), np.linspace(1, 3, 100)), [1, 2, 4])
-    assert coarse.alpha == pytest.approx(0, abs=0.05)
-    assert finer.alpha == pytest.approx(1, abs=0.01)
-
-
 def test_the_cantor_set_has_alpha_1_minus_its_dimension():
     # The colours of the gaps repeat every second level, and f with them: ε runs over powers of 9.
     found = exponent(cantor(13)[None], [9, 81, 729, 6561])
     alpha = 1 - np.log(2) / np.log(3)
     assert found.alpha == pytest.approx(alpha, abs=0.01)
+    assert found.local == pytest.approx(np.full(3, alpha), abs=0.03)
     assert found.low < alpha < found.high < 0.4
 
 
@@ -84,25 +61,16 @@ def test_the_sign_of_a_gaussian_field_has_the_fractions_of_three_gaussians(hurst
     assert fractions == pytest.approx(uncertain_fraction(epsilons, 20, hurst), rel=0.04)
 
 
-def oblique(line):
-    i, j = np.indices((256, 256))
-    return line[j + i]
-
-
-def bent(line):
-    i, j = np.indices((256, 256))
-    return line[j + i * i // 512]
-
-
-def upright(line):
-    return np.tile(line[:256], (256, 1))
+ROW, COLUMN = np.indices((256, 256))
+UPRIGHT, OBLIQUE, BENT = COLUMN, COLUMN + ROW, COLUMN + ROW * ROW // 512
+"""Where on a line the pixels of a map lie whose boundaries all run one way."""
 
 
 @pytest.mark.slow_after_first
 @pytest.mark.parametrize(
     ("laid", "hurst", "at_least"),
     # The standard error of a coverage over 100 maps is 2 to 4 %.
-    [(None, 0.5, 0.95), (None, 1.0, 0.95), (upright, 0.5, 0.86), (oblique, 1.0, 0.82), (bent, 0.5, 0.72)],
+    [(None, 0.5, 0.95), (None, 1.0, 0.95), (UPRIGHT, 0.5, 0.86), (OBLIQUE, 1.0, 0.82), (BENT, 0.5, 0.72)],
 )
 def test_the_interval_covers_the_slope(laid, hurst, at_least):
     random, epsilons, scale = np.random.default_rng(7), np.array([1, 2, 4, 8]), 10
@@ -110,7 +78,7 @@ def test_the_interval_covers_the_slope(laid, hurst, at_least):
     if laid is None:
         drawn = [gaussian_faces((256, 256), scale=scale, hurst=hurst, random=random) for _ in range(25)]
     else:
-        drawn = [laid(gaussian_faces((512,), scale=scale, hurst=hurst, random=random)) for _ in range(100)]
+        drawn = [gaussian_faces((512,), scale=scale, hurst=hurst, random=random)[laid] for _ in range(100)]
     found = [exponent(outcomes, epsilons) for outcomes in drawn]
     covered = np.mean([one.low <= slope <= one.high for one in found])
     assert covered >= at_least
