@@ -47,10 +47,6 @@ def of_stripe(x, y):
     return [[left, right], [right, left]]
 
 
-def two_regions(x):
-    return np.where(((0.05 < x) & (x < 0.3)) | ((0.5 < x) & (x < 0.9)), 1, 0)
-
-
 def none_beyond(x, y):
     """What is not accepted ends the search, and shows nothing else."""
     return np.where(x > 0.6, -1, rectangle(x, y))
@@ -94,7 +90,8 @@ def test_the_margin_of_a_hit_is_the_smallest_of_all_and_of_the_window(margins, l
 
 
 def test_of_two_regions_the_wider_one_is_found():
-    found = searched(Formula(1, two_regions), 1, 64)
+    two_regions = Formula(1, lambda x: np.where(((0.05 < x) & (x < 0.3)) | ((0.5 < x) & (x < 0.9)), 1, 0))
+    found = searched(two_regions, 1, 64)
     assert found.hits[0].point[0] == pytest.approx(0.7, abs=1e-3)
     assert found.hits[0].margins == pytest.approx(np.array([[0.2, 0.2]]), rel=0.01)
 

@@ -54,14 +54,6 @@ def test_the_likelihood_of_people_who_wobble_much_is_its_integral(same, flips, s
     assert found[0] == pytest.approx(log_integral_over_the_angle(scatter, same, flips), abs=1e-4)
 
 
-def test_the_likelihood_of_people_who_wobble_much_has_one_peak():
-    flips = Flips(same=[20_000, 22_000, 13_000, 24_000], flips=[25_000] * 4)
-    scatters = np.radians(np.arange(15, 90))
-    found = [log_likelihoods(flips, wobbling(CAUGHT), np.array([scatter])).sum() for scatter in scatters]
-    assert np.count_nonzero(np.diff(np.sign(np.diff(found)))) == 1
-    assert np.degrees(scatters[np.argmax(found)]) == pytest.approx(38.4, abs=1)
-
-
 def test_counts_of_a_simulated_probability_are_beta_binomial():
     found = log_binomial([3, 60], [10, 100], 0.6, 50)
     expected = [betabinom.logpmf(same, n, 30.5, 20.5) for same, n in ((3, 10), (60, 100))]
