@@ -2,34 +2,20 @@
 
 import numpy as np
 import pytest
-from pydantic import BaseModel
 
 from cointoss.compare.shares.show import texts_of
-from cointoss.compare.sweep.axes import Axis, Span, axis_given, parse_axis
+from cointoss.compare.sweep.axes import Span, axis_given, parse_axis
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.models.fields import UNITS, split
+from cointoss.models.fields import FIELDS, UNITS, WORDED
 from cointoss.models.reading import load
-from cointoss.models.scenario import Scenario
 from cointoss.models.unlikely import UnitWarning
 from tests.helpers.basin_runs import TUMBLING
 from tests.helpers.draws import scenario
 
 
-def numeric_fields(model: type[BaseModel], path: str = "") -> set[str]:
-    """Walk through the scenario's tables for keys with a number or a list of numbers."""
-    found = set()
-    for name, field in model.model_fields.items():
-        annotation = field.annotation
-        if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-            found |= numeric_fields(annotation, f"{name}.")
-        elif any(kind in str(annotation) for kind in ("float", "int")):
-            found.add(path + name)
-    return found
-
-
-def test_every_numeric_field_but_the_inertia_can_vary():
-    keys = {".".join(part for part in split(field)[:2] if part) for field in UNITS}
-    assert keys == numeric_fields(Scenario) - {"coin.inertia"}
+def test_every_number_of_a_scenario_but_the_inertia_can_vary():
+    numbers = {field for field in FIELDS if not field.startswith("coin.inertia.")} - WORDED.keys()
+    assert UNITS.keys() == numbers
 
 
 @pytest.mark.filterwarnings(f"ignore::{UnitWarning.__module__}.UnitWarning")
@@ -38,21 +24,22 @@ def test_a_value_may_be_given_in_the_unit_of_its_field(field, unit):
     assert parse_axis(f"{field}=0.3 {unit}:9:2", TUMBLING).start == pytest.approx(0.3, rel=1e-15)
 
 
-def test_an_axis_includes_both_ends_and_takes_units():
-    axis = parse_axis("release.position.z=20 cm:0.6:5", TUMBLING)
-    assert axis == Axis(field="release.position.z", unit="m", start=0.2, stop=0.6, count=5)
-    assert axis.values.tolist() == pytest.approx([0.2, 0.3, 0.4, 0.5, 0.6], rel=1e-15)
-    assert parse_axis("floor.restitution=60 %:0.9:2", TUMBLING).values.tolist() == [0.6, 0.9]
-    assert parse_axis("release.angular_velocity.eta=5:-5:3", TUMBLING).values.tolist() == [5, 0, -5]
-    assert parse_axis("ending.max_impacts=1:9:5", TUMBLING).values.tolist() == [1, 3, 5, 7, 9]
-    drag = scenario(air={"exponent": 0.5, "normal": 0.1})
-    assert parse_axis("air.normal=1:2:2", drag).unit == "kg*m**-2.5*s**-0.5"
-
-
-def test_an_axis_has_as_many_values_as_asked_for_and_none_twice():
-    close = parse_axis("floor.restitution=0.5:0.50000002:3", load("fig24a"))
-    assert texts_of(close.values) == ["0.5", "0.50000001", "0.50000002"]
-    assert texts_of(parse_axis("floor.restitution=0.8:0.2:3", load("fig24a")).values) == ["0.8", "0.5", "0.2"]
+@pytest.mark.parametrize(
+    ("case", "axis", "unit", "values"),
+    [
+        (TUMBLING, "release.position.z=20 cm:0.6:5", "m", ["0.2", "0.3", "0.4", "0.5", "0.6"]),
+        (TUMBLING, "floor.restitution=60 %:0.9:2", "", ["0.6", "0.9"]),
+        (TUMBLING, "floor.restitution=0.8:0.2:3", "", ["0.8", "0.5", "0.2"]),
+        (TUMBLING, "floor.restitution=0.5:0.50000002:3", "", ["0.5", "0.50000001", "0.50000002"]),
+        (TUMBLING, "release.angular_velocity.eta=5:-5:3", "rad/s", ["5", "0", "-5"]),
+        (TUMBLING, "ending.max_impacts=1:9:5", "", ["1", "3", "5", "7", "9"]),
+        (scenario(air={"exponent": 0.5}), "air.normal=1:2:2", "kg*m**-2.5*s**-0.5", ["1", "2"]),
+    ],
+)
+def test_an_axis_has_as_many_values_as_asked_for_with_both_ends(case, axis, unit, values):
+    found = parse_axis(axis, case)
+    assert (found.field, found.unit) == (axis.partition("=")[0], unit)
+    assert texts_of(found.values) == values
 
 
 @pytest.mark.parametrize(("start", "stop"), [(10.0, 20.0), (20.0, 10.0)])
@@ -72,21 +59,17 @@ def test_a_value_is_at_an_end_within_a_millionth_of_the_span(start, stop, value,
 
 
 @pytest.mark.parametrize(
-    ("given", "said"),
+    ("field", "given", "said"),
     [
-        ((0.2, 0.6, 1), "N = 1; accepted: a whole number from 2"),
-        ((0.2, 0.6, 1_000_001), "accepted: a whole number from 2 to 1000000"),
-        ((0.2, np.nextafter(0.2, 1), 4), "not 4 numbers between both"),
-        ((0.2, 0.2, 4), "START = STOP"),
-        ([0.2, 0.4, 0.6001], "values that are not evenly spaced"),
-        ([[0.2, 0.4]], "or two or more evenly spaced values"),
+        ("floor.restitution", (0.2, 0.6, 1), "N = 1; accepted: a whole number from 2"),
+        ("floor.restitution", (0.2, 0.6, 1_000_001), "accepted: a whole number from 2 to 1000000"),
+        ("floor.restitution", (0.2, np.nextafter(0.2, 1), 4), "not 4 numbers between both"),
+        ("floor.restitution", (0.2, 0.2, 4), "START = STOP"),
+        ("floor.restitution", [0.2, 0.4, 0.6001], "values that are not evenly spaced"),
+        ("floor.restitution", [[0.2, 0.4]], "or two or more evenly spaced values"),
+        ("ending.max_impacts", (1, 9, 4), "that give whole numbers only"),
     ],
 )
-def test_what_is_no_axis_is_refused(given, said):
+def test_what_is_no_axis_is_refused(field, given, said):
     with pytest.raises(SweepError, match=said):
-        axis_given("floor.restitution", given, load("fig24a"))
-
-
-def test_an_axis_of_impacts_has_whole_numbers_only():
-    with pytest.raises(SweepError, match="that give whole numbers only"):
-        parse_axis("ending.max_impacts=1:9:4", TUMBLING)
+        axis_given(field, given, load("fig24a"))

@@ -1,6 +1,7 @@
 """What is said of a map: the numbers of made ones."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -76,26 +77,24 @@ def test_numbers_are_counted_over_tiles_and_what_is_beyond_the_last_is_the_last(
 
 
 @pytest.mark.parametrize(
-    ("given", "maps", "bytes_"),
-    [({}, 1, 20 * 5), ({}, 2, 2 * 20 * 5), ({"margin": "height"}, 1, 20 * 13), ({"trust": True}, 1, 20 * 6)],
+    ("given", "maps", "drawn", "disk", "memory"),
+    [
+        ({}, 1, False, 20 * 5, 0),
+        ({}, 2, False, 2 * 20 * 5, 0),
+        ({"margin": "height"}, 1, False, 20 * 13, 0),
+        ({"trust": True}, 1, False, 20 * 6, 0),
+        # 80 bytes for each pixel of each panel.
+        ({}, 1, True, 20 * 5, 80 * 20),
+        ({"margin": "height"}, 1, True, 20 * 13, 2 * 80 * 20),
+    ],
 )
-def test_a_map_needs_the_bytes_of_its_numbers(tmp_path, monkeypatch, given, maps, bytes_):
+def test_a_map_and_its_picture_need_the_bytes_of_their_numbers(
+    tmp_path, monkeypatch, given, maps, drawn, disk, memory
+):
     layout = map_layout("gravity=9:10:5", "release.position.z=0.2:0.6:4", **given)
-    for free in (bytes_, bytes_ - 1):
-        monkeypatch.setattr(room.shutil, "disk_usage", lambda _, free=free: type("Usage", (), {"free": free}))
-        if free < bytes_:
-            with pytest.raises(room.UnwritableError, match="of disk"):
-                room.require_room(layout, tmp_path, maps=maps, drawn=False)
-        else:
-            room.require_room(layout, tmp_path, maps=maps, drawn=False)
-
-
-@pytest.mark.parametrize(("given", "needed"), [({}, 80 * 20), ({"margin": "height"}, 2 * 80 * 20)])
-def test_a_picture_needs_80_bytes_of_memory_for_a_pixel_of_each_panel(tmp_path, monkeypatch, given, needed):
-    layout = map_layout("gravity=9:10:5", "release.position.z=0.2:0.6:4", **given)
-    monkeypatch.setattr(room, "_memory", lambda: needed)
-    room.require_room(layout, tmp_path, maps=1, drawn=True)
-    monkeypatch.setattr(room, "_memory", lambda: needed - 1)
-    room.require_room(layout, tmp_path, maps=1, drawn=False)
-    with pytest.raises(SweepError, match="of memory"):
-        room.require_room(layout, tmp_path, maps=1, drawn=True)
+    monkeypatch.setattr(room.shutil, "disk_usage", lambda _: SimpleNamespace(free=disk))
+    monkeypatch.setattr(room, "_memory", lambda: memory)
+    room.require_room(layout, tmp_path, maps=maps, drawn=drawn)
+    disk, memory = (disk, memory - 1) if drawn else (disk - 1, memory)
+    with pytest.raises((room.UnwritableError, SweepError), match="of memory" if drawn else "of disk"):
+        room.require_room(layout, tmp_path, maps=maps, drawn=drawn)

@@ -1,7 +1,6 @@
 """A map on disk: it survives whatever ends the process, and belongs to one process and one sweep."""
 
 import errno
-import json
 import os
 import shutil
 from dataclasses import replace
@@ -10,7 +9,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-import xarray as xr
 import zarr
 from zarr.storage import LocalStore
 
@@ -19,7 +17,6 @@ from cointoss.compare.engines import Engine
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.sweep import layout as module
 from cointoss.compare.sweep import pieces, store
-from cointoss.compare.sweep.layout import numbers_in
 from cointoss.compare.sweep.store import Store, opened, require_place
 from tests.helpers.basin_runs import (
     AXES,
@@ -29,13 +26,13 @@ from tests.helpers.basin_runs import (
     assert_same,
     basin,
     begun,
-    map_asked,
     map_layout,
     pixels,
     wait_for,
     whole_tiles,
 )
 from tests.helpers.command_line import refused
+from tests.helpers.strange_maps import rewritten
 
 
 @pytest.fixture
@@ -71,28 +68,19 @@ def in_tiles(tmp_path_factory):
     return folder / "map.zarr"
 
 
-def tosses_of(monkeypatch, resumed):
-    """Count the pixels that a call of `resumed` tosses."""
-    count, known = [0], pieces.columns_of
+def tosses_of(monkeypatch, *made):
+    """Count the pixels that a map which is gone on with tosses."""
+    tossed, known = [], pieces.columns_of
 
-    def counted(batch, how, numbers, answers):
-        count[0] += len(numbers)
+    def noted(batch, how, numbers, answers):
+        tossed.extend(numbers)
         return known(batch, how, numbers, answers)
 
     with monkeypatch.context() as patched:
-        patched.setattr(pieces, "columns_of", counted)
-        answered = resumed()
+        patched.setattr(pieces, "columns_of", noted)
+        answered = basin(*made, "--resume")
     assert answered.exit_code == 0, answered.stderr
-    return count[0]
-
-
-def test_the_map_has_the_agreed_form(undisturbed, in_tiles):
-    """What its description says is in a transcript; see `tests.helpers.golden`."""
-    found = xr.open_zarr(in_tiles, chunks=None)  # warnings are errors: a plain call must have none
-    assert np.array_equal(found["release.position.z"], np.linspace(0.2, 0.6, 40))
-    assert np.array_equal(found["release.angular_velocity.eta"], np.linspace(20, 60, 48))
-    assert_same(in_tiles, undisturbed)
-    assert not list(in_tiles.parent.glob(".cointoss-*"))
+    return len(tossed)
 
 
 def test_a_killed_map_is_resumed_to_the_same_pixels(undisturbed, coin, tmp_path, monkeypatch):
@@ -107,25 +95,19 @@ def test_a_killed_map_is_resumed_to_the_same_pixels(undisturbed, coin, tmp_path,
     done = whole_tiles(out)
     assert 6 <= done < TILES
     left = 1920 - np.sum(pixels(out)["outcome"] >= 0)
-    assert tosses_of(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == left
+    assert tosses_of(monkeypatch, coin, *AXES, "--out", out) == left
     assert_same(out, undisturbed)
     assert not list(out.rglob("*.partial"))
     assert not list(tmp_path.glob(".*.lock"))
-    assert tosses_of(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == 0
+    assert tosses_of(monkeypatch, coin, *AXES, "--out", out) == 0
 
 
 def test_a_new_map_is_known_to_be_empty_without_reading_its_tiles(tmp_path, monkeypatch):
-    monkeypatch.setitem(module.TILE_TOSSES, Engine.ANALYTIC, SMALL)
     read, reads = Store.read, []
     monkeypatch.setattr(Store, "read", lambda kept, *asked: reads.append(asked) or read(kept, *asked))
-    batch, how = map_asked(AXES[1], AXES[3])
-    with opened(tmp_path / "map.zarr", layout(), overwrite=False) as kept:
-        assert [kept.missing(tile).size for tile in kept.tiles] == [SMALL] * TILES
-        assert {name for _, name in reads} == set(batch.fields)
-        last = numbers_in(kept.tiles[-1], batch.shape).ravel()
-        kept.write(last, pieces.toss_part(batch, how, last))
-        assert [kept.missing(tile).size for tile in kept.tiles] == [*[SMALL] * (TILES - 1), 0]
-        assert {name for _, name in reads} > set(batch.fields)
+    with opened(tmp_path / "map.zarr", (made := layout()), overwrite=False) as kept:
+        assert sum(kept.missing(tile).size for tile in kept.tiles) == len(made.batch)
+    assert {name for _, name in reads} == set(made.batch.fields)
 
 
 def test_a_full_disk_is_one_line_and_what_was_tossed_is_kept(undisturbed, coin, tmp_path, monkeypatch):
@@ -144,7 +126,7 @@ def test_a_full_disk_is_one_line_and_what_was_tossed_is_kept(undisturbed, coin, 
     assert said == f"cointoss: {out}: can't be written (No space left on device)\n"
     kept = np.sum(pixels(out)["outcome"] >= 0)
     assert 0 < kept < 20 * SMALL
-    assert tosses_of(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == 1920 - kept
+    assert tosses_of(monkeypatch, coin, *AXES, "--out", out) == 1920 - kept
     assert_same(out, undisturbed)
 
 
@@ -221,15 +203,8 @@ DAMAGES = {
 def test_what_is_damaged_is_tossed_again(undisturbed, in_tiles, coin, tmp_path, monkeypatch, name, damage):
     out, (again, harm) = shutil.copytree(in_tiles, tmp_path / "map.zarr"), DAMAGES[damage]
     harm(out, name)
-    assert tosses_of(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == again
+    assert tosses_of(monkeypatch, coin, *AXES, "--out", out) == again
     assert_same(out, undisturbed)
-
-
-def test_a_map_is_replaced_where_that_is_asked_for(in_tiles, coin, tmp_path):
-    out = shutil.copytree(in_tiles, tmp_path / "map.zarr")
-    assert basin(coin, *AXES, "--after", 0, "--out", out, "--overwrite").exit_code == 0
-    assert np.all(pixels(out)["impacts"] == 1)
-    assert not list(tmp_path.glob(".cointoss-*"))
 
 
 @pytest.mark.parametrize(
@@ -259,16 +234,10 @@ def test_a_map_of_something_else_is_not_gone_on_with(tmp_path, change, named):
         assert (map_.attributes["scenario"], map_.attributes["name"]) == (SCENARIO, "")
 
 
-def test_a_map_of_other_versions_or_that_lost_an_axis_is_not_gone_on_with(in_tiles, coin, tmp_path):
+def test_a_map_of_other_versions_is_not_gone_on_with(in_tiles, coin, tmp_path):
     out = shutil.copytree(in_tiles, tmp_path / "map.zarr")
-    (out / "release.angular_velocity.eta" / "c" / "0").unlink()
-    said = f"cointoss: {out}: is no map of cointoss (release.angular_velocity.eta/c/0: lost)"
-    assert refused("basin", coin, *AXES, "--out", out, "--resume").startswith(said)
-    old = shutil.copytree(in_tiles, tmp_path / "old.zarr")
-    described = json.loads((old / "zarr.json").read_text())
-    described["attributes"]["versions"] = {"cointoss": "0.0.1"}
-    (old / "zarr.json").write_text(json.dumps(described))
-    assert "is a map with another set of versions" in refused("basin", coin, *AXES, "--out", old, "--resume")
+    rewritten(out, lambda all_: all_["attributes"].update(versions={"cointoss": "0.0.1"}))
+    assert "is a map with another set of versions" in refused("basin", coin, *AXES, "--out", out, "--resume")
 
 
 def test_an_empty_folder_and_a_link_to_one_are_places_for_a_map(tmp_path):
