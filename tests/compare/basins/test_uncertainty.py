@@ -127,12 +127,19 @@ def test_undecided_pixels_leave_out_the_pairs_that_need_them():
     assert uncertainty_exponent(np.zeros((64, 64), np.int8), along="x", epsilons=[1, 2]) is None
 
 
-@pytest.mark.parametrize("epsilons", [[], [1], [2, 1], [1, 1], [0, 1], [1, 9], [1.0, 2.0], [[1, 2]]])
-def test_epsilons_that_cannot_be_fitted_are_refused(epsilons):
-    with pytest.raises(ValueError, match="accepted: two or more increasing whole numbers from 1 to 8"):
-        uncertainty_exponent(halves(64, 64), along="x", epsilons=epsilons)
+EPSILONS = "accepted: two or more increasing whole numbers from 1 to 8"
 
 
-def test_a_confidence_is_a_probability():
-    with pytest.raises(ValueError, match="confidence: 95"):
-        uncertainty_exponent(halves(64, 64), along="x", epsilons=[1, 2], confidence=95)
+@pytest.mark.parametrize(
+    ("epsilons", "confidence", "said"),
+    [
+        *(
+            (given, 0.95, EPSILONS)
+            for given in ([], [1], [2, 1], [1, 1], [0, 1], [1, 9], [1.0, 2.0], [[1, 2]])
+        ),
+        ([1, 2], 95, "confidence: 95"),
+    ],
+)
+def test_what_cannot_be_fitted_is_refused(epsilons, confidence, said):
+    with pytest.raises(ValueError, match=said):
+        uncertainty_exponent(halves(64, 64), along="x", epsilons=epsilons, confidence=confidence)

@@ -86,6 +86,9 @@ def test_what_was_not_seen_is_not_determined():
     found = fit(seen(FLAT, 5, rng, clock=0), FLAT, spans, starts=64)
     assert found["release.position.x"].sd == np.inf
     assert found.degrees == 4, "what changes nothing explains nothing"
+    # Of four degrees of freedom 1 % exceed 13.277.
+    for chi_square, is_possible in ((13.27, True), (13.28, False)):
+        assert replace(found, chi_square=chi_square).is_possible is is_possible
     assert found["floor.restitution"].sd < 0.01
     assert np.isinf(found.covariance[1, 1])
     assert found.as_dict()["values"]["release.position.x"]["sd"] == np.inf

@@ -62,13 +62,15 @@ def shown_of(section, folder):
 @pytest.mark.parametrize("contact", ["spring", "one_step"])
 def test_the_report_has_the_numbers_of_both_maps_and_the_command(coin, tmp_path, contact):
     out, report, png = tmp_path / "map.zarr", tmp_path / "new" / "report", tmp_path / "map.png"
-    asked = ("--x", X, "--y", Y, "--after", 1, "--compare", "--contact", contact, "--out", out)
+    asked = ("--x", X, "--y", Y, "--after", 1, "--trust", "--compare", "--contact", contact, "--out", out)
     drawn = ("--report", report, "--png", png, "--palette", "safe", "--dpi", 60)
     assert printed("basin", coin, *asked, *drawn).endswith(
         f"picture    {png}\nreport     {report}/report.html\n"
     )
     require_folder(report, str(coin))
     found = json.loads((report / "numbers.json").read_text(encoding="utf-8"))
+    assert found["map"]["untrusted"] == read_map(out).cointoss.untrusted.mean()
+    assert read_map(tmp_path / "map-mujoco.zarr").cointoss.untrusted is None
     # The command goes on with the maps.
     assert cointoss(*shlex.split(found["map"]["command"])[1:]).exit_code == 0
 
@@ -86,15 +88,7 @@ def test_the_report_has_the_numbers_of_both_maps_and_the_command(coin, tmp_path,
     assert found["tosses"][1]["impacts"][1]["impulse"] == mujoco.impacts.impulse[1].tolist()
 
 
-@pytest.mark.slow
-def test_the_report_hatches_what_the_analytic_engine_cannot_be_trusted_with(coin, tmp_path):
-    out, report = tmp_path / "map.zarr", tmp_path / "report"
-    asked = ("--x", X, "--y", Y, "--trust", "--compare", "--out", out, "--report", report)
-    printed("basin", coin, *asked)
-    numbers = json.loads((report / "numbers.json").read_text(encoding="utf-8"))["map"]
-    assert numbers["untrusted"] == read_map(out).cointoss.untrusted.mean() > 0
-    assert read_map(tmp_path / "map-mujoco.zarr").cointoss.untrusted is None
-    assert "--trust" in shlex.split(numbers["command"])
+def test_the_report_hatches_what_the_analytic_engine_cannot_be_trusted_with(tmp_path):
     maps, hatched = [halves(20, 20)] * 2, np.arange(400).reshape(20, 20) < 100
     plain, shown = section_of(maps), section_of(maps, certain=~hatched)
     assert "untrusted" not in shown_of(plain, tmp_path / "plain")
