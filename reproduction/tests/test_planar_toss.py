@@ -1,5 +1,6 @@
 """Planar tosses, proved and in mere numbers: against the engine, heyoka, closed forms, and each other."""
 
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -175,12 +176,14 @@ def test_contact_is_followed_alike_by_its_closed_form_and_its_equations(excess, 
     at_start = toss.from_upright(state)
     assert at_start == pytest.approx(e - s + 1 - s)
     left, start = toss.contact(state, 1, arb(0))
-    assert other.contact(slid, 1, arb(0))[0] == left == ((1,) if rises and excess > flight else ())
+    followed, soon = other.contact(slid, 1, arb(0))
+    assert followed == left == ((1,) if rises and excess > flight else ())
     assert slid.heads == state.heads == (not (rises and 0 < excess < flight))
     for name in ("z", "v", "tilt", "w", "u"):
         assert float(getattr(slid, name)) == pytest.approx(float(getattr(state, name)), abs=1e-12), name
     if left:
         assert float(toss.energy(state)) == pytest.approx(e, rel=1e-14)
+        assert float(soon) == pytest.approx(float(start) / 2)
         assert start > 0
         # Free flight would neither press nor lift the point.
         assert float(state.z * state.w**2) == pytest.approx(1, rel=1e-12)
@@ -277,7 +280,9 @@ def test_a_coin_that_lands_flat_touches_first_with_the_rim_point_that_is_lower()
 def test_neighbours_have_diverged_with_the_larger_energy_after_the_first_face_that_differs():
     coin, own = coin_of(0.6)
     one, other = (toss_one(coin, own, height) for height in (0.35, 0.38))
+    turned = replace(one, impacts=(one.impacts[0]._replace(heads=True), *one.impacts[1:]))
     assert energy_left(one, one) == 0
+    assert energy_left(one, turned) == float(one.impacts[0].energy)
     assert energy_left(one, other) == max(float(toss.impacts[0].energy) for toss in (one, other))
 
 
