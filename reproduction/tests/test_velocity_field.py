@@ -52,15 +52,6 @@ def test_velocities_are_the_papers():
             assert field.moves_outwards[i] == outwards or np.linalg.norm(v_n) < 1e-14
 
 
-def test_one_of_both_faces_moves_outwards_at_each_point():
-    """s_1 + s_2 = 1, eqs (78)-(79)."""
-    upper, lower, wall = velocity_fields(THICK, V, W)
-    assert np.all(upper.moves_outwards != lower.moves_outwards)
-    assert upper.moves_outwards.any()
-    assert lower.moves_outwards.any()
-    assert 0 < wall.moves_outwards.mean() < 1
-
-
 def test_both_faces_of_a_thin_coin_move_alike():
     """Eq. (75); there is no wall."""
     upper, lower, wall = velocity_fields(THIN, V, W)
