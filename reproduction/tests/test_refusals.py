@@ -41,7 +41,11 @@ def test_a_shell_completes_the_names_of_studies():
 def test_the_names_are_listed_with_their_titles():
     listed = cointoss("reproduce", "--list").stdout
     assert listed == cointoss("reproduce").stdout
-    assert [line.split()[0] for line in listed.splitlines()] == runner.names()
+    due = [(name, runner.told(name)) for name in runner.names()]
+    for line, (name, said) in zip(listed.splitlines(), due, strict=True):
+        assert line.split()[0] == name
+        assert line.endswith(f"{said['title']} ({said['seconds']:g} s)")
+        assert said.get("paper", "") in line
     assert cointoss("reproduce", "table1", "--list").stdout.startswith(
         "table1  Table 1: twelve Euler sequences"
     )
