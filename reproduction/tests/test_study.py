@@ -19,6 +19,7 @@ def counted(floor: float, chi: float, tosses: int = 100) -> dict[str, object] | 
     return {"heads": heads, "tosses": tosses, "width": chi**2, "part": share_of(heads, tosses, "coins")}
 
 
+ROUGH = {"where": "floor == 'rough'"}
 CELLS = table_of([Cells(counted, AXES)], unseen, {"tosses": 1000})
 
 
@@ -70,22 +71,18 @@ def test_an_axis_and_a_column_of_one_name_are_refused():
         ({"value": "heads", "take": "sum"}, 850),
         ({"value": "width - 1", "take": "farthest"}, 0.91),
         ({"value": "heads", "take": "max", "key": ["floor"]}, {"smooth": 300, "rough": 400}),
+        ({**ROUGH, "share": ["heads", "tosses"], "less": 0.5}, share_of(400, 1000) - 0.5),
+        ({**ROUGH, "value": "part"}, share_of(400, 1000, "coins")),
+        ({"share": ["heads", "tosses"], "take": "sum"}, share_of(850, 3000)),
+        # Where rows are the same they are added up.
+        (
+            {"per": ["floor"], "share": ["heads", "tosses"], "key": ["floor"]},
+            {"smooth": share_of(450, 2000), "rough": share_of(400, 1000)},
+        ),
     ],
 )
-def test_a_measure_selects_numbers(said, found):
+def test_a_measure_selects_numbers_and_shares_with_their_intervals(said, found):
     assert measured(CELLS, said) == pytest.approx(found)
-
-
-def test_a_measure_selects_shares_with_their_intervals():
-    rough = {"where": "floor == 'rough'"}
-    assert measured(CELLS, {**rough, "share": ["heads", "tosses"], "less": 0.5}) == share_of(400, 1000) - 0.5
-    assert measured(CELLS, {**rough, "value": "part"}) == share_of(400, 1000, "coins")
-    assert measured(CELLS, {"share": ["heads", "tosses"], "take": "sum"}) == share_of(850, 3000)
-
-
-def test_numbers_are_added_up_where_rows_are_the_same():
-    said = {"per": ["floor"], "share": ["heads", "tosses"], "key": ["floor"]}
-    assert measured(CELLS, said) == {"smooth": share_of(450, 2000), "rough": share_of(400, 1000)}
 
 
 def test_a_row_without_a_value_is_not_selected_but_an_estimate_of_nothing_is():
@@ -104,25 +101,27 @@ def test_a_measure_that_selects_nothing_or_too_much_is_refused():
         measured(CELLS, {"value": "width"})
 
 
-def test_tables_show_columns_shares_and_one_axis_across():
-    columns = [["floor", "floor"], ["heads", ["heads", "tosses"]]]
-    text = tables_of(CELLS, [{"says": "Heads:", "columns": columns, "across": "chi"}])
-    assert text.splitlines() == [
-        "Heads:",
-        "",
-        "| floor | 0.3 | 0.6 |",
-        "| --- | ---: | ---: |",
-        "| smooth | 15.0 % [12.3, 18.1] | 30.0 % [26.4, 33.9] |",
-        "| rough | 40.0 % [36.1, 44.0] |  |",
-    ]
-
-
-def test_a_table_shows_words_with_columns_in_them():
-    said = {"says": "Heads:", "where": "chi == 0.3", "columns": [["of", "{heads:,d} of {tosses} ({floor})"]]}
-    assert tables_of(CELLS, [said]).splitlines()[-2:] == [
-        "| 150 of 1000 (smooth) |",
-        "| 400 of 1000 (rough) |",
-    ]
+@pytest.mark.parametrize(
+    ("said", "lines"),
+    [
+        (
+            {"columns": [["floor", "floor"], ["heads", ["heads", "tosses"]]], "across": "chi"},
+            [
+                "| floor | 0.3 | 0.6 |",
+                "| --- | ---: | ---: |",
+                "| smooth | 15.0 % [12.3, 18.1] | 30.0 % [26.4, 33.9] |",
+                "| rough | 40.0 % [36.1, 44.0] |  |",
+            ],
+        ),
+        (
+            {"where": "chi == 0.3", "columns": [["of", "{heads:,d} of {tosses} ({floor})"]]},
+            ["| of |", "| --- |", "| 150 of 1000 (smooth) |", "| 400 of 1000 (rough) |"],
+        ),
+    ],
+    ids=["one axis across", "words with columns in them"],
+)
+def test_tables_show_columns_and_shares(said, lines):
+    assert tables_of(CELLS, [{"says": "Heads:", **said}]).splitlines() == ["Heads:", "", *lines]
 
 
 def test_a_picture_has_a_line_for_each_name_and_a_panel_for_each_of_another_axis():
