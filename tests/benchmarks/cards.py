@@ -4,7 +4,6 @@
 """
 
 import time
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -24,27 +23,16 @@ SECONDS = 4.0
 """About how long the cores work on a case [s]."""
 
 
-@dataclass(frozen=True)
-class Measured:
-    """Rates of a case, and how many tosses were compared."""
-
-    what: str
-    tosses: int
-    by_card: float
-    """Tosses in a second, from rows in memory to answers there."""
-    by_cores: float
-    handed_over: int
-    compared: int
-    equal: int
-
-
 def rows_by(case: TossClass, n: int) -> Array:
     """Return about n tosses as rows."""
     return rows_of(load(case.scenario), int(n**0.5) ** 2, case.varied(n))
 
 
-def measured(what: str, on: GraphicsCard) -> Measured:
-    """Toss a class on a card and on all cores."""
+def measured(what: str, on: GraphicsCard) -> list[str]:
+    """Toss a class on a card and on all cores; return a row of the table.
+
+    A card's rate is from rows in memory to answers there.
+    """
     case = CLASSES[what]
     timed(case, on, rows_by(case, min(case.card // 20, 4000)))  # what is done once is done
     rows = rows_by(case, case.card)
@@ -57,18 +45,12 @@ def measured(what: str, on: GraphicsCard) -> Measured:
     some, wanted = np.ascontiguousarray(rows[::step]), unanswered(len(rows[::step]))
     begun = time.perf_counter()
     analytic.toss_rows(some, trust=case.trust, answers=wanted)
-    by_cores = len(some) / (time.perf_counter() - begun)
+    by_card, by_cores = len(rows) / seconds, len(some) / (time.perf_counter() - begun)
     is_tossed = found[:, 0] != NOT_TOSSED
     same = (found[::step].view(np.int64) == wanted.view(np.int64)).all(1)[is_tossed[::step]]
-    return Measured(
-        what,
-        len(rows),
-        len(rows) / seconds,
-        by_cores,
-        int((~is_tossed).sum()),
-        len(same),
-        int(same.sum()),
-    )
+    rates = [f"{rate:.2g}" for rate in (by_card, by_cores, by_card / by_cores)]
+    counts = [f"{count:,d}" for count in ((~is_tossed).sum(), len(same), same.sum())]
+    return [what, f"{len(rows):,d}", *rates, *counts]
 
 
 def timed(case: TossClass, on: GraphicsCard, rows: Array) -> tuple[Array, float]:
@@ -87,10 +69,7 @@ def main() -> None:
     heads = ("tosses", "number", "card, 1/s", "cores, 1/s", "ratio", "handed over", "compared", "the same")
     print(f"| {' | '.join(heads)} |\n|{'---|' * len(heads)}")
     for what in (name for name, case in CLASSES.items() if case.card):
-        each = measured(what, on)
-        rates = [f"{rate:.2g}" for rate in (each.by_card, each.by_cores, each.by_card / each.by_cores)]
-        counts = [f"{count:,d}" for count in (each.handed_over, each.compared, each.equal)]
-        print("|", " | ".join([each.what, f"{each.tosses:,d}", *rates, *counts]), "|", flush=True)
+        print("|", " | ".join(measured(what, on)), "|", flush=True)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,9 @@ import numpy as np
 from cointoss import Scenario, load
 from cointoss.models.answers import Trust
 
+HEYOKA = "heyoka has wheels for Linux on x86-64 only"
+"""Why a benchmark by it may be left out."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class TossClass:
