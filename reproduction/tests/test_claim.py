@@ -76,14 +76,6 @@ def test_a_difference_is_within_a_threshold_on_both_sides(low, high, verdict):
     assert (criterion.wanted == "") is (verdict is not None)
 
 
-def test_an_estimate_shifts_and_scales_with_its_interval():
-    found = Estimate(0.5, 0.25, 1.0, 400, "coins")
-    assert found - 0.5 == Estimate(0.0, -0.25, 0.5, 400, "coins")
-    assert found * 2 == Estimate(1.0, 0.5, 2.0, 400, "coins")
-    assert found / 0.5 == found * 2
-    assert found.ends == (0.5, 0.25, 1.0)
-
-
 def test_a_claim_that_cannot_be_tested_says_what_would_decide_it():
     close = Criterion("x", Estimate(0.52, 0.46, 0.58, 400), ">", 0.5, "chance")
     claim = Claim(claim="more than half", criteria=[KNOWN.criteria[0], close], expected=None)

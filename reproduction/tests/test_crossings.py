@@ -1,19 +1,20 @@
 """Crossings of lines, on made maps with known answers."""
 
 import numpy as np
+import pytest
 
 from cointoss import Outcome
 from cointoss_reproduction.setups.crossings import crossings
 from tests.helpers.made_maps import faces, hyperbolas, line
 
 
-def test_crossings_of_a_line():
-    assert crossings(line("HHTHTT")) == 3
-    assert crossings(passed := line("H??H?T?")) == 1
-    assert crossings(np.where(passed == Outcome.UNDECIDED, Outcome.TRANSIENT, passed)) == 1
-    assert crossings(line("??HT")) == 1
-    assert crossings(line("????")) == 0
-    assert crossings(line("H")) == 0
+@pytest.mark.parametrize(
+    ("outcomes", "count"), [("HHTHTT", 3), ("H??H?T?", 1), ("??HT", 1), ("????", 0), ("H", 0)]
+)
+@pytest.mark.parametrize("undecided", [Outcome.UNDECIDED, Outcome.TRANSIENT])
+def test_crossings_of_a_line(outcomes, count, undecided):
+    passed = line(outcomes)
+    assert crossings(np.where(passed == Outcome.UNDECIDED, undecided, passed)) == count
 
 
 def test_crossings_of_hyperbolas_grow_with_the_rows_height():
@@ -30,9 +31,3 @@ def test_crossings_after_n_impacts_that_double_the_phase():
     # Every second point still sees all: the line is fine enough.
     assert crossings(after[:, ::2]).tolist() == crossings(after).tolist()
     assert crossings(after[:, None, :]).shape == (10, 1)
-
-
-def test_half_the_points_tell_a_line_that_is_too_coarse():
-    coarse = faces(2.0**13 * (np.arange(1 << 14) + 0.5) / (1 << 14) % 1 < 0.5)
-    assert crossings(coarse) == len(coarse) - 1
-    assert crossings(coarse[::2]) == 0

@@ -6,8 +6,6 @@ from pathlib import Path
 
 import pytest
 
-from cointoss_reproduction.frame.claim import unexpected
-
 DOCS = Path(__file__).parents[2] / "docs"
 sys.path.append(str(DOCS / "extensions"))
 engines = import_module("engines")
@@ -31,8 +29,3 @@ def test_the_engines_that_the_page_names_make_the_laws_that_it_says():
         "(f) sliding_friction": ["yes", "no", "no", "no", "no"],
         "coulomb": ["yes", "yes", "yes", "no", "no"],
     }
-
-
-def test_each_expectation_is_a_claim_with_the_known_verdict():
-    claims = [engines.claim_of(DOCS, *place) for place in engines.SHOWN["ports"].values()]
-    assert unexpected(claims) == ()

@@ -13,7 +13,6 @@ from cointoss_reproduction.studies.table1.euler_angles import (
     rotation_of,
     singularity,
 )
-from cointoss_reproduction.studies.table1.study import PRINTED
 
 angle = st.floats(-10, 10)
 
@@ -33,11 +32,6 @@ TABLE_1 = {
     "323": ("sin", -1, SINE),
 }
 each_sequence = pytest.mark.parametrize("sequence", TABLE_1)
-
-
-def test_there_are_twelve():
-    assert list(PRINTED) == list(TABLE_1)
-    assert axes_of("313") == [2, 0, 2]
 
 
 def scipys(sequence):

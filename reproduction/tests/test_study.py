@@ -42,21 +42,6 @@ def test_a_column_is_that_of_the_rows_that_have_it():
     assert column(cells, "width", "floor.isna()").tolist() == [2.0]
 
 
-def test_a_cell_that_was_kept_is_not_computed_again(tmp_path):
-    asked = []
-
-    def cell(chi: float) -> dict[str, float]:
-        asked.append(chi)
-        if len(asked) == 2:
-            raise KeyboardInterrupt
-        return {"half": chi / 2}
-
-    with pytest.raises(KeyboardInterrupt):
-        table_of([Cells(cell, {"chi": (0.2, 0.4)})], unseen, {}, kept=tmp_path)
-    found = table_of([Cells(cell, {"chi": (0.2, 0.4)})], unseen, {}, kept=tmp_path)
-    assert (asked, found["half"].tolist()) == ([0.2, 0.4, 0.4], [0.1, 0.2])
-
-
 def test_an_axis_and_a_column_of_one_name_are_refused():
     with pytest.raises(ValueError, match=r"^floor: an axis and a column; accepted: one of them$"):
         table_of([Cells(lambda floor: {"floor": floor}, {"floor": (1,)})], unseen, {})
