@@ -16,34 +16,50 @@ from saved import DOCS
 SHARES = table(["coin", "on **edge** [%]"], [["`zloty`", "0.30 [0.08, 1.18]"], ["a|b", "11"]])
 
 
-def test_a_table_is_aligned_numbers_at_the_right():
-    assert laid_out(f"Of all tosses:\n\n{SHARES}\n\nNo more.", 80).splitlines() == [
-        "Of all tosses:",
-        "",
-        "coin         on edge [%]",
-        "────────────────────────",
-        "zloty  0.30 [0.08, 1.18]",
-        "a|b                   11",
-        "",
-        "No more.",
-    ]
+TABLES = {
+    "aligned, numbers at the right": (
+        f"Of all tosses:\n\n{SHARES}\n\nNo more.",
+        80,
+        [
+            "Of all tosses:",
+            "",
+            "coin         on edge [%]",
+            "────────────────────────",
+            "zloty  0.30 [0.08, 1.18]",
+            "a|b                   11",
+            "",
+            "No more.",
+        ],
+    ),
+    "too wide: cells wrap, and no interval is broken": (
+        SHARES,
+        20,
+        [
+            "coin     on edge [%]",
+            "────────────────────",
+            "zloty           0.30",
+            "        [0.08, 1.18]",
+            "",
+            "a|b               11",
+        ],
+    ),
+    "words longer than the terminal are kept whole": (
+        table(["one", "two"], [["unbreakable", "1"]]),
+        5,
+        ["one          two", "────────────────", "unbreakable    1"],
+    ),
+    "a paragraph that begins with an absolute value is no table": (
+        "|ΔS|/|S| of all impacts",
+        80,
+        ["|ΔS|/|S| of all impacts"],
+    ),
+}
 
 
-def test_a_table_that_is_too_wide_wraps_its_cells_and_breaks_no_interval():
-    lines = laid_out(SHARES, 20).splitlines()
-    assert max(map(len, lines)) <= 20
-    assert lines == [
-        "coin     on edge [%]",
-        "────────────────────",
-        "zloty           0.30",
-        "        [0.08, 1.18]",
-        "",
-        "a|b               11",
-    ]
-
-
-def test_words_longer_than_the_terminal_are_kept_whole():
-    assert laid_out(table(["one", "two"], [["unbreakable", "1"]]), 5).splitlines()[-1] == "unbreakable    1"
+@pytest.mark.parametrize("name", TABLES)
+def test_a_table_is_laid_out_for_the_terminal(name):
+    text, width, lines = TABLES[name]
+    assert laid_out(text, width).splitlines() == lines
 
 
 @pytest.mark.parametrize("width", [90, 120])
@@ -95,7 +111,3 @@ def test_claims_are_printed_with_their_verdicts_and_counted():
 sums: 1 holds, 1 does not hold and 2 cannot be tested
 out"""
     )
-
-
-def test_a_paragraph_that_begins_with_an_absolute_value_is_no_table():
-    assert laid_out("|ΔS|/|S| of all impacts", 80) == "|ΔS|/|S| of all impacts"
