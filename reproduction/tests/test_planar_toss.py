@@ -20,6 +20,7 @@ from cointoss_reproduction.precision.planar_numbers import (
     ORDER,
     NumericToss,
     energy_left,
+    spread,
     toss_many,
 )
 from cointoss_reproduction.precision.planar_state import State, in_own_units, precision, released
@@ -292,6 +293,11 @@ def test_an_impact_limit_leaves_a_toss_undecided(monkeypatch):
     for toss in toss_many(coin, own, drawn(20)[2]):
         assert toss.outcome == Outcome.UNDECIDED
         assert len(toss.impacts) == 2
+
+
+def test_releases_are_spread_in_exact_steps_from_the_first():
+    found = spread(PlanarRelease(Fraction(1, 3), Fraction(2)), "spin", Fraction(1, 10**25), 3)
+    assert found == [PlanarRelease(Fraction(1, 3), 2 + Fraction(k, 10**25)) for k in range(3)]
 
 
 @pytest.mark.slow
