@@ -126,7 +126,7 @@ class Told(np.random.Generator):
 def test_boundaries_are_drawn_by_weight(monkeypatch):
     """A part has the weight of one over the chances by which it came so far, and no two have the same."""
     monkeypatch.setattr(branching, "toss_many", toss_by_digits)
-    answers = cycle([(True, False), (False, True), (False, False), (False, False)])
+    answers = cycle([(True, False), (True, False), (False, True), (False, False)])
     monkeypatch.setattr(branching, "what_lies_there", lambda *_: next(answers))
     rng = Told(np.random.PCG64(1))
     rng.chances = []
@@ -135,7 +135,7 @@ def test_boundaries_are_drawn_by_weight(monkeypatch):
     assert len(rng.chances) == 8
     assert np.ptp(first) == pytest.approx(0)
     assert last[-1] > 1.5 * last[0]
-    assert made.boundaries.sum(axis=0).tolist() == [4] * 8
+    assert made.boundaries.sum(axis=0).tolist() == [6] * 8
     assert made.flat.sum(axis=0).tolist() == [2] * 8
     assert (made.flat <= made.boundaries).all()
 
