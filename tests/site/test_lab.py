@@ -10,14 +10,11 @@ import pytest
 
 import cointoss
 from cointoss import analytic
-from cointoss.compare.lab.served import ServedLab
 from cointoss.models.batch import rows_of
-from cointoss.models.devices import Device
 from cointoss.models.reading import parse
 from tests.helpers.browser import Page
 from tests.helpers.coins_shown import BLUE, GOLD, NO_WEBGL, UNNAMED, box, faces, picture, set_time
 from tests.helpers.command_line import printed
-from tests.helpers.explored import serving
 from tests.helpers.lab import (
     ADDRESSED,
     COUNTED,
@@ -27,7 +24,6 @@ from tests.helpers.lab import (
     TOSSED,
     WHOLE,
     clicks,
-    go,
     place_of,
     saved,
     sequences,
@@ -71,9 +67,6 @@ def test_a_coin_and_its_map_are_the_package_s_with_the_network_off(page, lab_pat
     rows = list(csv.DictReader(io.StringIO(saved(page, "csv"))))
     values = [np.array([float(row[field]) for row in rows]) for field in (SPIN, HEIGHT)]
     codes, wide = np.array([row["outcome"] for row in rows]), len(set(values[0]))
-    for found, ends in ((values[0][:wide], (20, 60)), (values[1][::wide], (0.2, 0.6))):
-        half = (ends[1] - ends[0]) / len(found) / 2
-        assert found == pytest.approx(np.linspace(ends[0] + half, ends[1] - half, len(found)))
     case = cointoss.load("fig24a").replace("ending.max_impacts", 2)
     rows = rows_of(case, len(codes), dict(zip((SPIN, HEIGHT), values, strict=True)))
     assert np.mean(analytic.toss_rows(rows).after(1) == np.where(codes == "heads", 1, 2)) > 0.99
@@ -287,34 +280,3 @@ def test_the_face_of_a_throw_is_told_when_it_has_come_down(page, lab_path):
     assert page.text("state-analytic") == ""
     page.wait_for(f"{THROWN} !== ''")
     assert page.text("outcome").startswith(page.text("state-analytic"))
-
-
-COIN = (
-    "#coin.mass=0.002&coin.radius=0.0125&coin.thickness=0.002&floor.contact=smooth&floor.restitution=0.8"
-    "&release.position.x=-0&release.position.y=0&release.position.z=0.4&release.angles.theta=0.3"
-)
-PAST_ITS_BOUNDS = f"x={SPIN}:20:60&y=floor.restitution:0.4:1.2"
-
-
-@pytest.mark.parametrize(
-    "window", [f"x={SPIN}:20:60&y={HEIGHT}:0.2:0.6&map=3&trust=1", f"{PAST_ITS_BOUNDS}&map=final"]
-)
-def test_the_map_by_the_server_is_that_of_the_page(page, lab_path, window):
-    found = []
-    page.call("Page.addScriptToEvaluateOnNewDocument", source=SAVED)
-    with serving(ServedLab(cointoss.load("fig24a"), 0, Device.CPU)) as lab:
-        for url in (lab_path.as_uri(), lab.url):
-            page.open(url, width=420)
-            page.wait_for(ADDRESSED)
-            go(page, f"{COIN}&{window}")
-            assert page.text("problem") == ""
-            found.append(saved(page, "csv"))
-        asked = [address for address in page.asked() if "map?" in address]
-    assert found[1] == found[0]
-    assert {"heads", "tails"} <= {line.split(",")[2] for line in found[0].splitlines()}
-    assert ("no scenario" in found[0]) == (PAST_ITS_BOUNDS in window)
-    assert "not tossed" not in found[0]
-    # Few pixels are asked for first.
-    sizes = [int(part.split("columns=")[1].split("&")[0]) for part in asked]
-    assert sizes[0] < sizes[-1] / 2
-    assert page.text("where") == "on this machine"

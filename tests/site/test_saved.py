@@ -87,6 +87,9 @@ def test_a_map_is_walked_through(page, server, map_path, width, scheme):
     assert page.value("document.documentElement.scrollWidth <= innerWidth")
     assert page.value(UNNAMED) == 0
     assert all(re.match(r"http://127\.0\.0\.1:|data:|blob:|about:", address) for address in page.asked())
+    # Few pixels are asked for first.
+    sizes = re.findall(r"/map\?\S*columns=(\d+)", "\n".join(page.asked()))
+    assert int(sizes[0]) < int(sizes[-1]) / 2
 
 
 @pytest.mark.parametrize("engine", ["analytic", "mujoco"])

@@ -4,23 +4,13 @@ from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
+from scipy.spatial.transform import Rotation
 from scipy.special import ellipk
 
 import cointoss
 from cointoss_yardstick.suite.case import Case
 
 G = 9.81
-
-
-def product(p: Any, q: Any) -> Any:
-    """Return the product of two quaternions, scalar first."""
-    a, b = np.array(p[1:]), np.array(q[1:])
-    return np.array([p[0] * q[0] - a @ b, *(p[0] * b + q[0] * a + np.cross(a, b))])
-
-
-def turn(axis: Any, angle: float) -> Any:
-    """Return the quaternion of a turn about a unit vector."""
-    return np.array([np.cos(angle / 2), *(np.sin(angle / 2) * np.array(axis))])
 
 
 def moments(case: Case) -> tuple[float, float, float, float, float]:
@@ -33,14 +23,11 @@ def precession(case: Case) -> Any:
     """R(t) = R(0) exp(t L/J_ξ) exp(t (1 - J_ζ/J_ξ) ω_ζ ζ), L in the body frame at the release."""
     *_, J_xi, J_zeta = moments(case)
     w = np.array(case.scenario.release.angular_velocity)
-    L = w * [J_xi, J_xi, J_zeta]
-    size, k = float(np.linalg.norm(L)), (1 - J_zeta / J_xi) * w[2]
-    e = [
-        product(
-            case.scenario.release.attitude, product(turn(L / size, size * t / J_xi), turn([0, 0, 1], k * t))
-        )
-        for t in (case.until / 2, case.until)
-    ]
+    turning, about_axis = w * [1, 1, J_zeta / J_xi], w * [0, 0, 1 - J_zeta / J_xi]
+    t = np.array([[case.until / 2], [case.until]])
+    released = Rotation.from_quat(case.scenario.release.attitude, scalar_first=True)
+    turned = released * Rotation.from_rotvec(t * turning) * Rotation.from_rotvec(t * about_axis)
+    e = turned.as_quat(scalar_first=True)
     return np.concatenate([each * np.sign(each[np.argmax(np.abs(each))]) for each in e])
 
 
@@ -81,33 +68,28 @@ def tilted_spin(case: Case) -> list[float]:
 
 def touch_spin(case: Case) -> list[float]:
     """Return the spin after the touch of a coin that turns about η, which stays where it is."""
-    m, r, h, J, _ = moments(case)
-    release = case.scenario.release
-    assert release.angles is not None
+    m, r, h, J, J_zeta = moments(case)
+    release: Any = case.scenario.release
     theta, w = release.angles[1], release.angular_velocity[1]
 
-    def rotation(t: float) -> Any:
-        # R_x(θ), then the turn about η.
-        c, s = np.cos(w * t), np.sin(w * t)
-        x = np.array([[1, 0, 0], [0, np.cos(theta), -np.sin(theta)], [0, np.sin(theta), np.cos(theta)]])
-        return x @ np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
+    def up_at(t: float) -> Any:
+        return (Rotation.from_rotvec([theta, 0, 0]) * Rotation.from_rotvec([0, w * t, 0])).as_matrix()[2]
 
     def gap(t: float) -> float:
-        up = rotation(t)[2]
+        up = up_at(t)
         return release.position[2] - G * t * t / 2 - h / 2 * abs(up[2]) - r * np.hypot(up[0], up[1])
 
     times = np.linspace(0, case.until, 4000)
     first = next(i for i in range(1, len(times)) if gap(times[i]) < 0)
     t: Any = brentq(gap, times[first - 1], times[first], xtol=1e-15)
-    up = rotation(t)[2]
+    up = up_at(t)
     across = np.hypot(up[0], up[1])
     A = np.array([-r * up[0] / across, -r * up[1] / across, -h / 2 * np.sign(up[2])])
     spin = np.array([0.0, w, 0.0])
-    inertia = m * np.array([r * r / 4 + h * h / 12, r * r / 4 + h * h / 12, r * r / 2])
+    inertia = np.array([J, J, J_zeta])
     speed = -G * t + np.cross(spin, A) @ up
     lever = np.cross(A, up)
     S = -(1 + case.scenario.floor.restitution) * speed / (1 / m + lever @ (lever / inertia))
-    assert J == inertia[0]
     return (spin + S * lever / inertia).tolist()
 
 
@@ -124,25 +106,12 @@ def coulomb(case: Case) -> list[float]:
     K = np.eye(2) / m + np.outer(lever, lever) / J
     v = np.array([release.velocity[1], -((2 * G * fall) ** 0.5)])
     target = -floor.restitution * v[1]
-    S = np.zeros(2)
-    direction = -np.sign(v[0])
-    if v[0] == 0:
-        direction = 1.0
-    step = np.array([floor.friction * direction, 1.0])
-    rate = K @ step
-    to_end = (target - v[1]) / rate[1]
-    to_stop = -v[0] / rate[0] if v[0] * rate[0] < 0 else np.inf
-    if to_stop < to_end:
-        S, v = S + to_stop * step, v + to_stop * rate
-        sticking = np.array([-K[0, 1] / K[0, 0], 1.0])
-        step = (
-            sticking
-            if abs(sticking[0]) <= floor.friction
-            else np.array([floor.friction * np.sign(sticking[0]), 1])
-        )
-        rate = K @ step
-        to_end = (target - v[1]) / rate[1]
-    S = S + to_end * step
+    slipping = np.array([-floor.friction * np.sign(v[0]), 1.0])
+    rate = K @ slipping
+    S = min(-v[0] / rate[0] if v[0] * rate[0] < 0 else np.inf, (target - v[1]) / rate[1]) * slipping
+    # Then it sticks, or slips the other way where that takes more friction than there is.
+    after = np.array([np.clip(-K[0, 1] / K[0, 0], -floor.friction, floor.friction), 1.0])
+    S = S + (target - v[1] - K[1] @ S) / (K[1] @ after) * after
     return [0.0, *S.tolist()]
 
 
