@@ -144,21 +144,36 @@ def test_a_coin_that_lies_is_held_by_its_weight():
     assert {each.name for each in toss.certificate} >= {"solver", "spacing of the times"}
 
 
-def test_a_caught_coin_and_one_that_stands_end_so():
-    caught = scenario(release=TUMBLING, ending={"caught": 0.2})
-    seen = simulator_of("analytic").observe(caught.replace("ending.caught", None), 0.3)
-    toss = ObservedToss(scenario=caught, states=seen.states).toss("seen", {})
-    assert toss.ending == Ending.CAUGHT
-    assert toss.end_time == pytest.approx(analytic.toss(caught).end_time, abs=1e-4)
-    upright = {"position": [0, 0, 1.25e-2], "angles": [0, np.pi / 2, 0]}
-    stands = scenario(coin={"thickness": 4e-3}, floor={"restitution": 0.0}, release=upright)
-    found = simulator_of("analytic").observe(stands, 0.1).toss("seen", {})
-    assert (found.outcome, found.ending) == (Outcome.EDGE, Ending.STANDING)
-    goes_on = simulator_of("analytic").observe(scenario(release=TUMBLING), 0.1).toss("seen", {})
-    assert (goes_on.outcome, goes_on.ending) == (Outcome.UNDECIDED, Ending.MAX_TIME)
-    few = scenario(release=TUMBLING, ending={"max_impacts": 2})
-    stopped = simulator_of(Newton()).toss(few, 1.0)
-    assert (len(stopped.impacts), stopped.ending) == (2, Ending.MAX_IMPACTS)
+CAUGHT = scenario(release=TUMBLING, ending={"caught": 0.2})
+FEW = scenario(release=TUMBLING, ending={"max_impacts": 2})
+STANDS = scenario(
+    coin={"thickness": 4e-3},
+    floor={"restitution": 0.0},
+    release={"position": [0, 0, 1.25e-2], "angles": [0, np.pi / 2, 0]},
+)
+
+
+@pytest.mark.parametrize(
+    ("engine", "case", "until", "shown"),
+    [
+        ("analytic", CAUGHT, 0.3, {"ending": Ending.CAUGHT, "end_time": analytic.toss(CAUGHT).end_time}),
+        ("analytic", STANDS, 0.1, {"ending": Ending.STANDING, "outcome": Outcome.EDGE}),
+        (
+            "analytic",
+            scenario(release=TUMBLING),
+            0.1,
+            {"ending": Ending.MAX_TIME, "outcome": Outcome.UNDECIDED},
+        ),
+        (Newton(), FEW, 1.0, {"ending": Ending.MAX_IMPACTS, "sequence": analytic.toss(FEW).sequence}),
+    ],
+    ids=["caught", "stands", "goes on", "few impacts"],
+)
+def test_a_toss_ends_as_its_scenario_and_its_states_say(engine, case, until, shown):
+    toss = simulator_of(engine).toss(case, until)
+    found = {name: getattr(toss, name) for name in shown}
+    assert found == shown | {
+        name: pytest.approx(shown[name], abs=1e-4) for name in shown.keys() & {"end_time"}
+    }
 
 
 WRONG = {
@@ -248,34 +263,15 @@ def test_a_wrong_answer_is_refused_in_one_line_that_says_what_it_seems_to_be(eng
     assert str(refusal.value).startswith("Answers: ")
 
 
-def test_states_in_turn_and_records_are_answers_too(tumbling):
-    as_record = Answers(lambda case, times: analytic.toss(case).sample(times))
-    in_turn = Answers(
-        lambda case, times: [getattr(analytic.toss(case).sample(times), name) for name in WHOLE]
-    )
-    known = simulator_of("analytic").observe(tumbling, 0.3)
-    for engine in (as_record, in_turn):
-        seen = simulator_of(engine).observe(tumbling, 0.3)
-        assert np.abs(seen.states.quaternion - known.states.quaternion).max() < 1e-15
-
-
 @pytest.mark.parametrize(
-    ("engine", "words"),
-    [
-        (3, "int: has no function simulate"),
-        (
-            type("Fast", (), {"simulate": print, "dt": 2}),
-            "dt = 2: accepted: a step above 0 and below 1 s, or none",
-        ),
-        (
-            type("Listed", (), {"simulate": print, "settings": [1]}),
-            "settings: of type list, accepted: a dict",
-        ),
-    ],
+    "answer",
+    [lambda states: states, lambda states: [getattr(states, name) for name in WHOLE]],
+    ids=["a record", "in turn"],
 )
-def test_what_is_no_engine_is_refused(engine, words):
-    with pytest.raises(TypeError, match=words):
-        simulator_of(engine() if isinstance(engine, type) else engine)
+def test_states_in_turn_and_records_are_answers_too(answer, tumbling):
+    engines = Answers(lambda case, times: answer(analytic.toss(case).sample(times))), "analytic"
+    seen, known = (simulator_of(engine).observe(tumbling, 0.3).states.quaternion for engine in engines)
+    assert np.abs(seen - known).max() < 1e-15
 
 
 def test_a_step_is_set_for_a_call_and_put_back(tumbling):
@@ -369,20 +365,36 @@ class Engine:
 
 
 @pytest.mark.parametrize(
-    ("given", "words"),
+    ("given", "error", "words"),
     [
-        ("nowhere", "engine: nowhere, accepted: analytic, mujoco, or package.module:name"),
+        (3, TypeError, "int: has no function simulate"),
+        (
+            type("Fast", (), {"simulate": print, "dt": 2})(),
+            TypeError,
+            "dt = 2: accepted: a step above 0 and below 1 s, or none",
+        ),
+        (
+            type("Listed", (), {"simulate": print, "settings": [1]})(),
+            TypeError,
+            "settings: of type list, accepted: a dict",
+        ),
+        (
+            "nowhere",
+            UnusableEngineError,
+            "engine: nowhere, accepted: analytic, mujoco, or package.module:name",
+        ),
         (
             "no_such_package:engine",
+            UnusableEngineError,
             "no_such_package:engine: ModuleNotFoundError: No module named 'no_such_package'",
         ),
-        ("yardstick.tests.own_engines:none", "own_engines' has no attribute 'none'"),
-        ("yardstick.tests.own_engines:Newton.name", "has no function simulate"),
-        ("/no/python -m some:engine", r"can't be run .*; accepted: a Python"),
+        ("yardstick.tests.own_engines:none", UnusableEngineError, "own_engines' has no attribute 'none'"),
+        ("yardstick.tests.own_engines:Newton.name", UnusableEngineError, "has no function simulate"),
+        ("/no/python -m some:engine", UnusableEngineError, r"can't be run .*; accepted: a Python"),
     ],
 )
-def test_a_name_that_is_no_engine_is_refused(given, words):
-    with pytest.raises(UnusableEngineError, match=words):
+def test_what_is_no_engine_is_refused(given, error, words):
+    with pytest.raises(error, match=words):
         simulator_of(given)
 
 
