@@ -99,7 +99,8 @@ def test_a_spin_is_about_the_axis_of_its_scenario(lab):
 
 @pytest.mark.parametrize("is_reversed", [False, True])
 def test_a_map_is_told_pixel_by_pixel(server, map_path, is_reversed):
-    _, _, body = got(server.port, "/saved")
+    _, headers, body = got(server.port, "/saved")
+    assert headers["content-type"] == "application/json"
     told = json.loads(body)
     found = cointoss.read_map(map_path)
     assert told == saved_map(found.isel(x=slice(None, None, -1)) if is_reversed else found, "map.zarr")

@@ -12,7 +12,7 @@ from cointoss.compare.report.comparison import Comparison
 from cointoss.compare.report.map_section import MapSection
 from cointoss.compare.report.page import render
 from cointoss.models.reading import parse
-from tests.helpers.explored import SCENARIO, got, serving
+from tests.helpers.explored import SCENARIO
 
 HOSTILE = [
     "<script>document.title = 'run'</script>",
@@ -119,15 +119,6 @@ def test_a_static_page_holds_them_as_data(map_path, named, tmp_path, failing, wo
     data = json.loads(found.scripts["data"])
     assert data["saved"]["name"] == NAME
     assert {each["toss"]["problem"] for each in data["tosses"]} == {words}
-
-
-def test_the_server_answers_them_as_data(named, map_path):
-    with serving(named) as lab, serving(map_path) as plain:
-        status, headers, body = got(lab.port, "/saved")
-        assert got(lab.port, "/")[2] == got(plain.port, "/")[2]
-    assert (status, headers["content-type"]) == (200, "application/json")
-    assert headers["x-content-type-options"] == "nosniff"
-    assert json.loads(body)["name"] == NAME
 
 
 def test_a_browser_runs_none_of_them_and_a_frame_keeps_them_inside(page, named, tmp_path, failing):
