@@ -99,18 +99,11 @@ def integrator(number: Any, with_floor: bool, lanes: int = 0) -> Any:
     )
 
 
-def _solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """Solve a linear system by Gauss's elimination; NumPy's own knows no 113-bit numbers."""
-    A = np.column_stack([matrix, right])
-    n = len(matrix)
-    for i in range(n):
-        pivot = i + int(np.argmax(np.abs(A[i:, i]).astype(float)))
-        A[[i, pivot]] = A[[pivot, i]]
-        A[i] = A[i] / A[i, i]
-        for j in range(n):
-            if j != i:
-                A[j] = A[j] - A[j, i] * A[i]
-    return A[:, n:]
+def _inverse(matrix: np.ndarray) -> np.ndarray:
+    """Return the inverse of a matrix, (3, 3), by cross products; NumPy's own knows no 113-bit numbers."""
+    a, b, c = matrix
+    columns = np.array([_cross(b, c), _cross(c, a), _cross(a, b)], dtype=Q)
+    return np.ascontiguousarray(columns.T) / _dot(a, columns[0])
 
 
 def _numbers(values: Any) -> np.ndarray:
@@ -137,7 +130,7 @@ class Extended:
         ) + m * np.array(
             [[c[i] * c[j] - (_dot(c, c) if i == j else Q(0)) for j in range(3)] for i in range(3)], dtype=Q
         )
-        self.J_inverse = _solve(self.J, _numbers(np.eye(3)))
+        self.J_inverse = _inverse(self.J)
         ln, lt = Q(air.normal), Q(air.tangential)
         drag = [
             PI * (2 * r * r * lt + r * h * lt + r * h * ln / 2),
@@ -238,7 +231,7 @@ class Extended:
                 row[2] = mu * part / slip if slip > 0 else Q(0)
                 rows.append(row)
                 right.append(Q(0))
-        S = _solve(np.array(rows, dtype=Q), np.array(right, dtype=Q)[:, None])[:, 0]
+        S = _times(_inverse(np.array(rows, dtype=Q)), np.array(right, dtype=Q)[:, None])[:, 0]
         y[1:4] = v + S / self.m
         turned = _times(np.ascontiguousarray(moves[:, 3:].T), S[:, None])
         y[8:11] = w + _times(self.J_inverse, turned)[:, 0]

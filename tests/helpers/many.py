@@ -17,11 +17,6 @@ def as_states(drawn: Sequence[dict[str, Any]]) -> Array:
     return np.array([np.concatenate([one[name] for name in PARTS]) for one in drawn])
 
 
-def as_parts(states: Array) -> dict[str, Array]:
-    """Return states, (13,) or (n, 13), as the parts of a release or of releases."""
-    return dict(zip(PARTS, np.split(states, [3, 6, 10], axis=-1), strict=True))
-
-
 def draw_states(rng: np.random.Generator, n: int) -> tuple[list[dict[str, Any]], Array]:
     """Draw releases, one by one and as states, (n, 13)."""
     drawn = [draw_release(rng) for _ in range(n)]

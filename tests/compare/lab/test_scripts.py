@@ -33,7 +33,11 @@ from tests.helpers.lab import HEIGHT, SPIN
 RELEASES = sorted(folder for folder in (Path(__file__).parents[2] / "releases").iterdir() if folder.is_dir())
 CASE = cointoss.load("fig24a")
 TOSS = analytic.toss(CASE)
-PLAYED = playable(TOSS, 200) | {"path": path_of(TOSS, 200, with_spin=True)}
+PLAYED = {
+    **playable(TOSS, 200),
+    "path": path_of(TOSS, 200, with_spin=True),
+    "heights": TOSS.impacts.position[:, 2].tolist(),
+}
 ATTITUDES = Rotation.from_quat(np.reshape(PLAYED["path"]["quaternion"], (-1, 4)), scalar_first=True)
 TWO = f"{{ '{SPIN}': 27, '{HEIGHT}': 0.4, 'release.angular_velocity.zeta': 5 }}"
 CAUGHT = f"{{ '{SPIN}': 27, '{HEIGHT}': 0.4, 'release.velocity.z': 2, 'ending.caught': 0.4 }}"
@@ -63,6 +67,26 @@ SHOWN = """const box = document.createElement('div');
   m.markTouch(box, [TOSS], 0.72)"""
 UPSIDE_DOWN = "{ time: [0, 1], quaternion: [1, 0, 0, 0, 0, 1, 0, 0] }"
 THIRD = "{ c: { default: 3 } }"
+PLACED = """(() => {
+  const canvas = document.createElement("canvas"), chosen = [], nothing = () => {};
+  canvas.style = "position: fixed; left: 0; top: 0; width: 148px; height: 142px";
+  document.body.append(canvas);
+  const map = async (scenario, x, y, _, onPart) => {
+    const pixels = Int32Array.from({ length: x.count * y.count }, (_, i) => i);
+    onPart({ stride: 1, pixels, codes: Int8Array.from(pixels, (i) => i % 100), trusted: null, finished: 1 });
+  };
+  const told = { choose: ({ code, x, y }) => chosen.push(code, x, y), place: nothing, moved: nothing };
+  Object.assign(told, { end: nothing, nearest: nothing, progress: nothing, problem: nothing });
+  const more = { outcomes: {}, saved: null, marks: () => [] };
+  const shown = m.makeLiveMap({ canvas, workers: { map }, fields, told, ...more });
+  const x = { field: "coin.radius", from: 0, to: 3 }, y = { field: "coin.mass", from: 0, to: 8 };
+  shown.update({ x, y, home: { x, y }, scenario: {}, after: 1, trust: false, hand: null, before: null });
+  canvas.dispatchEvent(new MouseEvent("click", { clientX: 74 + 41, clientY: 10 + 25 }));
+  canvas.remove();
+  return chosen;
+})()"""
+"""A click on a map of 30 by 40 pixels of two on the screen, of which each has its number, less hundreds, as
+its code: it falls on column 20 of the row that is 12 below the highest."""
 AXES = "[{ word: 'spin', unit: 'rad/s' }, { word: 'height', unit: 'm' }]"
 
 
@@ -216,6 +240,7 @@ ROWS = [
             "3.2e-13 of the map; doubles end here",
         ],
     ),
+    ("live_map", PLACED, pytest.approx([(30 * 27 + 20) % 100, 3 * 20.5 / 30, 8 * 27.5 / 40])),
     (
         "plot",
         "[0, 1234.5678, 1e-4, 123456, null].map(m.numberText)",
@@ -282,7 +307,8 @@ ROWS = [
     ),
     (
         "motion",
-        "m.placeOf([TOSS]).lines.map(({ name, values }) => [name, values[9]])",
+        "m.placeOf([{ ...TOSS, path: { time: [0, 1], position: [0, 0, 0, 1e-3, 2e-3, 0.4] } }])"
+        ".lines.map(({ name, values }) => [name, values[1]])",
         [["x analytic", 1], ["y analytic", 2]],
     ),
     (
@@ -316,16 +342,8 @@ ROWS = [
     ("module", "asked", "due"), ROWS, ids=[f"{module}: {asked[:60]}" for module, asked, _ in ROWS]
 )
 def test_a_function_gives(loaded, module, asked, due):
-    path = {**PLAYED["path"], "position": PLAYED["path"]["position"]}
-    if "placeOf" in asked:
-        path["position"] = [1e-3, 2e-3, 0.4] * len(path["time"])
-    given = json.dumps({**PLAYED, "heights": TOSS.impacts.position[:, 2].tolist(), "path": path})
-    assert (
-        loaded.value(
-            f"(async () => {{ const TOSS = {given}, m = await import('{module}.js'); return {asked}; }})()"
-        )
-        == due
-    )
+    given = f"const TOSS = {json.dumps(PLAYED)}, m = await import('{module}.js')"
+    assert loaded.value(f"(async () => {{ {given}; return {asked}; }})()") == due
 
 
 def test_releases_of_a_hand_scatter_as_asked(loaded):
@@ -573,37 +591,6 @@ def test_a_map_is_chosen_from_stepped_through_zoomed_and_moved(loaded):
         told, found = loaded.value("[told.pop() ?? null, Object.values(view.window())]")
         assert told == (due and [due[0], pytest.approx(due[1]), pytest.approx(due[2])])
         assert found == pytest.approx(window)
-
-
-PLACED = """
-import("live_map.js").then(({ makeLiveMap }) => {
-  const canvas = document.createElement("canvas"), chosen = [], nothing = () => {};
-  canvas.style = "position: fixed; left: 0; top: 0; width: 148px; height: 142px";
-  document.body.append(canvas);
-  const map = async (scenario, x, y, _, onPart) => {
-    const pixels = Int32Array.from({ length: x.count * y.count }, (_, i) => i);
-    onPart({ stride: 1, pixels, codes: Int8Array.from(pixels, (i) => i % 100), trusted: null, finished: 1 });
-  };
-  const told = { place: nothing, choose: (place) => chosen.push(place), moved: nothing, end: nothing };
-  Object.assign(told, { nearest: nothing, progress: nothing, problem: nothing });
-  const more = { outcomes: {}, saved: null, marks: () => [] };
-  const shown = makeLiveMap({ canvas, workers: { map }, fields, told, ...more });
-  const x = { field: "coin.radius", from: 0, to: 3 }, y = { field: "coin.mass", from: 0, to: 8 };
-  shown.update({ x, y, home: { x, y }, scenario: {}, after: 1, trust: false, hand: null, before: null });
-  canvas.dispatchEvent(new MouseEvent("click", { clientX: 74 + 41, clientY: 10 + 25 }));
-  canvas.remove();
-  return chosen;
-})
-"""
-"""A map of 30 by 40 pixels of two on the screen, of which each has its number, less hundreds, as its code."""
-
-
-def test_a_click_chooses_the_pixel_below_it(loaded):
-    (found,) = loaded.value(PLACED)
-    column, row = 20, 40 - 1 - 12
-    assert found["code"] == (30 * row + column) % 100
-    assert found["x"] == pytest.approx(3 * (column + 0.5) / 30)
-    assert found["y"] == pytest.approx(8 * (row + 0.5) / 40)
 
 
 HEADS, TAILS = np.array([200, 100, 0]), np.array([0, 20, 160])
