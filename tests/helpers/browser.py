@@ -164,10 +164,10 @@ class Page:
         loaded = "document.readyState !== 'loading' && location.protocol !== 'about:'"
         self.open(url, ready=loaded, scheme=scheme, moving=moving, **size)
         deadline = time.monotonic() + HANGS
-        while len(sessions := self._sessions_of_frames()) < count:
-            assert time.monotonic() < deadline, f"{len(sessions)} frames"
+        while len(found := self._told("Target.attachedToTarget")) < count:
+            assert time.monotonic() < deadline, f"{len(found)} frames"
             self.value("1")
-        frames = [Page.__new__(Page) for _ in sessions]
+        sessions, frames = [each["sessionId"] for each in found], [Page.__new__(Page) for _ in found]
         for frame, session in zip(frames, sessions, strict=True):
             frame._browser = self._browser
             frame._listen(session)
@@ -177,11 +177,12 @@ class Page:
             frame.wait_for(READY)
         return frames
 
-    def _sessions_of_frames(self) -> list[str]:
+    def _told(self, method: str) -> list[dict[str, Any]]:
+        """Return what the events of this tab of a method say."""
         return [
-            event["params"]["sessionId"]
+            event["params"]
             for event in self._browser.events
-            if event["method"] == "Target.attachedToTarget" and event.get("sessionId") == self._session
+            if event["method"] == method and event.get("sessionId") == self._session
         ]
 
     def value(self, expression: str) -> Any:
@@ -219,17 +220,12 @@ class Page:
 
     def complaints(self) -> list[str]:
         """Return what the browser has complained of in this tab: errors and warnings."""
-        found = []
-        for event in self._browser.events:
-            told = event.get("params", {})
-            if event.get("sessionId") != self._session:
-                continue
-            if event["method"] == "Runtime.exceptionThrown":
-                details = told["exceptionDetails"]
-                found.append(details.get("exception", {}).get("description", details["text"]))
-            elif event["method"] == "Log.entryAdded" and told["entry"]["level"] in ("error", "warning"):
-                found.append(told["entry"]["text"])
-            elif event["method"] == "Runtime.consoleAPICalled" and told["type"] in ("error", "warning"):
+        thrown = [told["exceptionDetails"] for told in self._told("Runtime.exceptionThrown")]
+        found = [details.get("exception", {}).get("description", details["text"]) for details in thrown]
+        entries = [told["entry"] for told in self._told("Log.entryAdded")]
+        found += [entry["text"] for entry in entries if entry["level"] in ("error", "warning")]
+        for told in self._told("Runtime.consoleAPICalled"):
+            if told["type"] in ("error", "warning"):
                 found.append(
                     " ".join(str(part.get("value", part.get("description"))) for part in told["args"])
                 )
@@ -238,11 +234,7 @@ class Page:
 
     def asked(self) -> list[str]:
         """Return the addresses that this tab has asked the network for."""
-        return [
-            event["params"]["request"]["url"]
-            for event in self._browser.events
-            if event.get("sessionId") == self._session and event["method"] == "Network.requestWillBeSent"
-        ]
+        return [told["request"]["url"] for told in self._told("Network.requestWillBeSent")]
 
     def screenshot(self, path: Path, *, whole: bool = False) -> None:
         """Write a picture of the window, or of the whole page."""
