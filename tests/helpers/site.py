@@ -11,7 +11,10 @@ import numpy as np
 from PIL import Image
 
 from cointoss.models.palette import HEADS, TAILS
+from tests.helpers.pages import TOP
 
+SITE = TOP / "out" / "site"
+"""As `make docs` builds it."""
 LOADED = {
     "audio": ("src",),
     "embed": ("src",),

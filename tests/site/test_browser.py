@@ -1,10 +1,9 @@
 """Pages of the built site in a browser: quiet, not wider than the window, and not long."""
 
-from pathlib import Path
-
 import pytest
 
-SITE = Path(__file__).parents[2] / "out" / "site"
+from tests.helpers.site import SITE
+
 WIDTH, SCREEN = 420, 900
 WINDOWS = ("index.html", "[A-Z]*.html", "examples/two_engines_part.html", "api/cointoss.html")
 USERS = ("OVERVIEW", "TUTORIAL", "lab", "COMMANDS", "SCENARIO", "PYTHON", "MUJOCO", "PREDICTABILITY")

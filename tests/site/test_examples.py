@@ -1,14 +1,12 @@
 """`make docs` runs the examples of the pages, and says which it doesn't run, and which fail."""
 
 import re
-import sys
 from importlib import import_module
 
 import pytest
 
-from tests.helpers.pages import DOCS, PAGES, blocks
+from tests.helpers.pages import PAGES, blocks
 
-sys.path.append(str(DOCS / "extensions"))
 examples = import_module("examples")
 PAGE = """
 Save the coin as `coin.toml`:

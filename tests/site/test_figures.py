@@ -1,18 +1,14 @@
 """The figures of the site: the dark ones, and each leads to its full size."""
 
 import re
-import sys
 from importlib import import_module
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from cointoss.models.palette import HEADS, TAILS
+from tests.helpers.site import SITE
 
-TOP = Path(__file__).parents[2]
-SITE = TOP / "out" / "site"
-sys.path.append(str(TOP / "docs" / "extensions"))
 figures = import_module("figures")
 
 

@@ -1,15 +1,12 @@
 """The site's first screen and the lab in Firefox: their map is tossed and drawn."""
 
 import time
-from pathlib import Path
 
 import pytest
 
 from tests.helpers.firefox import firefox
 from tests.helpers.processes import HANGS
-from tests.helpers.site import shows_a_map
-
-SITE = Path(__file__).parents[2] / "out" / "site"
+from tests.helpers.site import SITE, shows_a_map
 
 
 @pytest.mark.parametrize("name", ["index.html", "lab.html"])

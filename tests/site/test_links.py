@@ -1,19 +1,15 @@
 """The built site: its links lead somewhere, it needs no network, and its pictures are described."""
 
-from pathlib import Path
-
 import pytest
 
-from tests.helpers.site import problems, read
-
-TOP = Path(__file__).parents[2]
-SITE = TOP / "out" / "site"
+from tests.helpers.pages import DOCS
+from tests.helpers.site import SITE, problems, read
 
 
 def test_the_site_has_a_page_for_each_source_and_what_it_takes_along():
-    sources = [path for path in (TOP / "docs").rglob("*.md") if path.parent.name not in ("made", "paper")]
+    sources = [path for path in DOCS.rglob("*.md") if path.parent.name not in ("made", "paper")]
     assert len(sources) > 60
-    pages = [SITE / source.relative_to(TOP / "docs").with_suffix(".html") for source in sources]
+    pages = [SITE / source.relative_to(DOCS).with_suffix(".html") for source in sources]
     assert [
         page for page in [*pages, SITE / "explorer.html", SITE / "gallery.html"] if not page.is_file()
     ] == []

@@ -1,13 +1,11 @@
 """The article and the JOSS paper are set as PDF, without LaTeX, fonts of the system or the network."""
 
-import sys
 from importlib import import_module
-from pathlib import Path
 
 import pytest
 
-TOP = Path(__file__).parents[2]
-sys.path.append(str(TOP / "docs" / "extensions"))
+from tests.helpers.pages import TOP
+
 # `make lint` runs where the packages of the site need not be installed.
 papers, typst = import_module("papers"), import_module("typst")
 

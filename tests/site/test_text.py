@@ -3,12 +3,12 @@
 import re
 from collections import Counter
 from html import unescape
-from pathlib import Path
 
 import pytest
 
-TOP = Path(__file__).parents[2]
-DOCS, SITE = TOP / "docs", TOP / "out" / "site"
+from tests.helpers.pages import DOCS, TOP
+from tests.helpers.site import SITE
+
 SOURCES = sorted(
     path
     for path in DOCS.rglob("*.md")

@@ -1,7 +1,6 @@
 """What `make pages` writes: blocks that pages include, and the notebooks of the site's pages."""
 
 import re
-import sys
 from copy import deepcopy
 from importlib import import_module
 
@@ -10,8 +9,8 @@ import pytest
 from jupyter_cache import get_cache
 
 from tests.helpers.pages import DOCS, departures
+from tests.helpers.site import SITE
 
-sys.path.append(str(DOCS / "extensions"))
 written = import_module("written")
 PAGES = sorted((DOCS / "examples").glob("*.md"))
 
@@ -59,5 +58,5 @@ def test_a_notebook_keeps_texts_and_pictures_of_cells_that_did_not_change(tmp_pa
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_the_site_offers_a_notebook_beside_its_page(page):
-    shown = (DOCS.parent / "out" / "site" / "examples" / f"{page.stem}.html").read_text(encoding="utf-8")
+    shown = (SITE / "examples" / f"{page.stem}.html").read_text(encoding="utf-8")
     assert len(re.findall(rf'href="\.\./_downloads/\w+/{page.stem}\.ipynb"', shown)) == 1
