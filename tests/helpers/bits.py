@@ -8,8 +8,6 @@ from cointoss import analytic
 from cointoss.models.reading import scenario_of
 from tests.helpers.draws import AIR, IMPERFECT, LONG_TRANSIENT, THIN, ZLOTY, draw_release, scenario
 
-MANY = 60
-"""Releases of each class of general coins."""
 STOUT = {**ZLOTY, "thickness": 1.2e-2}
 GENERAL = {
     **IMPERFECT,
@@ -98,10 +96,3 @@ def numbers_of(case):
         "states": rows.ravel().tolist(),
         "end": path.started.states[-1].tolist(),
     }
-
-
-def numbers_of_many(kind):
-    """Return the numbers of many tosses of a class of general coins."""
-    many = analytic.toss_rows(kind.rows(MANY), trust="certain")
-    names = ("outcome", "impacts", "end_time", "trusted_impacts", "outcome_certain")
-    return {name: (getattr(many, name) + 0).tolist() for name in names}
