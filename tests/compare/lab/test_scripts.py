@@ -604,12 +604,14 @@ def reconstructed(page, codes, stride, trusted=None):
     for corner in np.ndindex(ROWS_UP // stride, COLUMNS // stride):
         at = tuple(stride * np.array(corner) + random.integers(stride, size=2))
         known[at] = codes[at]
-    given = {"columns": COLUMNS, "rows": ROWS_UP, "stride": stride}
-    given |= {
+    given = {
+        "columns": COLUMNS,
+        "rows": ROWS_UP,
+        "stride": stride,
         "codes": known.ravel().tolist(),
         "trusted": None if trusted is None else trusted.ravel().tolist(),
+        "colors": {"-1": [9, 9, 9], "1": HEADS.tolist(), "2": TAILS.tolist()},
     }
-    given |= {"colors": {"-1": [9, 9, 9], "1": HEADS.tolist(), "2": TAILS.tolist()}}
     pixels, doubts = page.value(
         f"import('reconstruct.js').then(({{ reconstruct }}) => reconstruct({json.dumps(given)}))"
         ".then(({ pixels, doubts }) => [[...pixels], [...doubts]])"

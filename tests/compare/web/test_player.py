@@ -35,6 +35,11 @@ INSIDE = """
   document.getElementById("sequences").getBoundingClientRect(), document.getElementById("sequences"))
 """
 """Whether the bar of the horizon and all faces are inside of their box."""
+SIDES = """
+["#marks .proof", "#time"].map((one) => document.querySelector(one).getBoundingClientRect())
+  .map(({ left, width }) => [left, width])
+"""
+"""The left sides and the widths of the mark and of the slider [px]."""
 
 
 def lying_on(toss):
@@ -76,12 +81,6 @@ def places(page, times):
     )
 
 
-def sides(page, selector):
-    """Return the left side and the width of an element [px]."""
-    rectangle = f"document.querySelector('{selector}').getBoundingClientRect()"
-    return page.value(f"(({{ left, width }}) => [left, width])({rectangle})")
-
-
 def test_flight_and_bounces_have_four_fifths_of_the_axis(page, played):
     shown = played()
     end = shown["path"]["time"][-1]
@@ -120,7 +119,7 @@ def test_the_proof_is_marked_and_the_clock_tells_true_times(page, played, width,
     assert words in page.text("energy")
     assert "shaded: on a scale of its own" in page.text("energy")
     (place, _), end = places(page, [shown["end_time"]])[0], shown["path"]["time"][-1]
-    mark, slider = (sides(page, one) for one in ("#marks .proof", "#time"))
+    mark, slider = page.value(SIDES)
     assert mark[0] + 2 == pytest.approx(slider[0] + 8 + place * (slider[1] - 16), abs=1)
     set_time(page, place * end)
     assert page.text("clock") == f"{shown['end_time']:.3f} s"
