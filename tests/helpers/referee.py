@@ -18,14 +18,10 @@ def air_on_element(
 ) -> np.ndarray:
     """Give the force on surface elements, per area, from eqs (51)-(58) and (73), (..., 3)."""
     velocity = v + points @ _skew(w).T
-    normal_speed = _dot(velocity, normals)[..., None]
+    normal_speed = np.vecdot(velocity, normals)[..., None]
     along = velocity - normal_speed * normals
-    friction = -lt * _dot(along, along)[..., None] ** (b / 2) * along
+    friction = -lt * np.vecdot(along, along)[..., None] ** (b / 2) * along
     return friction - ln * np.maximum(normal_speed, 0) ** (1 + b) * normals
-
-
-def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    return np.einsum("...i,...i", a, b)
 
 
 def air_by_cubature(
