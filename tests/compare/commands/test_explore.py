@@ -52,8 +52,9 @@ CUDA = ("--device", "cuda")
 def test_a_map_that_cannot_be_shown_is_refused(copy, monkeypatch, attributes, most, options, told):
     without_card(monkeypatch)
     monkeypatch.setattr(reading, "MOST_READ", most)
+    monkeypatch.setattr(ServedLab, "serve_forever", lambda _: None)
     changed(copy, **attributes)
-    assert told in refused("explore", copy, *options)
+    assert told in refused("explore", copy, "--no-browser", *options)
 
 
 def test_a_map_by_mujoco_is_not_to_blame_for_a_back_end_that_is_missing(copy, monkeypatch):
