@@ -116,7 +116,7 @@ def test_many_tosses_are_the_same(loaded, kind):
     found = loaded.value(f"workers.tossEach({given}).then((all) => {taken}.map((each) => [...each]))")
     native = analytic.toss_rows(kind.rows(MANY), trust="certain")
     due = native.outcome, native.impacts, native.end_time, native.trusted_impacts, native.outcome_certain
-    assert found == [each.tolist() for each in due]
+    assert found == [np.asarray(each).tolist() for each in due]
 
 
 @pytest.mark.parametrize(
