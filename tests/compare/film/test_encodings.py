@@ -1,5 +1,7 @@
 """Every format of a film, and encoders that stop, complain or are interrupted."""
 
+from unittest.mock import Mock
+
 import mediapy
 import numpy as np
 import pytest
@@ -26,72 +28,43 @@ def test_a_film_is_written_in_every_format(tmp_path, suffix):
     assert film_written(path) == Written(codec=codec, size=(64, 48), rate=4, frames=count)
 
 
-def interrupt(*_):
-    raise KeyboardInterrupt
-
-
-def terminate(*_):
-    raise SystemExit(143)
-
-
-def kill(encoder):
-    encoder.kill()
-    encoder.wait()
-
-
-def kill_and_interrupt(encoder):
-    kill(encoder)
-    interrupt()
-
-
-def kill_and_terminate(encoder):
-    kill(encoder)
-    terminate()
-
-
-def hide(_):
-    """The pipe breaks as an interruption closes it, and the encoder complains of that."""
-    try:
-        try:
-            interrupt()
-        finally:
-            raise BrokenPipeError
-    finally:
-        raise RuntimeError("Error writing 'film.mp4': Immediate exit requested")
-
-
-def break_pipe(_):
-    raise BrokenPipeError
+HIDDEN = RuntimeError("Error writing 'film.mp4': Immediate exit requested")
+"""The encoder's complaint of a pipe that breaks as an interruption closes it."""
+HIDDEN.__context__ = BrokenPipeError()
+HIDDEN.__context__.__context__ = KeyboardInterrupt()
 
 
 @pytest.mark.parametrize(
-    ("strike", "where", "soon", "raised"),
+    ("killed", "error", "where", "soon", "raised"),
     [
-        (hide, "add_image", None, KeyboardInterrupt),
-        (break_pipe, "add_image", interrupt, KeyboardInterrupt),
-        (kill, "add_image", None, OSError),
-        (kill_and_interrupt, "add_image", None, KeyboardInterrupt),
-        (kill_and_terminate, "add_image", None, SystemExit),
-        (interrupt, "__enter__", None, KeyboardInterrupt),
-        (terminate, "close", None, SystemExit),
+        (False, HIDDEN, "add_image", None, KeyboardInterrupt),
+        (False, BrokenPipeError, "add_image", KeyboardInterrupt, KeyboardInterrupt),
+        (True, None, "add_image", None, OSError),
+        (True, KeyboardInterrupt, "add_image", None, KeyboardInterrupt),
+        (True, SystemExit(143), "add_image", None, SystemExit),
+        (False, KeyboardInterrupt, "__enter__", None, KeyboardInterrupt),
+        (False, SystemExit(143), "close", None, SystemExit),
     ],
 )
 def test_what_ends_the_encoding_is_raised_and_the_encoder_is_waited_for(
-    tmp_path, monkeypatch, strike, where, soon, raised
+    tmp_path, monkeypatch, killed, error, where, soon, raised
 ):
     """It may be behind other errors, or heeded soon after; a killed encoder is an error of the file."""
-    encoders, enter = [], mediapy.VideoWriter.__enter__
+    encoders, enter, strike = [], mediapy.VideoWriter.__enter__, Mock(side_effect=error)
 
     def entered(writer):
         enter(writer)
         encoders.append(writer._popen)
-        return strike(encoders[0]) if where == "__enter__" else writer
+        if killed:
+            encoders[0].kill()
+            encoders[0].wait()
+        return strike() if where == "__enter__" else writer
 
     monkeypatch.setattr(mediapy.VideoWriter, "__enter__", entered)
     if where != "__enter__":
-        monkeypatch.setattr(mediapy.VideoWriter, where, lambda *_: strike(encoders[0]))
-    monkeypatch.setattr(video.time, "sleep", soon or (lambda _: None))
-    with pytest.raises(raised) as error:
+        monkeypatch.setattr(mediapy.VideoWriter, where, strike)
+    monkeypatch.setattr(video.time, "sleep", Mock(side_effect=soon))
+    with pytest.raises(raised) as told:
         write_video([shown(TOSS)], Camera.TOP, TINY, tmp_path / "film.mp4", lambda *_: None)
-    assert raised is not OSError or "ffmpeg: stopped, or the disk is full" in str(error.value)
+    assert raised is not OSError or "ffmpeg: stopped, or the disk is full" in str(told.value)
     assert encoders[0].returncode is not None

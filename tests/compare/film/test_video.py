@@ -68,20 +68,13 @@ def test_the_speed_is_told_as_a_part_of_the_real_one(speed, told):
 
 def test_frames_are_drawn_one_at_a_time_and_the_last_one_stays():
     toss = made(MadePath(position=(0, 0, 0.1), velocity=(0, 0, 0.2)), end=0.5)
-    draws = []
-    draw = Drawer.draw
-
-    def counted(self, i):
-        draws.append(i)
-        return draw(self, i)
-
-    with patch.object(Drawer, "draw", counted):
+    with patch.object(Drawer, "draw", autospec=True, side_effect=Drawer.draw) as draw:
         film = frames([shown(toss)], Camera.OVERVIEW, TINY)
         next(film)
-        assert draws == [0]
+        assert [call.args[1] for call in draw.call_args_list] == [0]
         rest = list(film)
     held = round(HELD * TINY.frames_per_second)
-    assert len(draws) + held == 1 + len(rest) == frame_count([shown(toss)], TINY)
+    assert draw.call_count + held == 1 + len(rest) == frame_count([shown(toss)], TINY)
     assert all(np.array_equal(frame, rest[-1]) for frame in rest[-held - 1 :])
     assert not np.array_equal(rest[-held - 2], rest[-1])
 
