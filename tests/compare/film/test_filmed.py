@@ -33,15 +33,19 @@ def test_a_coin_is_followed_until_it_lies_still_and_keeps_its_settled_face(engin
 
 
 @pytest.mark.parametrize(
-    "ending", [Ending.CAUGHT, Ending.LYING, Ending.PERIODIC, Ending.PERPETUAL, Ending.MAX_IMPACTS]
+    "how",
+    [
+        {"ending": Ending.CAUGHT},
+        {"ending": Ending.LYING},
+        {"ending": Ending.PERIODIC},
+        {"ending": Ending.PERPETUAL},
+        {"ending": Ending.MAX_IMPACTS},
+        {"engine": "off"},
+    ],
+    ids=str,
 )
-def test_what_has_ended_otherwise_is_filmed_as_it_is(ending):
-    toss = made(MadePath(position=(0, 0, 0.1)), ending=ending)
-    assert followed(toss).motion is toss
-
-
-def test_the_toss_of_another_engine_is_filmed_as_it_is():
-    toss = made(MadePath(position=(0, 0, 0.1)), engine="off")
+def test_what_has_ended_otherwise_or_is_of_another_engine_is_filmed_as_it_is(how):
+    toss = made(MadePath(position=(0, 0, 0.1)), **how)
     assert followed(toss).motion is toss
 
 
