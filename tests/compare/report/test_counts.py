@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from cointoss.compare.report.counts import counts_sentence
 from cointoss.models.records import IMPACT_ROW, Impacts
@@ -26,27 +27,34 @@ def staying(first, after=0):
     return replace(bounced(first + after), contacts=np.array([(first + 0.5, first + 0.7)]))
 
 
-def test_bounces_that_die_out_are_counted_up_to_the_first_contact():
-    assert counts_sentence([staying(4), staying(2)]) == DYING.format("4 and 2")
-    assert counts_sentence([staying(4), staying(2), staying(3)]) == DYING.format("4, 2 and 3")
+ONCE = "Once the coin has been in contact they count {}"
+SPRING = (
+    "{} and {}: MuJoCo’s contact is a spring, and lets go of the floor at other moments than a rigid one."
+)
 
 
-def test_impacts_after_a_contact_are_counted_for_themselves():
-    said = (
-        "they count {} and {}: MuJoCo’s contact is a spring, and lets go of the floor at other moments than "
-        "a rigid one."
-    )
-    assert counts_sentence([staying(3), staying(3, after=2)]) == (
-        f"Once the coin has been in contact {said.format(0, 2)}"
-    )
-    assert counts_sentence([staying(3, after=1), staying(2)]) == (
-        f"{DYING.format('3 and 2')} After that {said.format(1, 0)}"
-    )
-    others = [replace(toss, engine=name) for toss, name in ((staying(3), "a"), (staying(3, after=2), "b"))]
-    assert counts_sentence(others) == "Once the coin has been in contact they count 0 and 2."
-
-
-def test_counts_that_need_no_reason_have_none():
-    assert counts_sentence([staying(3)]) == ""
-    assert counts_sentence([bounced(3), bounced(2)]) == ""
-    assert counts_sentence([staying(3), staying(2, after=1)]) == ""
+@pytest.mark.parametrize(
+    ("tosses", "said"),
+    [
+        pytest.param([staying(4), staying(2)], DYING.format("4 and 2"), id="bounces die out"),
+        pytest.param([staying(4), staying(2), staying(3)], DYING.format("4, 2 and 3"), id="of three engines"),
+        pytest.param(
+            [staying(3), staying(3, after=2)], ONCE.format(SPRING.format(0, 2)), id="after a contact"
+        ),
+        pytest.param(
+            [staying(3, after=1), staying(2)],
+            f"{DYING.format('3 and 2')} After that they count {SPRING.format(1, 0)}",
+            id="before and after",
+        ),
+        pytest.param(
+            [replace(staying(3), engine="a"), replace(staying(3, after=2), engine="b")],
+            ONCE.format("0 and 2."),
+            id="by no spring",
+        ),
+        pytest.param([staying(3)], "", id="one engine"),
+        pytest.param([bounced(3), bounced(2)], "", id="no contact"),
+        pytest.param([staying(3), staying(2, after=1)], "", id="as many in all"),
+    ],
+)
+def test_counts_are_explained_where_a_contact_makes_them_differ(tosses, said):
+    assert counts_sentence(tosses) == said
