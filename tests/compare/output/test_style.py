@@ -10,7 +10,6 @@ from matplotlib.colors import to_rgb
 
 from cointoss.compare.film.captions import LABELS
 from cointoss.compare.output.style import OUTCOMES, looks_of
-from cointoss.models.palette import HEADS, TAILS
 from cointoss.models.records import Outcome
 
 # Linear RGB as seen by a protanope and a deuteranope; Viénot, Brettel and Mollon, Color Res. Appl. 24 (1999).
@@ -40,11 +39,24 @@ def test_engines_of_others_are_told_apart():
     assert len({look.color for look in looks}) == len(looks)
 
 
-@pytest.mark.parametrize(("face", "color"), [("heads", HEADS), ("tails", TAILS)])
-def test_the_coin_of_the_film_has_the_colours_of_the_maps(face, color):
-    model = (resources.files("cointoss.models") / "coin.xml").read_text(encoding="utf-8")
-    material = re.search(rf'<material name="{face}" rgba="([\d. ]+) 1"', model)
-    assert material is not None
-    assert [float(part) for part in material[1].split()] == pytest.approx(to_rgb(color), abs=0.005)
-    ground, _ = LABELS[Outcome.HEADS if face == "heads" else Outcome.TAILS]
-    assert ground == color
+COIN = (resources.files("cointoss.models") / "coin.xml").read_text(encoding="utf-8")
+MATERIALS = {
+    name: [float(part) for part in rgb.split()]
+    for name, rgb in re.findall(r'<material name="(\w+)" rgba="([\d. ]+) 1"', COIN)
+}
+"""The colours of the film's coin."""
+
+
+@pytest.mark.parametrize(("face", "outcome"), [("heads", Outcome.HEADS), ("tails", Outcome.TAILS)])
+def test_the_coin_of_the_film_has_the_colours_of_the_maps(face, outcome):
+    assert MATERIALS[face] == pytest.approx(to_rgb(OUTCOMES[outcome]), abs=0.005)
+    assert LABELS[outcome][0] == OUTCOMES[outcome]
+
+
+@pytest.mark.parametrize(
+    ("light", "dark"), [("heads", "tails"), ("heads", "heads_letter"), ("tails_letter", "tails")]
+)
+def test_the_faces_and_their_letters_differ_in_brightness_too(light, dark):
+    """By the contrast of the web's guidelines."""
+    one, other = (linear(MATERIALS[name]) @ [0.2126, 0.7152, 0.0722] + 0.05 for name in (light, dark))
+    assert one / other > 3
