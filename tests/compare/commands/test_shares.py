@@ -1,7 +1,6 @@
 """`cointoss shares`: what it prints and writes, the hand's options, and Ctrl-C."""
 
 import csv
-import io
 import json
 import math
 import signal
@@ -9,10 +8,11 @@ import signal
 import pytest
 
 from cointoss.compare.commands import hands
+from cointoss.compare.output.interruption import Interruption
+from cointoss.compare.shares import counting
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.hand import Hand
 from tests.helpers.command_line import cointoss
-from tests.helpers.processes import answered, ask, started, wait_until
 
 
 def test_by_default_a_coin_is_tossed_as_people_do_unless_the_hand_is_described(coin, tmp_path):
@@ -42,61 +42,35 @@ def test_the_side_that_was_up_is_counted_whichever_it_was(coin):
     assert heads["low"] > 0.6
 
 
-@pytest.mark.slow
-def test_ctrl_c_prints_and_writes_what_is_counted(coin, tmp_path):
-    script = """
-import time
-from pathlib import Path
-from cointoss.compare.shares import counting
-whole = counting.counting
-def slow(*given):
-    yield next(whole(*given))
-    Path("begun").touch()
-    time.sleep(1000)
-counting.counting = slow
-from cointoss.compare.cli import main
-main()
-"""
-    words = ("shares", coin, "--vary", "floor.restitution=0.3:0.6:3", "--out", "a.csv", "--out", "a.png")
-    with started("-c", script, *words, cwd=tmp_path) as process:
-        wait_until(process, (tmp_path / "begun").exists)
-        ask(process, signal.SIGINT)
-        printed, said = answered(process)
-    assert process.returncode == 130, said
-    assert said.endswith("cointoss: interrupted by SIGINT: 250 tosses are counted\n")
-    rows = list(csv.DictReader(io.StringIO((tmp_path / "a.csv").read_text())))
-    assert [row["tosses"] for row in rows] == ["250", "0", "0"]
-    assert "250" in printed
-    assert not (tmp_path / "a.png").exists()
+@pytest.mark.parametrize(
+    ("words", "home", "name", "counted", "shown", "rows"),
+    [
+        (
+            ("shares", "--vary", "floor.restitution=0.3:0.6:3", "--out", "a.csv", "--out", "a.png"),
+            *(counting, "counting", 250, "250", ["250", "0", "0"]),
+        ),
+        (("hands", "--tosses", 1000), hands, "first_sides", 40, "] of 40 tosses\n", []),
+    ],
+    ids=["shares", "hands"],
+)
+def test_an_interruption_prints_and_writes_what_is_counted(
+    coin, tmp_path, monkeypatch, words, home, name, counted, shown, rows
+):
+    own = getattr(home, name)
 
+    def interrupted(*given):
+        yield next(own(*given))
+        raise Interruption(signal.SIGINT)
 
-@pytest.mark.slow
-def test_ctrl_c_prints_what_hands_have_counted_until_then(coin, tmp_path):
-    """The third block is never tossed; `begun` is there from then on."""
-    script = """
-import time
-from pathlib import Path
-from cointoss.compare.commands import hands
-from cointoss.compare.metrics import first_side
-tossed, own = [], first_side.first_side
-hands.BLOCK["analytic"] = 40
-def slow(*words):
-    tossed.append(1)
-    if len(tossed) > 2:
-        Path("begun").touch()
-        time.sleep(1000)
-    return own(*words)
-first_side.first_side = slow
-from cointoss.compare.cli import main
-main()
-"""
-    with started("-c", script, "hands", coin, "--tosses", "1000", cwd=tmp_path) as process:
-        wait_until(process, (tmp_path / "begun").exists)
-        ask(process, signal.SIGINT)
-        printed, said = answered(process)
-    assert process.returncode == 130, said
-    assert said.endswith("cointoss: interrupted by SIGINT: 80 tosses are counted\n")
-    assert [line.split(" of ")[-1] for line in printed.splitlines()[1:5]] == 4 * ["80 tosses"]
+    monkeypatch.setattr(home, name, interrupted)
+    monkeypatch.setitem(hands.BLOCK, "analytic", 40)
+    monkeypatch.chdir(tmp_path)
+    answered = cointoss(words[0], coin, *words[1:])
+    assert isinstance(answered.exception, Interruption)
+    assert answered.exception.message == f"interrupted by SIGINT: {counted} tosses are counted"
+    assert shown in answered.stdout
+    tables = [path.read_text().splitlines() for path in tmp_path.glob("a.*")]
+    assert [row["tosses"] for table in tables for row in csv.DictReader(table)] == rows
 
 
 def test_a_coin_that_does_not_turn_shows_its_first_side_at_every_touch(coin):
