@@ -2,8 +2,6 @@
 
 import signal
 import time
-import tomllib
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -61,14 +59,6 @@ def test_a_toss_is_interrupted(tmp_path, engine, number):
     said = f"cointoss: interrupted by {number.name}: 3 impacts in {time} s of the coin's time\n"
     toss = ("toss", "fig24a", "--engine", engine)
     assert ended(tmp_path, number, script, *toss) == (STATUSES[number], said)
-
-
-@pytest.mark.slow
-def test_the_toss_of_a_report_is_interrupted(tmp_path):
-    script = of_toss("cointoss.analytic", "cointoss.coin_mj") + "main()"
-    status, said = ended(tmp_path, signal.SIGHUP, script, "compare", "fig24a", "--out", "new/report")
-    assert (status, said.partition(": 3 impacts")[0]) == (129, "cointoss: interrupted by SIGHUP")
-    assert [path.name for path in tmp_path.iterdir()] == ["begun"]
 
 
 @pytest.mark.slow
@@ -197,8 +187,6 @@ def test_the_command_leaves_no_traceback_even_while_it_is_imported():
     )
     done = python("-c", script)
     assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, "", "")
-    project = tomllib.loads((Path(__file__).parents[3] / "pyproject.toml").read_text())["project"]
-    assert project["scripts"] == {"cointoss": "cointoss.__main__:main"}
 
 
 def test_a_signal_that_is_ignored_stays_so(tmp_path):
