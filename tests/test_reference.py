@@ -1,19 +1,15 @@
 """Both engines against records of an independent program, tests/reference: every field of every impact."""
 
 import json
-from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from cointoss.models.laws import ContactLaw
-from cointoss.models.reading import parse
-from cointoss.models.records import Impacts
 from tests.helpers.command_line import printed
 
 RECORDS = Path(__file__).parent / "reference"
-LAWS = [str(law) for law in ContactLaw]
 VECTORS = (
     "impulse",
     "point",
@@ -29,12 +25,18 @@ VECTORS = (
 )
 
 
-def tossed(law, engine):
-    return json.loads(printed("toss", RECORDS / f"{law}.toml", "--json", "--engine", engine))
+BEFORE = ("position", "quaternion", "velocity_before", "angular_velocity_before", "point")
+ROUNDING = dict.fromkeys(("time", *VECTORS), (1e-9, 1e-9))
+"""Stated of the records: 1e-9 s, 1e-6. Measured: at most 5e-14 s, 4e-11: rounding, grown by impacts."""
+OF_A_CONTACT = {
+    **dict.fromkeys(VECTORS, (3e-4, 2e-3)),
+    **dict.fromkeys(BEFORE, (1e-7, 2e-3)),
+    "time": (1e-11, 3e-6),
+}
+"""Of MuJoCo, in the first impact and in all: its contact of 0.3 µs turns the coin by a part in 1e4.
 
-
-def recorded(law):
-    return json.loads((RECORDS / f"{law}.json").read_text(encoding="utf-8"))
+Measured: 6e-13 s and 3e-9 before the first impact, 1e-4 after it; then 6e-7 s and 5e-4.
+"""
 
 
 def column(impacts, name):
@@ -56,45 +58,21 @@ def errors(found, expected):
     return {"time": time, **others}
 
 
-def test_the_fields_compared_are_all_of_a_record():
-    named = {"time", "face", *VECTORS}
-    assert named | {"energy_change"} == {item.name for item in fields(Impacts)}
-    for law in LAWS:
-        assert all(set(impact) == named for impact in recorded(law)["impacts"])
-
-
-@pytest.mark.parametrize("law", LAWS)
-def test_the_analytic_engine_agrees_within_what_the_record_is_good_for(law):
-    """Stated of the records: 1e-9 s, 1e-6. Measured: at most 5e-14 s, 4e-11: rounding, grown by impacts."""
-    found, expected = tossed(law, "analytic"), recorded(law)
-    n = len(expected["impacts"])
-    assert n == (1 if law == "coulomb" else 3)
-    assert str(parse((RECORDS / f"{law}.toml").read_text(encoding="utf-8"), law).floor.contact) == law
-    assert found["sequence"] == expected["sequence"]
-    assert found["trusted_impacts"] == len(found["impacts"]) == n
-    assert [impact["face"] for impact in found["impacts"]] == [
-        impact["face"] for impact in expected["impacts"]
-    ]
-    for name, error in errors(found["impacts"], expected["impacts"]).items():
-        assert error.max() < 1e-9, name
-
-
 @pytest.mark.filterwarnings("ignore::cointoss.models.records.ApproximationWarning")
-@pytest.mark.parametrize("law", ["smooth", "coulomb", "perfectly_rough"])
-def test_mujoco_agrees_within_its_horizon_by_the_error_of_its_contacts(law):
-    """A contact of 0.3 µs turns the coin by a part in 1e4, and the next touches with it.
-
-    Measured: 6e-13 s and 3e-9 before the first impact, 1e-4 after it; then 6e-7 s and 5e-4.
-    """
-    found, expected = tossed(law, "mujoco"), recorded(law)
-    n = min(found["trusted_impacts"], len(expected["impacts"]))
-    assert n == len(expected["impacts"]), "all of them are trusted today"
-    assert found["sequence"][:n] == expected["sequence"][:n]
-    error = errors(found["impacts"][:n], expected["impacts"][:n])
-    assert error["time"][0] < 1e-11
-    for name in ("position", "quaternion", "velocity_before", "angular_velocity_before", "point"):
-        assert error[name][0] < 1e-7, name
-    for name in VECTORS:
-        assert error[name][0] < 3e-4, name
-        assert error[name].max() < 2e-3, name
-    assert error["time"].max() < 3e-6
+@pytest.mark.parametrize(
+    ("engine", "law", "limits"),
+    [
+        *(("analytic", str(law), ROUNDING) for law in ContactLaw),
+        *(("mujoco", law, OF_A_CONTACT) for law in ("smooth", "coulomb", "perfectly_rough")),
+    ],
+)
+def test_an_engine_agrees_within_what_the_record_and_its_contacts_are_good_for(engine, law, limits):
+    expected = json.loads((RECORDS / f"{law}.json").read_text(encoding="utf-8"))
+    found = json.loads(printed("toss", RECORDS / f"{law}.toml", "--json", "--engine", engine))
+    n = len(expected["impacts"])
+    assert found["trusted_impacts"] >= n
+    assert found["sequence"][:n] == expected["sequence"]
+    for name, error in errors(found["impacts"][:n], expected["impacts"]).items():
+        first, later = limits[name]
+        assert error[0] < first, name
+        assert error.max() < later, name
