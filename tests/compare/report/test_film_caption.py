@@ -24,9 +24,9 @@ CUT = {"release": {"position": [0, 0, 0.1]}, "ending": {"max_impacts": 1}}
 SHORT = {"ending": {"max_time": 0.1}}
 
 
-def film_caption(tosses):
+def film_caption(tosses, **absent):
     """Return what stands below the film of a report."""
-    shown = Comparison(name="made", text="", tosses=tuple(tosses))
+    shown = Comparison(name="made", text="", tosses=tuple(tosses), absent=absent)
     for pair in shown.against:
         vars(pair).update(common_prefix=0, common_horizon=0, errors=np.zeros(0))
     with patch("cointoss.compare.report.page.motion_of", return_value={}):
@@ -49,11 +49,13 @@ def film_caption(tosses):
 def test_the_caption_says_what_the_film_shows(parts, ending, slows, ends):
     tosses = [toss(engine, scenario(**parts)) for engine in Engine]
     assert [each.ending for each in tosses] == [ending] * 2
-    for shown, begins in (
-        (tosses, "Both tosses at the same times"),
-        (tosses[:1], "The toss by the analytic"),
+    one = "The toss by the analytic engine, drawn by MuJoCo"
+    for shown, absent, begins in (
+        (tosses, {}, "Both tosses at the same times, drawn by MuJoCo. "),
+        (tosses[:1], {}, f"{one}. "),
+        (tosses[:1], {"mujoco": "no"}, f"{one}, which can’t toss it. "),
     ):
-        told = film_caption(shown)
+        told = film_caption(shown, **absent)
         assert told.startswith(begins)
         assert COLORS in told
         assert {place for place in (STRONG, HAND) if place in told} == slows
