@@ -1,12 +1,12 @@
 """What earlier releases read and wrote means what it meant; `made.sh` of each folder made what it wrote."""
 
-import csv
 import json
 import tomllib
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray
 
@@ -51,16 +51,8 @@ def read(path: Path) -> Any:
 
 
 def rows(path: Path) -> list[dict[str, Any]]:
-    """Return the rows of a table, what is a number as one."""
-    with path.open(encoding="utf-8") as file:
-        return [{key: number(cell) for key, cell in row.items()} for row in csv.DictReader(file)]
-
-
-def number(cell: str) -> float | str:
-    try:
-        return float(cell)
-    except ValueError:
-        return cell
+    """Return the rows of a table."""
+    return pd.read_csv(path).to_dict("records")
 
 
 def unlike(then: Any, now: Any, place: str = "", *, values: bool = True) -> list[str]:
@@ -86,14 +78,6 @@ def unlike(then: Any, now: Any, place: str = "", *, values: bool = True) -> list
     else:
         same = then == now or (not values and type(then) is type(now))
     return [] if same else [f"{place} was {then!r}, is {now!r}"]
-
-
-def test_what_is_not_what_it_was_is_seen():
-    then = {"a": [1.0, "b"], "c": None}
-    assert unlike(then, {"a": [1.0 + 1e-9, "b"], "c": None, "new": 1}) == []
-    assert unlike(then, {"a": [1.1, "d"]}) == [".c is gone", ".a[0] was 1.0, is 1.1", ".a[1] was 'b', is 'd'"]
-    assert unlike(then, {"a": [1.1, "d"], "c": None}, values=False) == []
-    assert unlike(then, {"a": [1.0, 2], "c": None}, values=False) == [".a[1] was 'b', is 2"]
 
 
 def test_its_scenarios_had_every_field_and_every_word(release):
