@@ -72,12 +72,6 @@ def foreign(tmp_path):
     return tmp_path
 
 
-def run(installed, folder, *words, **environment):
-    """Run Python, which finds what is installed there; a foreign folder comes first."""
-    paths = os.pathsep.join([str(folder), str(installed)])
-    return python("-P", *words, folder=folder, PYTHONPATH=paths, **environment)
-
-
 ABOUT: Any = SimpleNamespace(version="1")
 HOOK = Engines(str(TOP), {}, ABOUT, ABOUT, "", "wheel")
 
@@ -152,6 +146,7 @@ ELSEWHERE = (
     "import sys; sys.argv[1:] = ['toss', 'fig24a']; main()"
 )
 VERSION = tomllib.loads((TOP / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
+SAYS_VERSION = f"cointoss, version {re.escape(VERSION)}\n"
 
 
 @pytest.mark.parametrize(
@@ -167,7 +162,9 @@ VERSION = tomllib.loads((TOP / "pyproject.toml").read_text(encoding="utf-8"))["p
             marks=pytest.mark.slow,
         ),
         (("bin/cointoss", "lab", "--out", "lab.html"), 0, r"lab\.html\n", ""),
-        (("bin/cointoss", "--version"), 0, f"cointoss, version {re.escape(VERSION)}\n", ""),
+        (("bin/cointoss", "--version"), 0, SAYS_VERSION, ""),
+        (("-m", "cointoss", "--version"), 0, SAYS_VERSION, ""),
+        (("-m", "cointoss.compare.cli", "--version"), 0, SAYS_VERSION, ""),
         (("-c", "import cointoss; print(cointoss.__file__)"), 0, "{installed}/cointoss/__init__.py\n", ""),
         pytest.param(("-c", WITHOUT_COMPILERS), 0, "heads heads\n", "", id="without compilers"),
         pytest.param(
@@ -182,7 +179,9 @@ VERSION = tomllib.loads((TOP / "pyproject.toml").read_text(encoding="utf-8"))["p
 def test_what_is_installed_runs_beside_foreign_packages(installed, foreign, words, status, printed, said):
     first, *others = words
     program = str(installed / first) if "/" in first else first
-    done = run(installed, foreign, program, *others, COINTOSS_CACHE=str(foreign / "cache"))
+    # The foreign folder comes first.
+    where = {"PYTHONPATH": f"{foreign}{os.pathsep}{installed}", "COINTOSS_CACHE": str(foreign / "cache")}
+    done = python("-P", program, *others, folder=foreign, **where)
     assert done.returncode == status
     assert re.fullmatch(printed.replace("{installed}", str(installed)), done.stdout)
     assert re.fullmatch(said, done.stderr)
