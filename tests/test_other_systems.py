@@ -45,14 +45,6 @@ def elsewhere(tmp_path_factory):
     return run
 
 
-def test_what_only_unix_has_is_missing_there(elsewhere):
-    script = (
-        "import os, signal, sys\n"
-        "print(sys.modules['fcntl'], hasattr(os, 'fork'), hasattr(signal, 'SIGHUP'), sys.stdout.encoding)"
-    )
-    assert elsewhere("-c", script) == "None False False cp1252\n"
-
-
 def test_a_toss_is_printed_with_the_letters_that_the_code_page_has(elsewhere):
     """Those that it lacks are question marks."""
     printed = elsewhere("-m", "cointoss", "toss", "fig24a", "--max-impacts", "1", "--engine", "mujoco")
