@@ -3,6 +3,7 @@
 import errno
 import itertools
 import os
+import sys
 from pathlib import Path
 
 import pytest
@@ -139,18 +140,21 @@ def test_a_replaced_file_keeps_its_mode_and_a_link_its_place(tmp_path):
     assert (tmp_path / "path.csv").stat().st_mode & 0o777 == 0o640
 
 
-@pytest.mark.slow
-def test_a_stream_is_written_to_directly(tmp_path):
-    # By links, or a fault here would replace the system's own devices.
-    toss = "cointoss toss fig24a --max-impacts 1 --trajectory"
-    done = in_a_shell(f"ln -s /dev/stdout out; {toss} out > both.txt; {toss} out | cat", tmp_path)
-    both = (tmp_path / "both.txt").read_text()
-    assert both == done.stdout
-    assert both.startswith("t [s],x [m]")
-    assert "sequence  H" in both
-    done = in_a_shell(f"mkfifo pipe; cat pipe > copy & {toss} pipe; wait; stat -c %F pipe", tmp_path)
-    assert done.stdout.endswith("fifo\n")
-    assert (tmp_path / "copy").read_text().startswith("t [s],x [m]")
+@pytest.mark.parametrize(
+    ("stream", "goes", "written"),
+    [
+        ("/dev/stdout", "> out", "first\nsecond\nthird\n"),
+        ("/dev/stdout", "| cat > out", "first\nsecond\nthird\n"),
+        ("/dev/fd/3", "3>&1 > /dev/null | cat > out", "second\n"),
+    ],
+)
+def test_a_stream_is_written_to_directly(tmp_path, stream, goes, written):
+    script = (
+        "from pathlib import Path; from cointoss.compare.output.files import write_text; "
+        f"print('first'); write_text(Path('{stream}'), 'second\\n'); print('third')"
+    )
+    done = in_a_shell(f'"{sys.executable}" -c "{script}" {goes}', tmp_path)
+    assert ((tmp_path / "out").read_text(), done.stderr) == (written, "")
 
 
 @pytest.mark.slow_after_first
