@@ -150,12 +150,42 @@ def test_the_verdict_of_every_case(case):
     assert verdicts_of(found) == [("mujoco", text, VerdictKind[kind])]
 
 
-def test_what_mujoco_cannot_toss_is_said():
-    absent, alone = {"mujoco": "no"}, "Heads by the analytic engine alone"
-    for names, why in ((absent, "MuJoCo can't"), (absent | {"off": "no"}, "MuJoCo and off can't")):
-        found = Comparison(name="made", text="", tosses=(TOSSES["HHT"],), absent=names)
-        text = f"{alone}: {why} toss this coin on this floor."
-        assert verdicts_of(found) == [("analytic", text, VerdictKind.ALONE)]
+ALONE = "Heads by the analytic engine alone: {} can't toss this coin on this floor."
+
+
+@pytest.mark.parametrize(
+    ("others", "absent", "verdicts"),
+    [
+        ([], ["mujoco"], [("analytic", ALONE.format("MuJoCo"), VerdictKind.ALONE)]),
+        ([], ["mujoco", "off"], [("analytic", ALONE.format("MuJoCo and off"), VerdictKind.ALONE)]),
+        (
+            [("mujoco", "HHT", 3), ("off", "HTT", 1)],
+            ["gone"],
+            [
+                (
+                    "mujoco",
+                    "Heads by the analytic engine and MuJoCo: they agree on all 3 impacts, as they must.",
+                    VerdictKind.AGREE,
+                ),
+                (
+                    "off",
+                    "Heads by the analytic engine, tails by off: they agree on the first impact, as they "
+                    f"must; after that {WORDS['DECIDE']}",
+                    VerdictKind.DIFFER,
+                ),
+                ("gone", "gone can't toss this coin on this floor.", VerdictKind.ALONE),
+            ],
+        ),
+    ],
+)
+def test_each_of_several_engines_has_a_verdict_that_names_it(others, absent, verdicts):
+    tosses = [replace(TOSSES[b], engine=name) for name, b, _ in others]
+    found = Comparison(
+        name="made", text="", tosses=(TOSSES["HHT"], *tosses), absent=dict.fromkeys(absent, "no")
+    )
+    for name, _, horizon in others:
+        vars(found[name]).update(common_prefix=horizon, common_horizon=horizon, errors=np.zeros(3))
+    assert verdicts_of(found) == verdicts
 
 
 @pytest.mark.parametrize(
@@ -261,15 +291,3 @@ def test_another_engine_is_told_where_its_impulse_misses_the_law(b, prefix, hori
     (verdict,) = verdicts_of(found)
     assert verdict.kind == kind
     assert verdict.text.endswith(says)
-
-
-def test_each_of_several_engines_has_a_verdict_that_names_it():
-    tosses = (TOSSES["HHT"], replace(TOSSES["HHT"], engine="mujoco"), replace(TOSSES["HTT"], engine="off"))
-    found = Comparison(name="made", text="", tosses=tosses, absent={"gone": "no"})
-    vars(found["mujoco"]).update(common_prefix=3, common_horizon=3)
-    vars(found["off"]).update(common_prefix=1, common_horizon=1, errors=np.zeros(3))
-    assert [(verdict.engine, verdict.text.partition(":")[0]) for verdict in verdicts_of(found)] == [
-        ("mujoco", "Heads by the analytic engine and MuJoCo"),
-        ("off", "Heads by the analytic engine, tails by off"),
-        ("gone", "gone can't toss this coin on this floor."),
-    ]
