@@ -21,15 +21,16 @@ def test_all_impacts_and_contacts_are_printed_where_they_are_asked_for():
     toss = analytic.toss(load("zloty"))
     text = as_lines(toss, whole=True)
     assert ROW.findall(text) == [str(number) for number in range(1, len(toss.impacts) + 1)]
-    assert " more" not in text
-    assert "..." not in text
     spells = re.findall(r"^contact   from (\S+) s to (\S+) s$", text, re.MULTILINE)
     assert [[float(start), float(end)] for start, end in spells] == toss.contacts.round(6).tolist()
     assert cointoss("toss", "zloty", "--all").stdout == f"{text}\n"
 
 
 def test_the_line_of_an_impact_has_its_numbers_in_the_units_of_the_head():
-    assert as_lines(struck()).splitlines()[-2:] == [
+    """What rounds to zero has no sign."""
+    toss = struck()
+    tiny = replace(toss.impacts, impulse=np.array([[-1e-12, 1e-12, 2.5e-3]]))
+    assert as_lines(replace(toss, impacts=tiny)).splitlines()[-2:] == [
         "  n      t [s]  up  S_x [mN s]  S_y [mN s]  S_z [mN s]    E [mJ]  rim [deg]",
         "  1   0.500000   H     0.00000     0.00000     2.50000    1.2500      60.00",
     ]
@@ -68,9 +69,3 @@ def test_a_path_has_rows_each_millisecond_and_at_its_impacts():
     assert times == pytest.approx(np.sort([*np.arange(1000) / 1000, 1 / 3, 0.99965]))
     with pytest.raises(UnsupportedError, match=r"at most 1000 s \(this toss lasts 1001 s\)"):
         path_times(made(MadePath(position=(0, 0, 0.2)), end=1001.0))
-
-
-def test_what_rounds_to_zero_has_no_sign():
-    toss = analytic.toss(load("fig24a").replace("ending.max_impacts", 1))
-    tiny = replace(toss.impacts, impulse=np.array([[-1e-12, 1e-12, 0.01]]))
-    assert "   0.00000     0.00000    10.00000" in as_lines(replace(toss, impacts=tiny))
