@@ -19,13 +19,17 @@ from cointoss.compare.output.files import (
 from tests.helpers.command_line import in_a_shell, python
 
 
-def test_a_failed_write_leaves_what_was_there(tmp_path):
-    target = tmp_path / "kept.txt"
-    write_text(target, "first")
+def test_a_replaced_file_keeps_its_mode_and_a_link_its_place_and_a_failed_write_leaves_both(tmp_path):
+    path, link = tmp_path / "path.csv", tmp_path / "link.csv"
+    path.write_text("old")
+    path.chmod(0o640)
+    link.symlink_to(path)
+    write_text(link, "new")
     with pytest.raises(UnicodeEncodeError):
-        write_text(target, "second, up to what can't be encoded: \ud800")
-    assert target.read_text() == "first"
-    assert [path.name for path in tmp_path.iterdir()] == ["kept.txt"]
+        write_text(link, "newer, up to what can't be encoded: \ud800")
+    assert (path.read_text(), path.stat().st_mode & 0o777) == ("new", 0o640)
+    assert link.is_symlink()
+    assert set(tmp_path.iterdir()) == {path, link}
 
 
 NAMES = ("page.html", "b.txt", "c.txt", "d.txt")
@@ -128,16 +132,6 @@ def test_only_files_that_may_be_replaced_are_accepted(tmp_path):
     require_file(tmp_path / "NEW.CSV", (".csv",), "fig24a")
     require_file(tmp_path / (251 * "a" + ".csv"), (".csv",), "fig24a")
     assert (tmp_path / "kept.csv").read_text() == "mine"
-
-
-def test_a_replaced_file_keeps_its_mode_and_a_link_its_place(tmp_path):
-    (tmp_path / "path.csv").write_text("old")
-    (tmp_path / "path.csv").chmod(0o640)
-    (tmp_path / "link.csv").symlink_to("path.csv")
-    write_text(tmp_path / "link.csv", "new")
-    assert (tmp_path / "link.csv").is_symlink()
-    assert (tmp_path / "path.csv").read_text() == "new"
-    assert (tmp_path / "path.csv").stat().st_mode & 0o777 == 0o640
 
 
 @pytest.mark.parametrize(
