@@ -1,6 +1,5 @@
 """`cointoss toss`: what it answers, in which form, and where it stops."""
 
-import os
 from dataclasses import replace
 
 import numpy as np
@@ -15,7 +14,7 @@ from cointoss.models.errors import ScenarioError
 from cointoss.models.reading import load, parse
 from cointoss.models.records import Ending, OtherOutcome, Outcome
 from cointoss.models.sources import scenario_text
-from tests.helpers.command_line import cointoss
+from tests.helpers.command_line import cointoss, in_a_shell
 from tests.helpers.draws import scenario
 
 
@@ -30,14 +29,10 @@ def test_many_tosses_keep_no_impacts_and_may_have_more():
         basin(case, x="gravity=9:10:2", y="coin.mass=1 g:2 g:2", trust=True)
 
 
-def test_a_scenario_comes_through_a_pipe():
-    read, write = os.pipe()
-    os.write(write, scenario_text("fig24a").encode())
-    os.close(write)
-    answered = cointoss("toss", f"/dev/fd/{read}")
-    os.close(read)
-    assert (answered.exit_code, answered.stderr) == (0, "")
-    assert answered.stdout == cointoss("toss", "fig24a").stdout
+def test_a_scenario_comes_through_a_pipe(tmp_path):
+    (tmp_path / "coin.toml").write_text(scenario_text("fig24a"), encoding="utf-8")
+    done = in_a_shell("cointoss toss <(cat coin.toml)", tmp_path)
+    assert (done.stdout, done.stderr) == (cointoss("toss", "fig24a").stdout, "")
 
 
 def test_another_outcome_is_told_with_the_impact_after_which_a_change_leads_to_it():
