@@ -1,6 +1,7 @@
 """The report's folder: a self-contained page, numbers, paths, and a film that plays."""
 
 import json
+import re
 import shutil
 from unittest.mock import patch
 
@@ -107,9 +108,8 @@ def test_a_folder_with_files_of_the_user_is_refused(tmp_path, name, numbers):
         (tmp_path / "numbers.json").write_text(numbers)
     if not (tmp_path / name).exists():
         (tmp_path / name).write_text("mine")
-    with pytest.raises(UnwritableError, match=r"in the way.*accepted: a folder without files") as caught:
+    with pytest.raises(UnwritableError, match=rf"^{re.escape(str(tmp_path))}: .* is in the way .*accepted: "):
         require_folder(tmp_path, "fig24a")
-    assert str(tmp_path) in str(caught.value)
 
 
 def test_a_report_owns_the_paths_of_its_engines_alone(tmp_path):
