@@ -6,6 +6,7 @@ import signal
 import socket
 import webbrowser
 from base64 import b64decode
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -58,12 +59,9 @@ def test_a_map_that_cannot_be_shown_is_refused(copy, monkeypatch, attributes, mo
 
 
 def test_a_map_by_mujoco_is_not_to_blame_for_a_back_end_that_is_missing(copy, monkeypatch):
-    def missing(_engine):
-        raise BackEndError("MUJOCO_GL = x: MuJoCo can't be used")
-
     changed(copy, engine=Engine.MUJOCO)
-    monkeypatch.setattr(reading, "require_mujoco", missing)
-    assert refused("explore", copy) == "cointoss: MUJOCO_GL = x: MuJoCo can't be used\n"
+    monkeypatch.setattr(reading, "require_mujoco", Mock(side_effect=BackEndError("MuJoCo can't be used")))
+    assert refused("explore", copy) == "cointoss: MuJoCo can't be used\n"
 
 
 @pytest.mark.parametrize("tile", [None, 7, 10])

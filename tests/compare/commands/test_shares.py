@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import signal
+from unittest.mock import Mock
 
 import pytest
 
@@ -97,8 +98,5 @@ def test_blocks_count_what_all_tosses_at_once_do(coin, monkeypatch):
 
 
 def test_where_nothing_is_counted_no_answer_is_printed(coin, monkeypatch):
-    def refused(_):
-        raise SweepError("no toss")
-
-    monkeypatch.setattr(hands, "first_sides", refused)
+    monkeypatch.setattr(hands, "first_sides", Mock(side_effect=SweepError("no toss")))
     assert cointoss("hands", coin).stdout == ""
