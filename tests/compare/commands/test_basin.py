@@ -1,6 +1,5 @@
 """`cointoss basin` draws: one map as asked, or both engines' and their difference, with their agreement."""
 
-import pytest
 import xarray as xr
 from PIL import Image
 
@@ -9,20 +8,9 @@ from cointoss.compare.basins.picture import MapAxis, draw_comparison
 from cointoss.compare.sweep import describe
 from cointoss.models.reading import load, parse
 from tests.helpers.basin_runs import SCENARIO, basin
-from tests.helpers.command_line import printed
 from tests.helpers.made_maps import halves
 
 AXES = ("--x", "release.angular_velocity.eta=20:60:6", "--y", "release.position.z=0.2:0.6:5", "--after", 0)
-
-
-@pytest.mark.slow
-def test_both_engines_make_a_map_each_and_are_drawn_together(coin, tmp_path):
-    out, png = tmp_path / "map.zarr", tmp_path / "map.png"
-    answered = printed("basin", coin, *AXES, "--compare", "--out", out, "--png", png)
-    with Image.open(png) as image:
-        assert image.size == (2250, 675)
-    again = basin(coin, *AXES, "--compare", "--out", out, "--resume")
-    assert again.stdout == answered.removesuffix(f"picture    {png}\n")
 
 
 def test_a_map_is_drawn_in_the_size_and_colours_asked(coin, tmp_path):
