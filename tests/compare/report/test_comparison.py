@@ -8,7 +8,8 @@ from matplotlib.figure import Figure
 
 import cointoss
 from cointoss import coin_mj
-from cointoss.compare.report.comparison import compare
+from cointoss.compare.engines import label_of
+from cointoss.compare.report.comparison import BOTH, compare
 from cointoss.compare.report.verdict import VerdictKind, verdicts_of
 from cointoss.models.reading import load
 from cointoss.models.records import Face, UnusableEngineError
@@ -53,43 +54,48 @@ def test_a_comparison_shows_its_verdict_and_both_tosses(found):
     assert all(toss._repr_html_() in html for toss in found.tosses)
 
 
-def test_a_plot_shows_both_paths_and_up_to_where_the_faces_must_agree():
-    found = compare("fig24a")
+@pytest.mark.parametrize(
+    ("engines", "title", "label"),
+    [
+        (BOTH, "fig24a, by analytic and mujoco", "up to here the faces must agree"),
+        (
+            [Off(), "mujoco", "analytic"],
+            "fig24a, by analytic, off and mujoco",
+            "up to here the faces of {} must agree",
+        ),
+    ],
+    ids=["two", "three"],
+)
+def test_a_plot_shows_both_paths_and_up_to_where_the_faces_must_agree(engines, title, label):
+    found = compare("fig24a", engines)
     given = Figure().add_subplot()
     axes = found.plot(given)
     assert axes is given
+    assert axes.get_title() == title
     lines = {str(line.get_label()): line for line in axes.get_lines()}
-    pair = found["mujoco"]
-    assert pair.common_horizon_time == found.measure.impacts.time[pair.common_horizon - 1]
-    assert lines["up to here the faces must agree"].get_xdata() == [pair.common_horizon_time] * 2
+    for pair in found.against:
+        assert pair.common_horizon_time == found.measure.impacts.time[pair.common_horizon - 1]
+        horizon = lines[label.format(label_of(pair.toss.engine))]
+        assert horizon.get_xdata() == [pair.common_horizon_time] * 2
     for toss in found.tosses:
         assert np.max(lines[toss.engine].get_xdata()) == toss.end_time
         assert np.asarray(lines[toss.engine].get_ydata())[0] == SHORT.release.position[2]
+    assert len({lines[toss.engine].get_color() for toss in found.tosses}) == len(found.tosses)
     up = found.measure.impacts.face == Face.HEADS
     dots = lines["heads up at the touch"].get_ydata()
     assert np.array_equal(dots, found.measure.impacts.position[up, 2])
     _, legend = axes.get_legend_handles_labels()
-    assert len(legend) == len(set(legend)) == 5
+    assert len(legend) == len(set(legend)) == 2 * len(found.tosses) + 1
 
 
 def test_another_engine_is_held_against_what_was_asked():
     """It tosses on a softer floor: its impulses are off the law of the scenario, each by as much."""
-    found = compare("fig24a", [Off(), "mujoco", "analytic"])
+    found = compare(SHORT, [Off(), "mujoco", "analytic"])
     assert [toss.engine for toss in found.tosses] == ["analytic", "off", "mujoco"]
-    assert all(toss.scenario == load("fig24a") for toss in found.tosses)
-    restitution = found.scenario.floor.restitution
+    assert all(toss.scenario == SHORT for toss in found.tosses)
+    restitution = SHORT.floor.restitution
     assert found["off"].errors == pytest.approx(restitution / 2 / (1 + restitution), rel=1e-6)
     assert found["mujoco"].errors.max() < 1e-3
-    axes = found.plot(Figure().add_subplot())
-    assert axes.get_title() == "fig24a, by analytic, off and mujoco"
-    labels = {str(line.get_label()): line.get_xdata() for line in axes.get_lines()}
-    for pair in found.against:
-        label = f"up to here the faces of {pair.toss.engine.replace('mujoco', 'MuJoCo')} must agree"
-        assert labels[label] == [pair.common_horizon_time] * 2
-    colors = {
-        line.get_color() for line in axes.get_lines() if line.get_label() in ("analytic", "off", "mujoco")
-    }
-    assert len(colors) == 3
 
 
 def test_engines_that_toss_nothing_are_absent():
