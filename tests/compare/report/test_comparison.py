@@ -77,6 +77,7 @@ def test_a_plot_shows_both_paths_and_up_to_where_the_faces_must_agree(engines, t
         assert pair.common_horizon_time == found.measure.impacts.time[pair.common_horizon - 1]
         horizon = lines[label.format(label_of(pair.toss.engine))]
         assert horizon.get_xdata() == [pair.common_horizon_time] * 2
+        assert (horizon.get_color() == lines[pair.toss.engine].get_color()) == ("{}" in label)
     for toss in found.tosses:
         assert np.max(lines[toss.engine].get_xdata()) == toss.end_time
         assert np.asarray(lines[toss.engine].get_ydata())[0] == SHORT.release.position[2]
