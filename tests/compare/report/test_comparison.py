@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 import cointoss
 from cointoss import coin_mj
 from cointoss.compare.engines import label_of
+from cointoss.compare.output.style import looks_of
 from cointoss.compare.report.comparison import BOTH, compare
 from cointoss.compare.report.verdict import VerdictKind, verdicts_of
 from cointoss.models.reading import load
@@ -81,7 +82,8 @@ def test_a_plot_shows_both_paths_and_up_to_where_the_faces_must_agree(engines, t
     for toss in found.tosses:
         assert np.max(lines[toss.engine].get_xdata()) == toss.end_time
         assert np.asarray(lines[toss.engine].get_ydata())[0] == SHORT.release.position[2]
-    assert len({lines[toss.engine].get_color() for toss in found.tosses}) == len(found.tosses)
+    names = [toss.engine for toss in found.tosses]
+    assert [lines[name].get_color() for name in names] == [look.color for look in looks_of(names)]
     up = found.measure.impacts.face == Face.HEADS
     dots = lines["heads up at the touch"].get_ydata()
     assert np.array_equal(dots, found.measure.impacts.position[up, 2])
