@@ -158,7 +158,7 @@ def test_chances_sum_to_the_population_and_follow_the_scores(scores, population)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("chi", "law", "intervals"), [(0.0, "smooth", 20), (0.3, "perfectly_rough", 8)])
+@pytest.mark.parametrize(("chi", "law", "intervals"), [(0.0, "smooth", 60), (0.3, "perfectly_rough", 8)])
 def test_no_dead_part_holds_a_boundary(chi, law, intervals):
     """Parts of it, and parts of these, are tossed."""
     coin, own = coin_of(chi, law)
