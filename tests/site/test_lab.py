@@ -218,6 +218,9 @@ def test_one_moves_slowly_between_stops(page, lab_path):
     page.value(
         """(() => {
         window.seen = [];
+        // A frame is 20 ms after the last, however busy the machine is.
+        const clocks = new Map(), tick = (show) => clocks.set(show, (clocks.get(show) ?? 0) + 20).get(show);
+        window.requestAnimationFrame = (show) => setTimeout(() => show(tick(show)));
         const slider = document.querySelector('[data-field="coin.center_of_mass.xi"]');
         const look = () => { seen.push(Number(slider.value)); requestAnimationFrame(look); };
         look();
@@ -226,8 +229,7 @@ def test_one_moves_slowly_between_stops(page, lab_path):
     clicks(page, "next")
     page.wait_for("location.hash.endsWith('tour=imperfect')")
     values = page.value("[...new Set(seen)]")
-    # A busy machine draws few frames on the way.
-    assert len(values) > 2
+    assert len(values) > 5
     assert values == sorted(values, reverse=True)
     assert (values[0], values[-1]) == (0, -1)
 
