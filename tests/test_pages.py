@@ -1,12 +1,10 @@
-"""README and the pages of docs/: their Python runs, their commands are those of the command line."""
+"""README and the pages of docs/: what they ask of the command line and name of the code is there."""
 
 import re
 import shlex
 import sys
 from importlib import import_module
 from itertools import pairwise
-from pathlib import Path
-from typing import Any
 
 import click
 import pytest
@@ -16,7 +14,7 @@ import cointoss_bounce
 import cointoss_yardstick
 from cointoss.compare.cli import COMMANDS, OF_OTHERS, main
 from cointoss.models.reading import parse
-from tests.helpers.command_line import cointoss, printed
+from tests.helpers.command_line import printed
 from tests.helpers.pages import (
     DOCS,
     PAGES,
@@ -25,20 +23,11 @@ from tests.helpers.pages import (
     commands,
     is_synopsis,
     not_answered,
-    printed_by,
-    shown,
 )
 
 sys.path.append(str(DOCS / "extensions"))
-counting = import_module("words")
+counting, examples = (import_module(name) for name in ("words", "examples"))
 NOTEBOOKS = sorted(DOCS.glob("examples/*.md"))
-MOST_TOSSES = 150_000
-"""Of a map that is made here; where the page shows an answer, it takes a second or two."""
-MOST_TOSSES_BY_BOTH = 5_000
-MOST_BY_HAND = 500
-"""Of each setting, of tosses by a hand."""
-FEW = 20
-"""Of an axis of a map whose answer no page shows: a coin that bounces on and on takes minutes for all."""
 WRITES = ("--out", "--png", "--static", "--report", "--poster", "--trajectory")
 """Options that name what a command writes."""
 
@@ -55,55 +44,16 @@ def options(command: click.Command) -> set[str]:
     }
 
 
-def runs_here(words: list[str]) -> bool:
-    """Tell whether a command takes but a few seconds and needs nothing but a folder."""
-    tosses = [int(count) for count in re.findall(r"=[^ ]*:(\d+)\b", " ".join(words))]
-    most = MOST_TOSSES_BY_BOTH if "--compare" in words else MOST_TOSSES
-    few = len(tosses) == 2 and tosses[0] * tosses[1] <= most
-    slow = {"--engine", "--device", "--scheduler", "--resume", "--margin"}
-    if words[0] == "find":
-        return tosses_of_each(words) <= MOST_BY_HAND
-    if words[0] == "shares":
-        few = not {"--compare", "--to", "--hand"} & set(words) and tosses_of_each(words) <= MOST_BY_HAND
-        return few and not slow & set(words)
-    return words[0] in ("toss", "scenarios") or (words[0] == "basin" and few and not slow & set(words))
-
-
-def tosses_of_each(words: list[str]) -> float:
-    """Return the tosses of each setting that are asked for, infinite where none are."""
-    return int(words[words.index("--tosses") + 1]) if "--tosses" in words else float("inf")
-
-
-@pytest.mark.slow_after_first
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_the_code_of_a_page_runs_from_top_to_bottom(page, tmp_path, monkeypatch):
-    """Python in one namespace for each page, and the fast commands, in one folder."""
-    monkeypatch.chdir(tmp_path)
-    names: dict[str, Any] = {"__name__": "page"}
+def test_what_make_docs_does_not_run_of_a_page_is_known_and_its_scenarios_are_read(page):
+    """Synopses, commands that take long, and scenarios."""
     for block in blocks(page):
-        if block.file:
-            Path(block.file).write_text(f"{block.text}\n", encoding="utf-8")
         for command in commands(block.text):
-            words = shlex.split(command)[1:]
-            if is_synopsis(command):
-                known = options(subcommand(words[0]))
+            if is_synopsis(command) or examples.reason(page, command):
+                known = options(subcommand(shlex.split(command)[1]))
                 assert set(re.findall(r"--[a-z-]+", command)) <= known, command
-            elif runs_here(words):
-                answered = cointoss(*(words if shown(block, command) else map(coarse, words)))
-                assert answered.exit_code == (answered.stdout.startswith("none in ")), answered.stderr
-                assert not_answered(block, command, answered.stdout) == [], answered.stdout
-            else:
-                main.make_context("cointoss", words[:1])
-                assert subcommand(words[0]).make_context(words[0], words[1:]).command.name == words[0]
-        if block.language == "python":
-            assert not_answered(block, block.text, printed_by(block.text, names)) == []
         if "[coin]" in block.text and "[release]" in block.text and block.language in ("", "toml"):
             assert parse(block.text, page.name).coin.mass > 0
-
-
-def coarse(word: str) -> str:
-    """Return an axis with few tosses; another word as it is."""
-    return re.sub(r"(?<=:)\d+$", lambda count: str(min(int(count[0]), FEW)), word) if "=" in word else word
 
 
 def test_each_command_of_the_pages_writes_to_a_name_of_its_own():
