@@ -20,12 +20,14 @@ import tomllib
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 from pathlib import Path
 from queue import SimpleQueue
 from time import monotonic
 from typing import NamedTuple
 
 from cointoss.models.kernel.base_folder import base_folder
+from cointoss.models.kernel.manifest import MANIFEST, Made
 
 ROOT = Path(__file__).parents[2]
 HOUSES = ("bounce", "reproduction", "yardstick")
@@ -67,12 +69,19 @@ class Damage(NamedTuple):
     @property
     def is_compiled(self) -> bool:
         """Whether an engine's library is made of the file."""
-        return "@compiled" in self.source
+        return self.file in compiled()
 
     @property
     def runs_plainly(self) -> bool:
-        """Whether the test runs without the library: those of the analytic engine do."""
-        return self.is_compiled and self.file.startswith("analytic/")
+        """Whether the test runs without the library: but those of MuJoCo's steps do."""
+        return self.is_compiled and not self.file.startswith("coin_mj/")
+
+
+@cache
+def compiled() -> frozenset[str]:
+    """Return the files that the libraries built so far are made of."""
+    made = map(Made.read, (base_folder() / "engines").glob(f"*{MANIFEST}"))
+    return frozenset(name for library in made if library for name in library.sources)
 
 
 def read(path: Path) -> dict[str, Damage]:
