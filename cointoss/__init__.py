@@ -93,9 +93,15 @@ def _play_toss(*given: Any, **named: Any) -> Any:
     return play(*given, **named)
 
 
+def _gltf_of_toss(*given: Any) -> Any:
+    from cointoss.compare.film.gltf import gltf
+
+    return gltf(*given)
+
+
 # Here and not in `__getattr__`, so that a toss has its views whichever module of the package made it.
 _views = import_module("cointoss.models.views").views
-_views.plot_toss, _views.play_toss = _plot_toss, _play_toss
+_views.plot_toss, _views.play_toss, _views.gltf_of_toss = _plot_toss, _play_toss, _gltf_of_toss
 
 
 def __getattr__(name: str) -> Any:

@@ -588,6 +588,19 @@ class Toss(EqualByValue):
         """
         return views.play_toss(self, other)
 
+    def to_gltf(self) -> bytes:
+        """Return the coin and its path as an animation: a .glb file of glTF 2.0, in metres, y up.
+
+            Path("toss.glb").write_bytes(toss.to_gltf())
+
+        Blender, game engines and three.js open it. The extras of its node `coin` hold the outcome, the
+        impacts, and how far the animation misses at most between two poses [m].
+
+        Raises:
+            UnsupportedError: for a path that takes over a million poses.
+        """
+        return views.gltf_of_toss(self)
+
     def sample(self, times: ArrayLike) -> States:
         """Return the coin's states at `times`.
 

@@ -11,6 +11,8 @@ class Views:
     """Plots a toss in matplotlib's Axes and returns them."""
     play_toss: Callable[..., Any]
     """Returns the frame of a notebook that plays a toss, and beside it another or None."""
+    gltf_of_toss: Callable[..., bytes]
+    """Returns a toss as the content of a file of glTF."""
 
 
 views = Views()

@@ -35,6 +35,8 @@ class SoughtToss:
     """Device that computes outcomes; the CPU finds the faces."""
     out: Annotated[Path | None, Written((".toml",)), Form("FILE.toml")] = None
     """Write the scenario of the toss to this file; by default it is printed."""
+    gltf: Annotated[Path | None, Written((".glb",)), Form("FILE.glb")] = None
+    """Also write the toss, until its coin lies still, as an animation of glTF, for Blender or a game."""
     json: bool = False
     """Print JSON, in full precision."""
 
@@ -81,6 +83,10 @@ def find(source: Source, asked: SoughtToss) -> None:
         say(f"tossed by {found.target.processor.in_words}")
     if asked.out is not None and found:
         write_text(asked.out, found.to_toml())
+    if asked.gltf is not None and found.toss is not None:
+        from cointoss.compare.film.gltf import write_gltf
+
+        write_gltf(asked.gltf, found.toss)
     if asked.json:
         print_json({"scenario": source.name, "seed": asked.seed, **found.as_json()}, "analytic")
     elif found and asked.out is None:

@@ -10,7 +10,7 @@ from cointoss.compare.commands.common import SCENARIO_HELP, print_json
 from cointoss.compare.commands.names import scenario_argument
 from cointoss.compare.commands.options import only_with, options_of, without
 from cointoss.compare.commands.settings import set_option, with_scenario
-from cointoss.compare.output.accepted import Within, Written
+from cointoss.compare.output.accepted import Form, Within, Written
 from cointoss.compare.sweep.asked import Source
 
 MARGINS = (
@@ -38,6 +38,8 @@ class Answer:
     """Print JSON, in full precision."""
     trajectory: Annotated[Path | None, Written((".csv",), "text")] = None
     """Also write the path to this .csv file."""
+    gltf: Annotated[Path | None, Written((".glb",)), Form("FILE.glb")] = None
+    """Also write the coin, until it lies still, as an animation of glTF, for Blender or a game."""
     margin: bool = False
     """Also find the smallest changes of the release that change the outcome."""
 
@@ -80,6 +82,10 @@ def toss(source: Source, asked: Answer, verbose: bool) -> None:
     if asked.trajectory is not None:
         times = answer.path_times(result)
         write_text(asked.trajectory, answer.path_csv(result.sample(times), coin))
+    if asked.gltf is not None:
+        from cointoss.compare.film.gltf import write_gltf
+
+        write_gltf(asked.gltf, result, fine)
     extra, unproved = [], ""
     if asked.margin:
         from cointoss.compare.metrics.margin import is_planar, margins, offered_proofs

@@ -6,14 +6,8 @@
 import mujoco
 
 from cointoss.coin_mj.model.scene import described, shape_thickness
+from cointoss.compare.output.style import LETTERS
 from cointoss.models.scenario import Scenario
-
-# Boxes in the plane of a face, x, y and half their sizes, in radii. Both letters are their own mirror images.
-_BAR, _HEIGHT = 0.1, 0.5
-_LETTERS = {
-    "H": ((-0.34, 0.0, _BAR, _HEIGHT), (0.34, 0.0, _BAR, _HEIGHT), (0.0, 0.0, 0.34, _BAR)),
-    "T": ((0.0, _HEIGHT - _BAR, 0.44, _BAR), (0.0, 0.0, _BAR, _HEIGHT)),
-}
 
 
 def build_visual_model(scenario: Scenario, *, extent: float, tile: float) -> mujoco.MjModel:
@@ -49,7 +43,7 @@ def build_visual_model(scenario: Scenario, *, extent: float, tile: float) -> muj
                     pos=(x * r, y * r, 0),
                     material=f"{face}_letter",
                 )
-                for x, y, width, height in _LETTERS[letter]
+                for x, y, width, height in LETTERS[letter]
             ),
         ]
         for geom in shapes:

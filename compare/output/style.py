@@ -15,6 +15,12 @@ INK, GREY, PALE, GRID = "#1b2430", "#5b6675", "#9aa4b0", "#d9dee5"
 OUTCOMES = {outcome: COLORS[str(outcome)] for outcome in Outcome}
 ANALYTIC, MUJOCO = BLUE, VERMILION
 """The engines."""
+_BAR, _HEIGHT = 0.1, 0.5
+LETTERS = {
+    "H": ((-0.34, 0.0, _BAR, _HEIGHT), (0.34, 0.0, _BAR, _HEIGHT), (0.0, 0.0, 0.34, _BAR)),
+    "T": ((0.0, _HEIGHT - _BAR, 0.44, _BAR), (0.0, 0.0, _BAR, _HEIGHT)),
+}
+"""Boxes in the plane of a face: x, y and half their sizes [radii]. Either letter is its own mirror image."""
 
 
 class Look(NamedTuple):
