@@ -58,7 +58,7 @@ def gltf(toss: Toss, motion: Toss | None = None) -> bytes:
     """
     motion = motion or toss
     keys = keyframes(motion)
-    places, turns = _y_up(keys.states.position), _continuous(keys.states.quaternion) @ _UPRIGHT
+    places, turns = _y_up(keys.states.position), keys.states.quaternion @ _UPRIGHT
     parts = [*_coin(toss.scenario.coin), _floor(keys.states.position, toss.scenario.coin.radius)]
     *coin, floor = [
         {"attributes": {"POSITION": 3 + 2 * i, "NORMAL": 4 + 2 * i}, "material": i} for i in range(len(parts))
@@ -114,12 +114,6 @@ def _told(toss: Toss, motion: Toss, keys: Keyframes) -> dict[str, Any]:
 def _y_up(vectors: Array) -> Array:
     """Return vectors of the space frame, (n, 3), in the axes of glTF: x, z, -y."""
     return vectors[:, [0, 2, 1]] * [1.0, 1.0, -1.0]
-
-
-def _continuous(quaternions: Array) -> Array:
-    """Return the same turns without jumps of sign, (n, 4)."""
-    along = np.sum(quaternions[1:] * quaternions[:-1], axis=1)
-    return quaternions * np.cumprod(np.append(1.0, np.copysign(1.0, along)))[:, np.newaxis]
 
 
 def _coin(coin: Coin) -> list[Array]:

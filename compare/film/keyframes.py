@@ -32,18 +32,19 @@ def keyframes(toss: Toss) -> Keyframes:
     """Return poses of a toss from its start to the end of its path, denser where the coin turns unevenly.
 
     They lie at all impacts, and else where what is interpolated would miss by more than `MISSES`, as far as
-    single precision tells times apart.
+    single precision tells times apart; the last one is up to two of its steps early.
 
     Raises:
         UnsupportedError: for a toss that takes more than `MOST` poses.
     """
-    end, coin = toss.path_end, toss.scenario.coin
+    coin, end = toss.scenario.coin, float(np.nextafter(np.float32(toss.path_end), np.float32(0)))
     reach = coin.radius + coin.thickness / 2 + float(np.linalg.norm(coin.center_of_mass))
     even = np.linspace(0, end, min(int(end * PER_SECOND), MOST) + 2)
     bounds = [toss.contacts, toss.later.contacts]
-    times = _single(even, toss.impacts.time, toss.later_times, *(each.ravel() for each in bounds))
+    events = np.concatenate([toss.impacts.time, toss.later_times, *(each.ravel() for each in bounds)])
+    times = _single(even, np.minimum(events, end))
     while len(times) <= MOST:
-        states = toss.sample(np.minimum(times, end))
+        states = toss.sample(times)
         errors = 4 / 3 * np.max([_missed(toss, states, part, reach) for part in BETWEEN], axis=0)
         turns = np.linalg.norm(states.angular_velocity[:-1], axis=1) * np.diff(times)
         wide = (errors > MISSES * coin.radius) | (turns > LARGEST_TURN)
@@ -53,7 +54,7 @@ def keyframes(toss: Toss) -> Keyframes:
         times = finer
     raise UnsupportedError(
         f"ending.max_time = {toss.scenario.ending.max_time:g}: accepted where poses are written: less, or "
-        f"ending.max_impacts (this toss lasts {end:g} s and takes more than {MOST:,d} poses)"
+        f"ending.max_impacts (this toss lasts {toss.path_end:g} s and takes more than {MOST:,d} poses)"
     )
 
 

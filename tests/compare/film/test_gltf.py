@@ -24,10 +24,10 @@ TOSSES = {
         cointoss.load("table").replace("coin.center_of_mass", [1e-3, -5e-4, 2e-4]),
         "analytic",
     ),
-    # Between two of the even poses it turns four half turns, and hardly falls.
+    # In a quarter of the time between two of the even poses it turns once, and hardly falls.
     "whole turns": (
         cointoss.load("fig24a").replace(
-            *("gravity", 1e-3, "release.angular_velocity", [0, 0, 320 * np.pi], "ending.max_time", 0.05),
+            *("gravity", 1e-3, "release.angular_velocity", [0, 0, 2080 * np.pi], "ending.max_time", 0.05),
             *("release.position", [0, 0, 0.2]),
         ),
         "analytic",
@@ -68,7 +68,7 @@ class Shown:
 
     def states(self, times):
         """Return the places and turns of the toss itself in axes with y up."""
-        found = self.motion.sample(np.minimum(times, self.motion.path_end))
+        found = self.motion.sample(times)
         turns = Rotation.from_quat(found.quaternion.copy(), scalar_first=True)
         return UPRIGHT.apply(found.position.copy()), UPRIGHT * turns
 
@@ -89,14 +89,12 @@ def table():
 def test_each_pose_is_that_of_the_toss(shown):
     """To a millionth of a radius: single precision tells apart 8e-9 m at these heights, and turns by 1e-7."""
     assert np.diff(shown.times).min() > 0
-    assert (shown.times[0], shown.times[-1]) == (0, pytest.approx(shown.motion.path_end, rel=1e-7))
+    assert (shown.times[0], shown.times[-1]) == (0, pytest.approx(shown.motion.path_end, rel=2e-7))
     places, turns = shown.states(shown.times)
     assert np.abs(places - shown.places).max() <= 1e-6 * shown.coin.radius
     assert (turns.inv() * shown.turns).magnitude().max() <= 1e-6
-    quaternions = shown.turns.as_quat()
-    assert np.sum(quaternions[1:] * quaternions[:-1], axis=1).min() > 0
     assert shown.nodes["coin"].translation == pytest.approx(shown.places[0], abs=1e-8)
-    assert shown.nodes["coin"].rotation == pytest.approx(quaternions[0], abs=1e-7)
+    assert (turns[0].inv() * Rotation.from_quat(shown.nodes["coin"].rotation)).magnitude() <= 1e-6
 
 
 def test_between_two_poses_the_coin_is_missed_by_no_more_than_the_file_says(shown):
