@@ -40,6 +40,8 @@ class Answer:
     """Also write the path to this .csv file."""
     gltf: Annotated[Path | None, Written((".glb",)), Form("FILE.glb")] = None
     """Also write the coin, until it lies still, as an animation of glTF, for Blender or a game."""
+    png: Annotated[Path | None, Written((".png",)), Form("FILE.png")] = None
+    """Also draw height, tilt and energy over time."""
     margin: bool = False
     """Also find the smallest changes of the release that change the outcome."""
 
@@ -65,7 +67,7 @@ def toss(source: Source, asked: Answer, verbose: bool) -> None:
         from cointoss.compare.engines import Engine
         from cointoss.compare.film.back_end import require_mujoco
         from cointoss.compare.output import answer
-        from cointoss.compare.output.files import write_text
+        from cointoss.compare.output.files import write_bytes, write_text
 
         require_mujoco(asked.engine)
         package = Engine(asked.engine).package
@@ -86,6 +88,10 @@ def toss(source: Source, asked: Answer, verbose: bool) -> None:
         from cointoss.compare.film.gltf import write_gltf
 
         write_gltf(asked.gltf, result, fine)
+    if asked.png is not None:
+        from cointoss.compare.output.plots import picture_of_toss
+
+        write_bytes(asked.png, picture_of_toss(result, source.stem))
     extra, unproved = [], ""
     if asked.margin:
         from cointoss.compare.metrics.margin import is_planar, margins, offered_proofs

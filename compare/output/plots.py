@@ -4,12 +4,17 @@ import io
 from typing import Any
 
 import numpy as np
+from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from cointoss.compare.output.style import GREY, INK, STYLE
+from cointoss.models.barriers import barrier
+from cointoss.models.certificate import energies
 from cointoss.models.interruptible import interruptible
 from cointoss.models.palette import COLORS
 from cointoss.models.records import Face, Toss
+from cointoss.models.title import title_of_toss
 
 DRAWN = 600
 """The number of times at which a path is drawn."""
@@ -51,3 +56,28 @@ def plot_toss(toss: Toss, ax: Axes | None = None, **line: Any) -> Axes:
     axes.legend()
     axes.set_title(f"{toss.outcome}, by the engine {toss.engine}")
     return axes
+
+
+def picture_of_toss(toss: Toss, name: str) -> bytes:
+    """Draw the height, the tilt and the energy of a coin over time, as the content of a .png file.
+
+    Args:
+        toss: what is drawn.
+        name: of its scenario.
+    """
+    hits, body = toss.impacts.time, toss.scenario.body
+    times = np.sort(np.concatenate([np.linspace(0, toss.end_time, 4 * DRAWN), np.nextafter(hits, 0), hits]))
+    states, least = toss.sample(times), min(barrier(body, side) for side in (1.0, -1.0))
+    with rc_context(STYLE):
+        figure = Figure(figsize=(8, 8))
+        height, tilt, energy = figure.subplots(3, sharex=True)
+        plot_toss(toss, height, color=INK)
+        tilt.plot(times, np.degrees(np.arccos(states.normal[:, 2].clip(-1, 1))), color=INK)
+        tilt.set(ylabel="tilt [deg]: 0 heads up, 180 tails up", ylim=(0, 180), yticks=range(0, 181, 45))
+        energy.plot(times, 1e3 * energies(body, states), color=INK)
+        energy.axhline(1e3 * least, color=GREY, linestyle="--", label="least energy to turn over")
+        energy.set(xlabel="time [s]", ylabel="energy [mJ]", ylim=(0, None))
+        energy.legend()
+        height.set(xlabel="", ylim=(0, None))
+        figure.suptitle(title_of_toss(toss.scenario, name), parse_math=False)
+        return picture_bytes(figure)

@@ -4,17 +4,23 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from PIL import Image
+from scipy.spatial.transform import Rotation
 
 from cointoss import analytic
+from cointoss.compare import engines as compare_engines
 from cointoss.compare.commands.settings import described
+from cointoss.compare.engines import Engine
+from cointoss.compare.output import plots
 from cointoss.compare.output.answer import as_json
+from cointoss.compare.output.plots import picture_bytes
 from cointoss.compare.sweep.basin import basin
 from cointoss.compare.sweep.toss_many import toss_many
 from cointoss.models.errors import ScenarioError
 from cointoss.models.reading import load, parse
 from cointoss.models.records import Ending, OtherOutcome, Outcome
 from cointoss.models.sources import scenario_text
-from tests.helpers.command_line import cointoss, in_a_shell
+from tests.helpers.command_line import cointoss, in_a_shell, printed
 from tests.helpers.draws import scenario
 
 
@@ -39,6 +45,32 @@ def test_another_outcome_is_told_with_the_impact_after_which_a_change_leads_to_i
     other = OtherOutcome(outcome=Outcome.EDGE, change=2e-9, impact=12)
     told = as_json(replace(analytic.toss("fig24a"), other_outcome=other))["other_outcome"]
     assert told == {"outcome": "edge", "change": 2e-9, "after_impact": 12}
+
+
+@pytest.mark.parametrize("engine", Engine)
+def test_height_tilt_and_energy_are_drawn_over_time(tmp_path, monkeypatch, engine):
+    drawn = []
+    monkeypatch.setattr(plots, "picture_bytes", lambda figure: drawn.append(figure) or picture_bytes(figure))
+    printed("toss", "table", "--engine", engine, "--png", tmp_path / "toss.png")
+    with Image.open(tmp_path / "toss.png") as picture:
+        assert np.ptp(np.asarray(picture.convert("L"))) > 200
+    ((height, tilt, energy),) = (figure.axes for figure in drawn)
+    toss = compare_engines.toss("table", engine)
+    impacts = toss.impacts
+    times, heights = height.get_lines()[0].get_data()
+    assert (times[0], times[-1]) == (0, toss.end_time)
+    assert heights == pytest.approx(toss.sample(times).position[:, 2])
+    times, tilts = tilt.get_lines()[0].get_data()
+    normals = Rotation.from_quat(toss.sample(times).quaternion.copy(), scalar_first=True).apply([0, 0, 1])
+    assert np.cos(np.radians(tilts)) == pytest.approx(normals[:, 2], abs=1e-7)
+    times, energies = energy.get_lines()[0].get_data()
+    # Just before an impact and at it; MuJoCo's path has the energy before it at first touch.
+    before = 1e3 * (impacts.energy - impacts.energy_change)
+    assert [energies[times < at][-1] for at in impacts.time] == pytest.approx(before, rel=1e-6)
+    assert set(impacts.time) <= set(times)
+    assert [one.get_ylabel().partition(" [")[0] for one in (height, tilt, energy)] == [
+        *("height of the mass centre", "tilt", "energy"),
+    ]
 
 
 @pytest.mark.parametrize(
