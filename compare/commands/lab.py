@@ -9,11 +9,11 @@ from typing import Annotated, Any
 import click
 from click.core import ParameterSource
 
-from cointoss.compare.commands.common import SCENARIO_HELP, say
+from cointoss.compare.commands.common import SCENARIO_HELP
 from cointoss.compare.commands.explore import explore
 from cointoss.compare.commands.names import spared_scenario_argument
 from cointoss.compare.commands.options import only_with, options_of, without
-from cointoss.compare.commands.served import ServedPage, serve
+from cointoss.compare.commands.served import ServedPage, open_page, serve
 from cointoss.compare.commands.settings import set_option, with_scenario
 from cointoss.compare.output.accepted import Form, Written
 from cointoss.compare.sweep.asked import Source
@@ -62,14 +62,12 @@ def lab(source: Source, asked: LabPage) -> None:
 
         serve(ServedLab(source.scenario, asked.port or 0, asked.device, is_tour=is_tour), asked)
         return
-    import tempfile
-    import webbrowser
-
     from cointoss.compare.lab.lab import lab_page
     from cointoss.compare.output.files import write_text
 
     page = lab_page(source.scenario, is_tour=is_tour)
-    write_text(target := asked.out or Path(tempfile.mkdtemp(prefix="cointoss-")) / "lab.html", page)
-    click.echo(target)
-    if asked.out is None and not webbrowser.open(target.as_uri()):
-        say("no browser was found; open the file above in one")
+    if asked.out is None:
+        open_page(page)
+        return
+    write_text(asked.out, page)
+    click.echo(asked.out)

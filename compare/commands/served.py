@@ -1,6 +1,7 @@
 """What commands share that serve a page: their options, and serving until Ctrl-C."""
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import click
@@ -20,6 +21,19 @@ class ServedPage:
     """The port to listen at; by default one that is free."""
     no_browser: bool = False
     """Only print the address."""
+
+
+def open_page(page: str) -> None:
+    """Write a page to a file of its own, print where that is, and open it."""
+    import tempfile
+    import webbrowser
+
+    from cointoss.compare.output.files import write_text
+
+    write_text(target := Path(tempfile.mkdtemp(prefix="cointoss-")) / "lab.html", page)
+    click.echo(target)
+    if not webbrowser.open(target.as_uri()):
+        say("no browser was found; open the file above in one")
 
 
 def serve(server: "PageServer", asked: ServedPage) -> None:

@@ -9,6 +9,7 @@ import click
 from cointoss.compare.commands.common import SCENARIO_HELP, print_json
 from cointoss.compare.commands.names import scenario_argument
 from cointoss.compare.commands.options import only_with, options_of, without
+from cointoss.compare.commands.served import open_page
 from cointoss.compare.commands.settings import set_option, with_scenario
 from cointoss.compare.output.accepted import Form, Within, Written
 from cointoss.compare.sweep.asked import Source
@@ -42,6 +43,8 @@ class Answer:
     """Also write the coin, until it lies still, as an animation of glTF, for Blender or a game."""
     png: Annotated[Path | None, Written((".png",)), Form("FILE.png")] = None
     """Also draw height, tilt and energy over time."""
+    play: bool = False
+    """Also open the lab, which plays this toss and has a slider for each quantity."""
     margin: bool = False
     """Also find the smallest changes of the release that change the outcome."""
 
@@ -54,6 +57,7 @@ class Answer:
     without("margin", "engine=mujoco"),
     only_with("contact", "engine=mujoco"),
     only_with("flight_steps", "engine=mujoco"),
+    without("play", "engine=mujoco", "contact_steps", "json"),
 )
 @click.option(
     "-v", "--verbose", is_flag=True, help="Also print the errors that the engine measured of itself."
@@ -122,3 +126,7 @@ def toss(source: Source, asked: Answer, verbose: bool) -> None:
         why = [f"proved    none, for {unproved}"] if unproved else []
         lines = [answer.as_lines(result, whole=asked.all, checked=verbose), *([MARGINS] if extra else [])]
         click.echo("\n".join([*lines, *(one.line for one in extra), *why]))
+    if asked.play:
+        from cointoss.compare.lab.lab import lab_page
+
+        open_page(lab_page(coin))

@@ -26,17 +26,31 @@ def test_the_page_is_one_small_file_that_loads_nothing(tmp_path):
     assert held["outcomes"]["1"]["label"] == "heads"
 
 
-@pytest.mark.parametrize("found", [True, False])
-def test_without_a_target_the_page_is_opened(monkeypatch, tmp_path, found):
+PLAYED = ("toss", "table", "--max-impacts", 5, "--set", "restitution=0.3", "--play")
+
+
+@pytest.mark.parametrize(
+    ("words", "found", "begins"),
+    [
+        (["lab"], True, {"coin.mass": 0.002}),
+        (["lab"], False, {"coin.mass": 0.002}),
+        (PLAYED, True, {"coin.mass": 0.0075, "floor.restitution": 0.3, "ending.max_impacts": 5}),
+        (PLAYED, False, {"coin.mass": 0.0075}),
+    ],
+)
+def test_without_a_target_the_page_is_opened(monkeypatch, tmp_path, words, found, begins):
     opened = []
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     monkeypatch.setattr("tempfile.tempdir", None)
     monkeypatch.setattr(webbrowser, "open", lambda address: opened.append(address) or found)
-    answered = command("lab")
+    answered = command(*words)
     assert answered.exit_code == 0
     (page,) = tmp_path.glob("*/lab.html")
-    assert answered.stdout == f"{page}\n"
+    told, _, last = answered.stdout.removesuffix("\n").rpartition("\n")
+    assert (last, told.startswith("engine    analytic")) == (str(page), words[0] == "toss")
     assert opened == [page.as_uri()]
+    held = json.loads(re.findall(r'id="data">(.*)</script>', page.read_text("utf-8"))[0])
+    assert (held["tour"], held["scenario"] | begins) == (words[0] == "lab", held["scenario"])
     assert answered.stderr == (
         "" if found else "cointoss: no browser was found; open the file above in one\n"
     )
