@@ -19,7 +19,7 @@ class Frame:
     title: str
     page: str
     """HTML that needs no other file."""
-    height: int
+    height: int = 860
     """The height of the frame [px]."""
 
     def __repr__(self) -> str:

@@ -3,13 +3,35 @@
 from cointoss.compare.web.playable import shown_outcomes
 from cointoss.compare.web.scripts import ENGINE_POLICY, files_of, one_file
 from cointoss.compare.web.wasm.carried import engine_data, engine_scripts
+from cointoss.models.notebook import Frame
+from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import UnusableEngineError
 from cointoss.models.scenario import Scenario
+from cointoss.models.title import title_of_toss
 
 MOST_BYTES = 2_000_000
 """The largest size of the file."""
 SERVED_POLICY = f"{ENGINE_POLICY}; connect-src 'self'"
 """The Content-Security-Policy of the page where it is served."""
+
+
+def lab(scenario: ScenarioSource) -> Frame:
+    """Return what a notebook shows as the lab: a toss that plays, a map, and sliders that change both.
+
+        cointoss.lab("table")
+
+    Args:
+        scenario: with which it begins; or a file's path, or a name such as "fig24a".
+
+    Returns:
+        A frame, whose `page` is the HTML of a page that needs no other file and no network.
+
+    Raises:
+        ScenarioError: for a scenario, a file or a name that can't be used.
+        UnusableEngineError: where the engine for a browser was not built.
+    """
+    described = scenario_of(scenario)
+    return Frame(f"lab with {title_of_toss(described, '')}", lab_page(described))
 
 
 def lab_page(

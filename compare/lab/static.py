@@ -31,8 +31,6 @@ SAMPLES = 300
 """Samples of the path of each toss."""
 TITLE = "<title>Is a coin toss random? The coin lab"
 """The lab's; a map's page has its own before any script runs, too."""
-HEIGHT = 860
-"""Height of its frame in a notebook [px]."""
 
 
 def write_static(path: Path, out: Path) -> None:
@@ -54,7 +52,7 @@ def explore(found: "xr.Dataset") -> Frame:
     """
     shown, name = thinned(found, MOST_PIXELS), name_of(found)
     title = f"map of {saved_map(shown, name)['title']}"
-    return Frame(title, _page(shown, name, TOSSED_IN_FRAME), HEIGHT)
+    return Frame(title, _page(shown, name, TOSSED_IN_FRAME))
 
 
 def _page(found: "xr.Dataset", name: str, most: tuple[int, int]) -> str:

@@ -9,9 +9,6 @@ from cointoss.models.notebook import Frame
 from cointoss.models.records import Toss
 from cointoss.models.title import title_of_toss
 
-HEIGHT = 860
-"""Height of the frame [px]."""
-
 
 def play(toss: Toss, other: Toss | None = None) -> Frame:
     """Return a frame that plays a toss, or two together.
@@ -23,7 +20,7 @@ def play(toss: Toss, other: Toss | None = None) -> Frame:
         raise TypeError(f"other: {other!r}, accepted: a toss")
     title = " and ".join(title_of_toss(one.scenario, "") for one in (toss, other) if one)
     text = one_file(files_of("cointoss.compare.web.play"), _played(toss, other), POLICY)
-    return Frame(f"toss of {title}", text, HEIGHT)
+    return Frame(f"toss of {title}", text)
 
 
 def _played(toss: Toss, other: Toss | None) -> list[dict[str, Any]]:

@@ -5,11 +5,13 @@ import time
 import numpy as np
 import pytest
 
+import cointoss
 from cointoss import analytic, coin_mj, read_map
 from cointoss.compare.lab import static
 from cointoss.models.reading import load, parse
 from tests.helpers.coins_shown import UNNAMED, faces, picture, set_time
 from tests.helpers.explored import FIELDS, SCENARIO
+from tests.helpers.lab import slides
 from tests.helpers.processes import HANGS
 
 STAGE = 300
@@ -145,6 +147,19 @@ def test_a_map_is_explored_in_a_frame(page, notebook, map_path, monkeypatch):
     assert told in frame.text("outcome")
     assert frame.value("document.documentElement.scrollWidth <= innerWidth")
     assert frame.value("location.href") == "about:srcdoc"
+    assert_quiet(page, frame)
+
+
+def test_the_lab_in_a_frame_follows_its_sliders(page, notebook):
+    shown = cointoss.lab("table")
+    assert repr(shown) == "<Frame: lab with 7.5 g, 23.25 mm, from 10 cm; a notebook shows it>"
+    (frame,) = notebook(shown)
+    for restitution in (0.5, 0.25):
+        slides(frame, "floor.restitution", restitution)
+        sequence = analytic.toss(load("table").replace("floor.restitution", restitution)).sequence
+        frame.wait_for(f"({SEQUENCES})[0]?.[2] === '{sequence}'")
+    assert frame.text("stop") == ""
+    assert frame.value("document.documentElement.scrollWidth <= innerWidth")
     assert_quiet(page, frame)
 
 
