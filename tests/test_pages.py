@@ -28,7 +28,7 @@ from tests.helpers.pages import (
 sys.path.append(str(DOCS / "extensions"))
 counting, examples = (import_module(name) for name in ("words", "examples"))
 NOTEBOOKS = sorted(DOCS.glob("examples/*.md"))
-WRITES = ("--out", "--png", "--static", "--report", "--poster", "--trajectory")
+WRITES = ("--out", "--png", "--static", "--report", "--poster", "--trajectory", "--gltf")
 """Options that name what a command writes."""
 
 
