@@ -28,7 +28,7 @@ TOSSES = {
     "whole turns": (
         cointoss.load("fig24a").replace(
             *("gravity", 1e-3, "release.angular_velocity", [0, 0, 2080 * np.pi], "ending.max_time", 0.05),
-            *("release.position", [0, 0, 0.2]),
+            *("release.position", [0, 0, 0.2], "air", {}),
         ),
         "analytic",
     ),

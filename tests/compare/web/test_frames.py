@@ -154,11 +154,11 @@ def test_the_lab_in_a_frame_follows_its_sliders(page, notebook):
     shown = cointoss.lab("table")
     assert repr(shown) == "<Frame: lab with 7.5 g, 23.25 mm, from 10 cm; a notebook shows it>"
     (frame,) = notebook(shown)
+    assert frame.text("stop") == ""
     for restitution in (0.5, 0.25):
         slides(frame, "floor.restitution", restitution)
         sequence = analytic.toss(load("table").replace("floor.restitution", restitution)).sequence
         frame.wait_for(f"({SEQUENCES})[0]?.[2] === '{sequence}'")
-    assert frame.text("stop") == ""
     assert frame.value("document.documentElement.scrollWidth <= innerWidth")
     assert_quiet(page, frame)
 
