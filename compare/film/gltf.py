@@ -9,7 +9,7 @@ import numpy as np
 
 from cointoss.compare.engines import EngineSettings
 from cointoss.compare.film.filmed import followed
-from cointoss.compare.film.keyframes import Keyframes, keyframes
+from cointoss.compare.film.keyframes import keyframes
 from cointoss.compare.output.files import write_bytes
 from cointoss.compare.output.style import GRID, LETTERS
 from cointoss.models.certificate import turned
@@ -57,9 +57,9 @@ def gltf(toss: Toss, motion: Toss | None = None) -> bytes:
         UnsupportedError: for a toss that takes too many poses, see `keyframes`.
     """
     motion = motion or toss
-    keys = keyframes(motion)
-    places, turns = _y_up(keys.states.position), keys.states.quaternion @ _UPRIGHT
-    parts = [*_coin(toss.scenario.coin), _floor(keys.states.position, toss.scenario.coin.radius)]
+    states, error = keyframes(motion)
+    places, turns = _y_up(states.position), states.quaternion @ _UPRIGHT
+    parts = [*_coin(toss.scenario.coin), _floor(states.position, toss.scenario.coin.radius)]
     *coin, floor = [
         {"attributes": {"POSITION": 3 + 2 * i, "NORMAL": 4 + 2 * i}, "material": i} for i in range(len(parts))
     ]
@@ -74,7 +74,7 @@ def gltf(toss: Toss, motion: Toss | None = None) -> bytes:
         "scene": 0,
         "scenes": [{"nodes": [0, 1]}],
         "nodes": [
-            {"name": "coin", "mesh": 0, **start, "extras": _told(toss, motion, keys)},
+            {"name": "coin", "mesh": 0, **start, "extras": _told(toss, motion, error)},
             {"name": "floor", "mesh": 1, "rotation": _UPRIGHT[0].tolist()},
         ],
         "meshes": [{"name": "coin", "primitives": coin}, {"name": "floor", "primitives": [floor]}],
@@ -90,10 +90,10 @@ def gltf(toss: Toss, motion: Toss | None = None) -> bytes:
         ],
     }
     shape = [half for part in parts for half in np.split(part, 2, axis=1)]
-    return _binary(document, [keys.times[:, np.newaxis], *moves.values()], shape)
+    return _binary(document, [states.time[:, np.newaxis], *moves.values()], shape)
 
 
-def _told(toss: Toss, motion: Toss, keys: Keyframes) -> dict[str, Any]:
+def _told(toss: Toss, motion: Toss, error: float) -> dict[str, Any]:
     """Return what the file says of a toss in words and numbers, vectors in the axes of glTF."""
     impacts, center = motion.impacts, np.array(toss.scenario.coin.center_of_mass)
     points = _y_up(impacts.position + turned(impacts.quaternion, impacts.point - center))
@@ -103,7 +103,7 @@ def _told(toss: Toss, motion: Toss, keys: Keyframes) -> dict[str, Any]:
         "outcome": str(toss.outcome),
         "sequence": toss.sequence,
         "end_time": toss.end_time,
-        "interpolation_error": keys.error,
+        "interpolation_error": error,
         "impacts": [
             {"time": float(time), "face": face.symbol, "point": point.tolist(), "impulse": impulse.tolist()}
             for time, face, point, impulse in zip(*columns, strict=True)

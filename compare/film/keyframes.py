@@ -1,7 +1,5 @@
 """The poses of a coin between which a viewer may interpolate: times so dense that it misses by little."""
 
-from typing import NamedTuple
-
 import numpy as np
 
 from cointoss.models.records import Array, States, Toss, UnsupportedError
@@ -17,22 +15,16 @@ BETWEEN = np.array([1, 2, 3]) / 4
 elsewhere, at most 4/3 of that is missed."""
 
 
-class Keyframes(NamedTuple):
-    """Poses between which the mass centre moves evenly along a line, and the coin turns evenly."""
-
-    times: Array
-    """Increasing, numbers of single precision, (n,) [s]."""
-    states: States
-    """The states at these times."""
-    error: float
-    """How far a point of the coin may be from its place between two poses [m]."""
-
-
-def keyframes(toss: Toss) -> Keyframes:
+def keyframes(toss: Toss) -> tuple[States, float]:
     """Return poses of a toss from its start to the end of its path, denser where the coin turns unevenly.
 
     They lie at all impacts, and else where what is interpolated would miss by more than `MISSES`, as far as
     single precision tells times apart; the last one is up to two of its steps early.
+
+    Returns:
+        states: at times of single precision, of which a viewer needs the poses.
+        error: how far a point of the coin is at most from its place between two of them [m], where the mass
+            centre moves evenly along a line and the coin turns evenly.
 
     Raises:
         UnsupportedError: for a toss that takes more than `MOST` poses.
@@ -40,8 +32,9 @@ def keyframes(toss: Toss) -> Keyframes:
     coin, end = toss.scenario.coin, float(np.nextafter(np.float32(toss.path_end), np.float32(0)))
     reach = coin.radius + coin.thickness / 2 + float(np.linalg.norm(coin.center_of_mass))
     even = np.linspace(0, end, min(int(end * PER_SECOND), MOST) + 2)
-    bounds = [toss.contacts, toss.later.contacts]
-    events = np.concatenate([toss.impacts.time, toss.later_times, *(each.ravel() for each in bounds)])
+    events = np.concatenate(
+        [toss.impacts.time, toss.later_times, toss.contacts.ravel(), toss.later.contacts.ravel()]
+    )
     times = _single(even, np.minimum(events, end))
     while len(times) <= MOST:
         states = toss.sample(times)
@@ -50,7 +43,7 @@ def keyframes(toss: Toss) -> Keyframes:
         wide = (errors > MISSES * coin.radius) | (turns > LARGEST_TURN)
         finer = _single(times, (times[1:] + times[:-1])[wide] / 2)
         if len(finer) == len(times):
-            return Keyframes(times, states, float(errors.max(initial=0.0)))
+            return states, float(errors.max(initial=0.0))
         times = finer
     raise UnsupportedError(
         f"ending.max_time = {toss.scenario.ending.max_time:g}: accepted where poses are written: less, or "
