@@ -80,15 +80,19 @@ def states_of(rows: Array) -> Array:
     return rows[:, STATE_PLACES]
 
 
-def scenario_of_row(row: Array) -> Scenario:
+def scenario_of_row(row: Array, changed: Collection[str] = ()) -> Scenario:
     """Return the scenario of a row, checked like a scenario file.
+
+    Args:
+        row: of a scenario, or with other values of some fields.
+        changed: the fields that may not be left out: not a number is refused there.
 
     Raises:
         ScenarioError: naming field, value and what is accepted.
     """
     tables: dict[str, object] = {}
     for field, place, first, value in zip(FIELDS, PLACES.values(), FIRST, row.tolist(), strict=True):
-        if first >= 0 and math.isnan(row[first]) and math.isnan(value):
+        if first >= 0 and math.isnan(row[first]) and math.isnan(value) and field not in changed:
             continue
         _put(tables, place, _as_given(field, value))
     return Scenario.checked({name: _with_lists(part) for name, part in tables.items()})

@@ -128,7 +128,7 @@ class Batch:
             ScenarioError: naming field, value and what is accepted, and the toss.
         """
         try:
-            return scenario_of_row(self.rows(np.array([toss]))[0])
+            return scenario_of_row(self.rows(np.array([toss]))[0], self.fields)
         except ScenarioError as error:
             raise ScenarioError(f"{error}{self._place(toss)}") from None
 
