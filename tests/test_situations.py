@@ -249,14 +249,14 @@ def pivots(p: float) -> Situation:
     spin, J = 80.0, M * R * R / 4
     slowing = p * M * G / J
     times = np.linspace(0, 0.95 * spin / slowing, 9) if p else np.array([0.1])
-    turning = Check(
-        lambda toss: toss.sample(times).angular_velocity[:, 1], spin - slowing * times, both(1e-6, 1e-4)
-    )
     ending = {} if p else {"max_time": 0.1}
     return Situation(
         set_down(0.0, spin=spin, pivoting_friction=p, rolling_friction=1e-3, ending=ending),
         None,
-        (turning, *([Check(end_time, spin / slowing, both(1e-3, 1e-3))] if p else [])),
+        (
+            Check(lambda toss: turning(toss, times), spin - slowing * times, both(1e-6, 1e-4)),
+            *([Check(end_time, spin / slowing, both(1e-3, 1e-3))] if p else []),
+        ),
     )
 
 
@@ -265,7 +265,6 @@ def pivots_and_slides() -> Situation:
     spin, p, J = 20.0, 1e-3, M * R * R / 4
     slowing = p * M * G / J
     more: Any = {"contact": "smooth", "pivoting_friction": p, "rolling_friction": p, "velocity": [0.2, 0, 0]}
-    turning = lambda toss, time: toss.sample(time).angular_velocity[0, 1]  # noqa: E731
     return Situation(
         set_down(0.0, spin=spin, **more),
         None,
@@ -454,6 +453,11 @@ def approaches(toss: Toss) -> Any:
 def rebounds(toss: Toss) -> Any:
     """Return the restitution of each impact, (n,)."""
     return toss.impacts.contact_velocity_after[:, 2] / approaches(toss)
+
+
+def turning(toss: Toss, times: Any) -> Any:
+    """Return ω_η, about the vertical where the coin is on its edge, at each time."""
+    return toss.sample(times).angular_velocity[:, 1]
 
 
 def tilts(toss: Toss, times: Any) -> Any:
