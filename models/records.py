@@ -296,7 +296,10 @@ class States(EqualByValue):
         Args:
             scenario: the coin's.
         """
-        return lowest_points(scenario.body, self.position, self.quaternion, self.angular_velocity)
+        return lowest_points(
+            scenario.body,
+            *map(np.ascontiguousarray, (self.position, self.quaternion, self.angular_velocity)),
+        )
 
     @property
     def normal(self) -> Array:

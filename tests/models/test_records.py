@@ -15,12 +15,10 @@ def test_impacts_check_their_shapes_and_order():
     rows["time"] = [0.1, 0.2, 0.3]
     rows["face"] = [1, 2, 1]
     impacts = Impacts.from_rows(rows)
-    assert len(impacts) == 3
     assert impacts.sequence == "HTH"
     assert [(one.time, one.face) for one in impacts] == [(0.1, "heads"), (0.2, "tails"), (0.3, "heads")]
     assert (impacts[-1].time, impacts[1:].sequence) == (0.3, "TH")
     assert impacts[0] == impacts[0] != impacts[2]
-    assert impacts[0] in impacts
     assert impacts[[0, 2]] == impacts[impacts.face == 1] == impacts[::2]
     assert impacts[impacts.face == 2] == impacts[1:2]
     for index in (3, slice(None, None, -1), [2, 0], None, "time", 0.5, (0, 1)):
@@ -36,10 +34,8 @@ def test_impacts_check_their_shapes_and_order():
 
 def test_arrays_are_read_only():
     tossed = analytic.toss(scenario())
-    with pytest.raises(ValueError, match="read-only"):
-        tossed.impacts.impulse[0] = 1
-    with pytest.raises(ValueError, match="read-only"):
-        tossed.sample([0.0]).position[0] = 1
+    assert not tossed.impacts.impulse.flags.writeable
+    assert not tossed.sample([0.0]).position.flags.writeable
 
 
 def test_records_with_the_same_numbers_are_equal():
@@ -47,6 +43,12 @@ def test_records_with_the_same_numbers_are_equal():
     assert (one, hash(one), one.sample([0.1])) == (two, hash(two), two.sample([0.1]))
     assert one != replace(one, impacts=one.impacts[:1])
     assert one.impacts != 3
+
+
+def test_columns_may_lie_in_memory_as_they_like():
+    states = analytic.toss(scenario()).sample([0.1, 0.2])
+    other = replace(states, quaternion=np.asfortranarray(states.quaternion))
+    np.testing.assert_array_equal(other.lowest_points(scenario()), states.lowest_points(scenario()))
 
 
 @pytest.mark.parametrize("time", [-0.1, 1e3, float("nan")])
