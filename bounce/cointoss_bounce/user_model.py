@@ -4,6 +4,7 @@
 # pyright: reportAttributeAccessIssue=false
 
 from numbers import Integral
+from os import PathLike
 from os.path import realpath
 from pathlib import Path
 from typing import SupportsIndex
@@ -28,8 +29,13 @@ def load_model(path: Path | str) -> mujoco.MjModel:
     Raises:
         FieldError: naming the file and why it does not load.
     """
-    if not Path(path).is_file():
-        raise FieldError("model", str(path), "an XML file of MuJoCo that exists")
+    is_path = isinstance(path, str | PathLike)
+    require(
+        "model",
+        str(path) if is_path else path,
+        is_path and Path(path).is_file(),
+        "an XML file of MuJoCo that exists, or an MjModel",
+    )
     _require_small_fields(Path(path))
     try:
         with unlogged():

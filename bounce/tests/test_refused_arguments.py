@@ -117,6 +117,7 @@ OF_BOUNCE = [
     ({"speeds": (1.0, 0.0)}, SPEEDS),
     ({"speeds": []}, SPEEDS),
     ({"model": mujoco.MjModel.from_xml_string("<mujoco/>")}, "by name or number: it has none"),
+    ({"model": None}, "model = None: accepted: an XML file of MuJoCo that exists, or an MjModel"),
     ({"model": of_friction(np.nan)}, "geom b friction = nan: accepted: finite numbers"),
     *(
         ({"model": of_option(f'timestep="{step}"')}, r"option timestep = .*: accepted: a number of seconds")
