@@ -9,6 +9,7 @@ from yaml import safe_load
 
 from cointoss.compare.sweep import chunks
 from cointoss.models import reading
+from tests.helpers.damages import HOUSES
 
 TOP = Path(__file__).parents[1]
 PROJECT = tomllib.loads((TOP / "pyproject.toml").read_text(encoding="utf-8"))["project"]
@@ -42,10 +43,14 @@ def test_a_file_says_what_pyproject_says(name, title, authors):
 
 
 def test_support_has_the_numbers_of_the_files_that_are_kept():
-    page = (TOP / "docs" / "SUPPORT.md").read_text(encoding="utf-8")
     for words in (
         f"the attribute `cointoss_map`, now {chunks.FORMAT} |",
         f"the attribute `cointoss_tosses`, now {chunks.TOSSES_FORMAT} |",
         f"the field `format`, now {reading.FORMAT}; without it, 1 |",
     ):
-        assert words in page
+        assert words in (TOP / "docs" / "SUPPORT.md").read_text(encoding="utf-8")
+
+
+def test_the_packages_carry_the_licence():
+    """Their wheels take it from beside their `pyproject.toml`, and would be made without it too."""
+    assert len({(TOP / house / "LICENSE").read_bytes() for house in ("", *HOUSES)}) == 1
