@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.events import Started, TossEnd, started_of, toss_coin
 from cointoss.analytic.flight.state_vector import STATE_SIZE, position_of, spin_of, velocity_of
@@ -203,7 +204,7 @@ def sample_path(row: Row, pieces: Table, times: Row, states: Table, more: Table)
         pieces: of the path, all of them, see `toss_one`.
         times: increasing, from 0 to the end, (n,) [s].
         states: where they go, (n, 13).
-        more: where energies [J] and forces, space frame, zero in flight [N], go, (n, 4).
+        more: where energies [J] and forces, space frame, zero in flight and in a hand [N], go, (n, 4).
     """
     if has_linear_air(row):
         _sample_path(body_of(row, None), row, pieces, times, states, more)
@@ -214,13 +215,18 @@ def sample_path(row: Row, pieces: Table, times: Row, states: Table, more: Table)
 @compiled
 def _sample_path(body: Body, row: Row, pieces: Table, times: Row, states: Table, more: Table) -> None:
     """Write the states of a path of the coin `body`; for the rest see `sample_path`."""
-    friction, starts, nothing = friction_in_contact(rules_of(row)), pieces[:, 0].copy(), np.empty(0)
-    modes = pieces[:, 1].astype(np.int8)
-    started, number = Started(starts, pieces[:, 2:PIECE].copy(), modes, nothing, nothing), 0
+    starts, modes, nothing = pieces[:, 0].copy(), pieces[:, 1].astype(np.int8), np.empty(0)
+    started, number, friction = (
+        Started(starts, pieces[:, 2:PIECE].copy(), modes, nothing, nothing),
+        0,
+        friction_in_contact(rules_of(row)),
+    )
     sample_pieces(body, friction, _LIMITS.tolerance, started, times, states)
     for i in range(len(times)):
         while number + 1 < len(starts) and times[i] >= starts[number + 1]:
             number += 1
-        y, mode = states[i], int(pieces[number, 1])
+        y, before, mode = states[i], int(pieces[number - 1, 1]), int(pieces[number, 1])
+        # A coin that comes to rest from flight is in a hand, and no floor holds it.
+        held = Mode.FLIGHT.value if mode == Mode.RESTING and before == Mode.FLIGHT else mode
         E = energy(body, position_of(y)[2], velocity_of(y), spin_of(y))
-        copy_into(more[i], (E, *force_in(body, friction, mode, y)))
+        copy_into(more[i], (E, *force_in(body, friction, held, y)))

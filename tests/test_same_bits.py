@@ -16,7 +16,6 @@ from cointoss.models.answers import ANSWER, REFUSED, unanswered
 from cointoss.models.body import NO_CODE
 from cointoss.models.fields import FIELDS
 from cointoss.models.laws import ContactLaw, RestitutionKind
-from cointoss.models.records import Ending
 from cointoss.models.rows import row_of
 from tests.helpers.bits import cases
 from tests.helpers.mirror import Mirror
@@ -112,9 +111,7 @@ def by_numbers(engine, name):
     row, answer, sizes = row_of(followed.scenario), np.empty(len(ANSWER)), np.empty(2)
     impacts, pieces = np.empty((300, len(IMPACT))), np.empty((300, PIECE))
     toss_one(row, answer, impacts, pieces, sizes)
-    # In a hand a page's force is the hand's.
-    end = followed.end_time if followed.ending == Ending.CAUGHT else followed.path_end
-    times = np.sort(np.append(np.linspace(0, end, 40)[:-1], followed.contacts[:, 0]))
+    times = np.sort(np.append(np.linspace(0, followed.path_end, 40)[:-1], followed.contacts[:, 0]))
     states, more = np.empty((len(times), 13)), np.empty((len(times), 4))
     sample_path(row, pieces[: int(sizes[1])].copy(), times, states, more)
     struck, started = followed.impacts, followed.path.started
