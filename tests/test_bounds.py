@@ -97,7 +97,7 @@ def accelerated(body: Body, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the rates of a flying coin's velocity and spin, (3,) each."""
     R, w, J = rotation(y), y[10:13], np.array(body.inertia)
     f, m = force_and_moment(body, vector(R.T @ y[3:6]), vector(w))
-    return R @ f / body.mass - [0, 0, body.gravity], np.linalg.solve(J, m - np.cross(w, J @ w))
+    return R @ f / body.mass + [body.downhill, 0, -body.gravity], np.linalg.solve(J, m - np.cross(w, J @ w))
 
 
 def rate_of(body: Body, y: np.ndarray) -> np.ndarray:
@@ -122,11 +122,13 @@ def flown(body: Body, y: np.ndarray, time: float) -> np.ndarray:
 def draw_flight(rng: Draws) -> tuple[Body, float, np.ndarray, Any, Any, Any]:
     """Draw a flight of a radian at most: coin, length, states and `motion_of` the first."""
     body = draw_body(rng, exponent=(None, None, None, 0.5, 1.0)[rng.integers(5)])
+    body = body._replace(downhill=body.gravity * power_of_ten(rng, -1, 2))
     y = draw_state(rng, body)
     v, up, w = motion_of(y)
     turning = np.linalg.norm(np.array(body.inertia) @ w) / body.inertia_smallest
-    window = 10 ** rng.uniform(-3, 0) / (turning + (body.gravity / body.radius) ** 0.5)
-    window = useful_window(body, v, w, window)
+    window = useful_window(
+        body, v, w, 10 ** rng.uniform(-3, 0) / (turning + (body.gravity / body.radius) ** 0.5)
+    )
     return body, window, flown(body, y, window), v, up, w
 
 
