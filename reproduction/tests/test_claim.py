@@ -78,10 +78,20 @@ def test_a_difference_is_within_a_threshold_on_both_sides(low, high, verdict):
 
 def test_a_claim_that_cannot_be_tested_says_what_would_decide_it():
     close = Criterion("x", Estimate(0.52, 0.46, 0.58, 400), ">", 0.5, "chance")
-    claim = Claim(claim="more than half", criteria=[KNOWN.criteria[0], close], expected=None)
+    claim = Claim(
+        claim="more than half",
+        criteria=[
+            *KNOWN.criteria,
+            Criterion("y", Estimate(0.5, 0.495, 0.505, 9), ">", 0.4, "less"),
+            close,
+        ],
+        expected=None,
+    )
     # Nine times the tosses have a third of the interval.
     assert claim.verdict == "cannot be tested: about 3,600 tosses would decide it (there were 400)"
-    assert criteria_of(claim) == "sum: 4 (= 4); x: 0.520 [0.460, 0.580] (> 0.5)"
+    assert criteria_of(claim) == (
+        "sum: 4 (= 4); y: 0.5000 [0.4950, 0.5050] (> 0.4); x: 0.520 [0.460, 0.580] (> 0.5)"
+    )
     assert Claim(claim="x", criteria=[close, REFUTED.criteria[0]]).holds is False
     even = Criterion("x", Estimate(0.5, 0.46, 0.54, 400), ">", 0.5, "chance")
     assert even.wanted == "no number of tosses would decide it"
