@@ -48,9 +48,11 @@ def flips(counts: Path, source: Source | None, asked: SoughtHand) -> None:
 
     The command prints the psi of each person's hand, and its scatter over people, with 99 % intervals, and
     whether this model can do what was counted at all. Where it cannot, the command prints no intervals, and
-    the exit status is 1. Without SCENARIO the coins are caught; with it they are tossed onto its floor.
+    the exit status is 1. Without SCENARIO the coins are caught, and have two equal moments of inertia. With
+    it they are tossed onto its floor, or caught where its [ending] says so.
     """
     from cointoss.compare.flips.answer import as_lines
+    from cointoss.compare.flips.caught import has_closed_form
     from cointoss.compare.flips.hand_fit import flips as fitted
     from cointoss.compare.output.files import write_text
 
@@ -60,7 +62,8 @@ def flips(counts: Path, source: Source | None, asked: SoughtHand) -> None:
     if asked.out is not None and found.is_possible:
         write_text(asked.out, found.hand_toml())
     if asked.json:
-        print_json({**found.as_dict(), "seed": asked.seed, "tosses": source and asked.tosses}, "analytic")
+        tosses = None if has_closed_form(found.scenario, asked.hand) else asked.tosses
+        print_json({**found.as_dict(), "seed": asked.seed, "tosses": tosses}, "analytic")
     else:
         click.echo(as_lines(found))
         if asked.out is not None:

@@ -9,9 +9,9 @@ import numpy as np
 from scipy.stats import binom
 
 from cointoss.compare.fitting.errors import ObservationError
+from cointoss.compare.flips.caught import caught, has_closed_form
 from cointoss.compare.flips.counts import Flips
 from cointoss.compare.flips.people import (
-    CAUGHT,
     SameSide,
     chance_of_spread,
     fit_people,
@@ -68,7 +68,7 @@ class HandFit:
     chances: dict[str, float]
     """How likely chance makes the right model miss by as much, by what is tested."""
     scenario: Scenario | None
-    """The scenario whose coin was tossed; None for the closed form of a coin that is caught."""
+    """The scenario whose coin it is; None for an ideal coin that is caught."""
 
     @property
     def p_value(self) -> float:
@@ -142,13 +142,14 @@ def flips(
         cointoss.flips("counts.csv")
 
     The counts determine each person's ψ, and its scatter over people: by a closed form for coins that are
-    caught, by tosses for a scenario's coin.
+    caught in vacuum after many turns, by tosses for others.
 
     Args:
         counts: how often each person's coin showed that side, or the path of a CSV file that has it.
-        scenario: whose coin is tossed: a scenario, the path of its file, or a name such as "fig24a"; its own
-            release is not used. Without one the coins are caught.
-        hand: that tosses a scenario's coin, or the path of its file; its ψ is not used. By default `Hand()`.
+        scenario: whose coin it is: a scenario, the path of its file, or a name such as "fig24a"; its own
+            release is not used. Without one the coins are caught, and have two equal moments of inertia.
+        hand: that tosses a scenario's coin, or the path of its file; its ψ is not used. By default `Hand()`;
+            a coin that is caught in vacuum is tossed only with a hand.
         tosses: of a scenario's coin, for each of some 30 ψ.
         seed: for the tosses.
         device: that tosses a scenario's coin, as in `shares`.
@@ -162,15 +163,20 @@ def flips(
     seen = read_flips(counts) if isinstance(counts, str | PathLike) else counts
     if not isinstance(seen, Flips):
         raise ObservationError(f"counts: {seen!r}, accepted: Flips, or the path of a CSV file")
+    described = None if scenario is None else scenario_of(scenario)
+    is_tossed = not has_closed_form(described, hand)
     unused = {"hand": (hand, None), "tosses": (tosses, TOSSES), "device": (device, Device.CPU)}
     for name, (value, usual) in unused.items():
-        if scenario is None and value != usual:
-            raise SweepError(f"`{name}` {value}: accepted: only with a scenario whose coin is tossed")
+        if not is_tossed and value != usual:
+            accepted = "only with a scenario whose coin is tossed, or is caught in vacuum, given a `hand`"
+            raise SweepError(f"`{name}` {value}: accepted: {accepted}")
     usual = Hand() if hand is None else hand if isinstance(hand, Hand) else load_hand(hand)
     if usual.spun:
         raise SweepError("hand.spun = True: accepted: false, for a hand that tosses")
-    described = None if scenario is None else scenario_of(scenario)
-    side = CAUGHT if described is None else simulated(described, usual, tosses, seed, device)
+    if described is not None and is_tossed:
+        side = simulated(described, usual, tosses, seed, device)
+    else:
+        side = caught(described)
     return _hand_fit(seen, described, usual, side, seed)
 
 
