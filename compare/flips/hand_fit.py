@@ -6,7 +6,6 @@ from os import PathLike
 from typing import Any
 
 import numpy as np
-from scipy.stats import binom
 
 from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.flips.caught import caught, has_closed_form
@@ -14,21 +13,20 @@ from cointoss.compare.flips.counts import Flips
 from cointoss.compare.flips.people import (
     SameSide,
     chance_of_spread,
+    chances_of_shares,
+    estimate_of,
     fit_people,
-    interval_of,
-    log_binomial,
     spread_interval,
     wobbling,
 )
 from cointoss.compare.flips.table import read_flips
+from cointoss.compare.flips.tossed import heads_along
 from cointoss.compare.metrics.estimate import Estimate
 from cointoss.compare.metrics.estimates import LEVEL, share_of
-from cointoss.compare.shares.shares import shares
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
 from cointoss.models.devices import Device
 from cointoss.models.hand import Hand, load_hand
 from cointoss.models.reading import ScenarioSource, scenario_of
-from cointoss.models.records import Array, Outcome
 from cointoss.models.scenario import Scenario
 from cointoss.models.writing import toml
 
@@ -183,10 +181,14 @@ def flips(
 def _hand_fit(counts: Flips, scenario: Scenario | None, usual: Hand, side: SameSide, seed: int) -> HandFit:
     """Return the hand that explains counts of a side as likely as `side` says."""
     each = tuple(
-        PersonFit(person=name, share=share_of(same, count, "flips"), psi=_psi_of(same, count, side))
+        PersonFit(
+            person=name,
+            share=share_of(same, count, "flips"),
+            psi=_psi_of(estimate_of(same, count, side, ANGLES)),
+        )
         for name, same, count in zip(counts.people, counts.same.tolist(), counts.flips.tolist(), strict=True)
     )
-    chances, scatter = _chances_of_shares(counts, side), None
+    chances, scatter = chances_of_shares(counts, side.probability(ANGLES)), None
     psi = each[0].psi.value
     fitted = replace(usual, psi=usual.psi if math.isnan(psi) else psi, psi_scatter=0.0)
     if len(each) > 1:
@@ -213,56 +215,15 @@ def simulated(scenario: Scenario, hand: Hand, tosses: int, seed: int, device: De
         seed: of the releases.
         device: that tosses.
     """
-    found = shares(
-        scenario,
-        {"hand.psi": (0.0, LARGEST, SIMULATED)},
-        hand=replace(hand, up="heads", psi_scatter=0.0),
-        tosses=tosses,
-        seed=seed,
-        device=device,
-    )
-    if not found.attrs["complete"]:
-        raise KeyboardInterrupt
-    counted = found["count"]
-    heads, tails = (counted.sel(outcome=str(one)).to_numpy() for one in (Outcome.HEADS, Outcome.TAILS))
-    on_a_face = heads + tails
-    if not on_a_face.all():
-        raise SweepError(
-            f"tosses: {tosses} of each psi, of some of which none ends on a face; accepted: more"
-        )
-    share, angles = (heads + 1 / 2) / (on_a_face + 1), LARGEST - counted["hand.psi"].to_numpy()
-    return SameSide(lambda off: np.interp(off, angles[::-1], share[::-1]), float(on_a_face.min()))
+    flat = replace(hand, up="heads", psi_scatter=0.0)
+    values = (0.0, LARGEST, SIMULATED)
+    psi, share, behind = heads_along(scenario, "hand.psi", values, flat, tosses, seed, device)
+    return SameSide(lambda off: np.interp(off, LARGEST - psi[::-1], share[::-1]), behind)
 
 
-def _psi_of(same: int, flips: int, side: SameSide) -> Estimate:
-    """Return the ψ of one person by maximum likelihood, with the interval by its ratio [rad]."""
-
-    def likelihood(off: Array) -> Array:
-        return log_binomial(same, flips, side.probability(off), side.tosses)
-
-    best, low, high = interval_of(likelihood, ANGLES)
-    value = math.nan if (low, high) == (0.0, LARGEST) else LARGEST - best
-    return Estimate(value, LARGEST - high, LARGEST - low, flips, "flips")
-
-
-def _chances_of_shares(flips: Flips, side: SameSide) -> dict[str, float]:
-    """Return the chances of as few, or as many, flips with the first side up, at the ψ that favours this.
-
-    Of several people the chances are those of their sum, and of the person who is farthest out.
-    """
-    p, people = side.probability(ANGLES), len(flips.flips)
-    same, count = (np.append(each, each.sum()) for each in (flips.same, flips.flips))
-    tails = {"seldom": binom.cdf(same, count, p.min()), "often": binom.sf(same - 1, count, p.max())}
-    chances: dict[str, float] = {}
-    for how, tail in tails.items():
-        if how == "often" and p.max() == 1:
-            continue
-        chances[f"the first side came up too {how}"] = float(tail[-1])
-        if people > 1:
-            least = int(np.argmin(tail[:-1]))
-            who = f"the first side came up too {how} for {flips.people[least]}"
-            chances[who] = min(1.0, people * float(tail[least]))
-    return chances
+def _psi_of(off: Estimate) -> Estimate:
+    """Return ψ of |90° - ψ| [rad]."""
+    return replace(off, value=LARGEST - off.value, low=LARGEST - off.high, high=LARGEST - off.low)
 
 
 def _without_intervals(found: HandFit) -> HandFit:

@@ -10,9 +10,10 @@ from numpy.polynomial.legendre import leggauss
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq, minimize, minimize_scalar
 from scipy.special import betaln, logsumexp
-from scipy.stats import chi2, halfnorm
+from scipy.stats import binom, chi2, halfnorm
 
 from cointoss.compare.flips.counts import Flips
+from cointoss.compare.metrics.estimate import Estimate
 from cointoss.compare.metrics.estimates import LEVEL
 from cointoss.models.hand import same_side_probability
 from cointoss.models.records import Array
@@ -239,6 +240,50 @@ def interval_of(likelihood: Callable[[Array], Array], tried: Array) -> tuple[flo
         for inner, outer in zip(places[inside[[0, -1]]], around, strict=True)
     )
     return best, low, high
+
+
+def estimate_of(same: int, flips: int, side: SameSide, tried: Array) -> Estimate:
+    """Return the argument of `side` that is most likely, with the interval by the likelihood ratio.
+
+    It is NaN where the interval has all that was tried.
+
+    Args:
+        same: how often the same side came up.
+        flips: all flips.
+        side: how likely it is.
+        tried: rising arguments at which the likelihood is tried first, (n,).
+    """
+
+    def likelihood(at: Array) -> Array:
+        return log_binomial(same, flips, side.probability(at), side.tosses)
+
+    best, low, high = interval_of(likelihood, tried)
+    is_open = (low, high) == (tried[0], tried[-1])
+    return Estimate(math.nan if is_open else best, low, high, flips, "flips")
+
+
+def chances_of_shares(flips: Flips, p: Array) -> dict[str, float]:
+    """Return the chances of as few, or as many, flips with the first side up, at the p that favours this.
+
+    Of several people the chances are those of their sum, and of the person who is farthest out.
+
+    Args:
+        flips: the counts.
+        p: the probabilities that the model has, of any number.
+    """
+    people = len(flips.flips)
+    same, count = (np.append(each, each.sum()) for each in (flips.same, flips.flips))
+    tails = {"seldom": binom.cdf(same, count, p.min()), "often": binom.sf(same - 1, count, p.max())}
+    chances: dict[str, float] = {}
+    for how, tail in tails.items():
+        if how == "often" and p.max() == 1:
+            continue
+        chances[f"the first side came up too {how}"] = float(tail[-1])
+        if people > 1:
+            least = int(np.argmin(tail[:-1]))
+            who = f"the first side came up too {how} for {flips.people[least]}"
+            chances[who] = min(1.0, people * float(tail[least]))
+    return chances
 
 
 def chance_of_spread(flips: Flips, found: PeopleFit, rng: np.random.Generator, draws: int = 4000) -> float:
