@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from cointoss.compare.flips.hand_fit import HandFit as HandFit
     from cointoss.compare.flips.hand_fit import PersonFit as PersonFit
     from cointoss.compare.flips.hand_fit import flips as flips
+    from cointoss.compare.flips.offset import offset as offset
+    from cointoss.compare.flips.sides import Sides as Sides
     from cointoss.compare.lab.lab import lab as lab
     from cointoss.compare.report.comparison import Comparison as Comparison
     from cointoss.compare.report.comparison import compare as compare

@@ -22,7 +22,7 @@ COMMANDS = {
     "explore": "Show a map in the browser: click a pixel, see both engines toss it.",
     "find": "Find a toss that shows a sequence of faces, or ends on its edge.",
     "fit": "Find the values of a scenario's fields that explain what was seen of a coin, or that none do.",
-    "flips": "Find how much people's coins wobble from how often they show the side that was up at first.",
+    "flips": "Say whether a coin is fair, and how much a hand wobbles, from counts of flips.",
     "hands": "Toss a scenario's coin many times as a hand does, and count how often its first side "
     "is up again.",
     "lab": "Toss coins in the browser: a map that follows sliders, and each of its tosses.",

@@ -1,7 +1,8 @@
-"""`cointoss flips`: counts of a coin's sides to the wobble of the hand that explains them."""
+"""`cointoss flips`: counts of a coin's sides to its fairness, its mass centre, or the wobble of a hand."""
 
+import math
 import sys
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Annotated
 
@@ -9,7 +10,7 @@ import click
 
 from cointoss.compare.commands.common import SCENARIO_HELP, ReadPlace, plain_errors, print_json
 from cointoss.compare.commands.names import optional_scenario_argument
-from cointoss.compare.commands.options import options_of
+from cointoss.compare.commands.options import Typed, only_with, options_of
 from cointoss.compare.commands.settings import set_option, with_scenario
 from cointoss.compare.output.accepted import Within, Written
 from cointoss.compare.sweep.asked import Source
@@ -20,6 +21,10 @@ from cointoss.models.devices import Device
 class SoughtHand:
     """How a hand is found, and where it goes."""
 
+    heads: Annotated[int | None, Within(0, 1_000_000_000)] = None
+    """Flips that showed heads, instead of COUNTS.csv."""
+    tails: Annotated[int | None, Within(0, 1_000_000_000)] = None
+    """Flips that showed tails."""
     hand: Annotated[Path | None, ReadPlace("a hand's file in TOML")] = None
     """File of the hand that tosses the scenario's coin; its psi is not used."""
     tosses: Annotated[int, Within(1, 10_000_000)] = 1000
@@ -34,39 +39,81 @@ class SoughtHand:
     """Print JSON, in full precision."""
 
 
+def _counted_once(given: Typed) -> str | None:
+    """Return what is wrong where counts are neither in a file nor typed, or both."""
+    counts = click.get_current_context().params["counts"]
+    accepted = "a CSV file with counts of flips, or --heads and --tails"
+    is_once = (counts is None) == ("heads" in given)
+    return None if is_once else f"COUNTS.csv: {counts or 'missing'}; accepted: {accepted}"
+
+
 @click.command(
-    epilog="COUNTS.csv has a row for each person, and columns same and flips, or heads_to_heads, "
-    "heads_to_tails, tails_to_tails and tails_to_heads. " + SCENARIO_HELP
+    epilog="COUNTS.csv has a row for each person or coin, and columns heads and tails; same and flips; or "
+    "heads_to_heads, heads_to_tails, tails_to_tails and tails_to_heads. Or it has the sides of one coin's "
+    "flips, as HTTH or 0110, where 1 is heads. " + SCENARIO_HELP
 )
-@click.argument("counts", metavar="COUNTS.csv", is_eager=True, type=ReadPlace("a CSV file"))
+@click.argument("counts", metavar="[COUNTS.csv]", required=False, is_eager=True, type=ReadPlace("a CSV file"))
 @optional_scenario_argument
 @set_option
-@options_of(SoughtHand)
+@options_of(SoughtHand, only_with("heads", "tails"), only_with("tails", "heads"), _counted_once)
 @with_scenario
-def flips(counts: Path, source: Source | None, asked: SoughtHand) -> None:
-    """Find how much people's coins wobble from how often they show the side that was up at first.
+def flips(counts: Path | None, source: Source | None, asked: SoughtHand) -> None:
+    """Say whether a coin is fair, and how much a hand wobbles, from counts of flips.
 
-    The command prints the psi of each person's hand, and its scatter over people, with 99 % intervals, and
-    whether this model can do what was counted at all. Where it cannot, the command prints no intervals, and
-    the exit status is 1. Without SCENARIO the coins are caught, and have two equal moments of inertia. With
-    it they are tossed onto its floor, or caught where its [ending] says so.
+    Of heads and tails the command prints the share of heads, and whether a fair coin can do this; with
+    SCENARIO also the offset of its mass centre that explains it, for a hand that tosses or spins.
+
+    Where the side that was up at first is known, it prints the psi of each person's hand, and its scatter
+    over people. Without SCENARIO the coins are caught, and have two equal moments of inertia. With it they
+    are tossed onto its floor, or caught where its [ending] says so.
+
+    Intervals are of 99 %. Where the model cannot do what was counted, there are none, and the exit status
+    is 1; a coin that is not fair is no reason for this.
     """
-    from cointoss.compare.flips.answer import as_lines
+    from cointoss.compare.flips.answer import as_lines, sides_as_lines
     from cointoss.compare.flips.caught import has_closed_form
+    from cointoss.compare.flips.hand_fit import HandFit
     from cointoss.compare.flips.hand_fit import flips as fitted
+    from cointoss.compare.flips.offset import offset
+    from cointoss.compare.flips.sides import Sides, together
+    from cointoss.compare.flips.table import Table, read_table
+    from cointoss.compare.metrics.estimate import Estimate
     from cointoss.compare.output.files import write_text
+    from cointoss.compare.sweep.errors import SweepError
+    from cointoss.models.hand import load_hand
 
     options = {name: getattr(asked, name) for name in ("hand", "tosses", "seed", "device")}
-    with plain_errors(str(counts)):
-        found = fitted(counts, source and source.scenario, **options)
-    if asked.out is not None and found.is_possible:
-        write_text(asked.out, found.hand_toml())
+    found = None
+    with plain_errors(str(counts or "cointoss")):
+        typed = {} if counts else {"1": Sides(heads=asked.heads or 0, tails=asked.tails or 0)}
+        table = read_table(counts) if counts else Table(None, typed)
+        is_offset = source and table.sides and asked.hand is not None and load_hand(asked.hand).spun
+        if table.flips and not is_offset:
+            found = fitted(table.flips, source and source.scenario, **options)
+        elif asked.out or (asked.hand and not source):
+            raise SweepError(
+                "`hand` and `out`: accepted: only with the side at the release, or `hand` with a SCENARIO"
+            )
+        elif source:
+            found = offset(together(table.sides.values()), source.scenario, **options)
+    hand = found if isinstance(found, HandFit) else None
+    if asked.out is not None and hand and hand.is_possible:
+        write_text(asked.out, hand.hand_toml())
     if asked.json:
-        tosses = None if has_closed_form(found.scenario, asked.hand) else asked.tosses
-        print_json({**found.as_dict(), "seed": asked.seed, "tosses": tosses}, "analytic")
+        is_tossed = source and not (hand and has_closed_form(source.scenario, asked.hand))
+        told = {
+            "sides": {name: one.as_dict() for name, one in table.sides.items()},
+            **(hand.as_dict() if hand else {"offset": found and asdict(found)}),
+            "seed": asked.seed,
+            "tosses": asked.tosses if is_tossed else None,
+        }
+        print_json(told, "analytic")
     else:
-        click.echo(as_lines(found))
-        if asked.out is not None:
-            so = "" if found.is_possible else " is not written: no hand explains these counts"
+        shown = [sides_as_lines(table.sides)] if table.sides else []
+        shown += [as_lines(found)] if found else []
+        click.echo("\n\n".join(shown))
+        if asked.out is not None and hand:
+            so = "" if hand.is_possible else " is not written: no hand explains these counts"
             click.echo(f"\nhand        {asked.out}{so}")
-    sys.exit(0 if found.is_possible else 1)
+    is_explained = hand.is_possible if hand else not (isinstance(found, Estimate) and math.isnan(found.low))
+    sys.exit(0 if is_explained else 1)

@@ -28,9 +28,9 @@ def has_closed_form(scenario: Scenario | None, hand: object) -> bool:
         scenario: of the coin; None for an ideal one that is caught.
         hand: that tosses the scenario's coin; None for none.
     """
-    if scenario is None:
-        return True
-    return hand is None and scenario.ending.caught is not None and bool(in_vacuum(scenario.body))
+    return scenario is None or (
+        hand is None and scenario.ending.caught is not None and bool(in_vacuum(scenario.body))
+    )
 
 
 def caught(scenario: Scenario | None) -> SameSide:

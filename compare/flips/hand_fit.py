@@ -170,7 +170,9 @@ def flips(
             raise SweepError(f"`{name}` {value}: accepted: {accepted}")
     usual = Hand() if hand is None else hand if isinstance(hand, Hand) else load_hand(hand)
     if usual.spun:
-        raise SweepError("hand.spun = True: accepted: false, for a hand that tosses")
+        raise SweepError(
+            "hand.spun = True: accepted: false, or counts of heads, for an offset of the mass centre"
+        )
     if described is not None and is_tossed:
         side = simulated(described, usual, tosses, seed, device)
     else:

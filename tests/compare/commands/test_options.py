@@ -137,7 +137,7 @@ VARY = "--vary height=0.2:0.6"
             "find.find.find_telling",
             {"sequence": "HT", "outcome": "tails", "tosses": 9, "seed": 4},
         ),
-        ("flips a.csv table --tosses 5 --seed 6", "flips.hand_fit.flips", {"tosses": 5, "seed": 6}),
+        ("flips b.csv table --tosses 5 --seed 6", "flips.hand_fit.flips", {"tosses": 5, "seed": 6}),
         (
             f"shares table {VARY}:2 --tosses 8 --seed 2 --engine mujoco",
             "shares.plan.plan_of",
@@ -149,6 +149,7 @@ VARY = "--vary height=0.2:0.6"
 def test_an_option_is_handed_to_its_argument(line, function, arguments, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("a.csv").write_text("t (s)\n1.2\n1.5\n")
+    Path("b.csv").write_text("same,flips\n1,2\n")
     with patch(f"cointoss.compare.{function}", side_effect=ScenarioError("enough")) as called:
         assert refused(*line.split()) == "cointoss: enough\n"
     given = dict[Any, Any](enumerate(called.call_args.args), **called.call_args.kwargs)

@@ -80,7 +80,7 @@ def test_sides_are_read_in_any_spelling():
         ("same,other,n\n1,2,4\n", "row 1: same 1, other 2 and n 4; accepted: no more than all"),
         ("same,flips,N\n1,2,2\n", "columns flips and N; accepted: one of them"),
         ("same,flips,hh\n1,2,2\n", "columns same and hh; accepted: one way to count"),
-        ("heads,tails\n1,2\n", "columns heads, tails; accepted: same and flips; same and other"),
+        ("heads,tails\n1,2\n", "the side at the release is not known; accepted: same and flips; same"),
         ("hh,ht,tt\n1,2,3\n", "columns hh, ht, tt; accepted: same and flips"),
         ("start,heads,tails\n?,1,2\n", "column start: row 1 is '?', accepted: heads, tails, h or t"),
         ("start,heads,tails\nthumb,1,2\n", "column start: row 1 is 'thumb', accepted: heads, tails, h or t"),
