@@ -85,8 +85,11 @@ def flips(counts: Path | None, source: Source | None, asked: SoughtHand) -> None
     options = {name: getattr(asked, name) for name in ("hand", "tosses", "seed", "device")}
     found = None
     with plain_errors(str(counts or "cointoss")):
-        typed = {} if counts else {"1": Sides(heads=asked.heads or 0, tails=asked.tails or 0)}
-        table = read_table(counts) if counts else Table(None, typed)
+        table = (
+            Table(None, {"1": Sides(heads=asked.heads or 0, tails=asked.tails or 0)})
+            if counts is None
+            else read_table(counts)
+        )
         is_offset = source and table.sides and asked.hand is not None and load_hand(asked.hand).spun
         if table.flips and not is_offset:
             found = fitted(table.flips, source and source.scenario, **options)

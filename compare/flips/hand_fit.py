@@ -162,10 +162,10 @@ def flips(
     if not isinstance(seen, Flips):
         raise ObservationError(f"counts: {seen!r}, accepted: Flips, or the path of a CSV file")
     described = None if scenario is None else scenario_of(scenario)
-    is_tossed = not has_closed_form(described, hand)
+    is_closed = has_closed_form(described, hand)
     unused = {"hand": (hand, None), "tosses": (tosses, TOSSES), "device": (device, Device.CPU)}
     for name, (value, usual) in unused.items():
-        if not is_tossed and value != usual:
+        if is_closed and value != usual:
             accepted = "only with a scenario whose coin is tossed, or is caught in vacuum, given a `hand`"
             raise SweepError(f"`{name}` {value}: accepted: {accepted}")
     usual = Hand() if hand is None else hand if isinstance(hand, Hand) else load_hand(hand)
@@ -173,10 +173,11 @@ def flips(
         raise SweepError(
             "hand.spun = True: accepted: false, or counts of heads, for an offset of the mass centre"
         )
-    if described is not None and is_tossed:
-        side = simulated(described, usual, tosses, seed, device)
-    else:
-        side = caught(described)
+    side = (
+        caught(described)
+        if described is None or is_closed
+        else simulated(described, usual, tosses, seed, device)
+    )
     return _hand_fit(seen, described, usual, side, seed)
 
 

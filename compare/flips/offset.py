@@ -18,7 +18,6 @@ from cointoss.models.devices import Device
 from cointoss.models.hand import Hand, load_hand
 from cointoss.models.reading import ScenarioSource, scenario_of
 
-FIELD = "coin.center_of_mass.zeta"
 LARGEST = 1 / 8
 """The largest offset in thicknesses: of two layers, equally thick, one three times as dense as the other."""
 SIMULATED = 15
@@ -66,9 +65,9 @@ def offset(
     if not (largest := LARGEST * described.coin.thickness):
         raise SweepError("coin.thickness = 0: accepted: more, for an offset along the normal")
     own = Hand() if hand is None else hand if isinstance(hand, Hand) else load_hand(hand)
-    values = (largest / SIMULATED, largest, SIMULATED)
+    field, values = "coin.center_of_mass.zeta", (largest / SIMULATED, largest, SIMULATED)
     either = replace(own, up="either")
-    offsets, p, behind = heads_along(described, FIELD, values, either, tosses, seed, device)
+    offsets, p, behind = heads_along(described, field, values, either, tosses, seed, device)
     places = np.concatenate([-offsets[::-1], [0.0], offsets]) / largest
     heads = SameSide(partial(np.interp, xp=places, fp=np.concatenate([1 - p[::-1], [0.5], p])), behind)
     return offset_of(sides, heads) * largest
