@@ -1,1 +1,1 @@
-"""How much people's coins wobble, from how often they show the first side; may import fitting and shares."""
+"""What counts of flips say of a coin, and of the hand that tosses it; may import fitting and shares."""
