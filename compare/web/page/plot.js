@@ -9,7 +9,7 @@ const LEFT = 66, RIGHT = 14, TOP = 26, BOTTOM = 48;
 const SHORTEST = 1e-6; // of the whole time
 const CLEAR_MARKS = 40; // more vertical lines than these fade
 const MOST_DOTS = 300;
-const APART = 45, HIGH = 22; // between two times at the axis, and two values of a logarithmic one [px]
+const APART = 45, HIGH = 22, LETTER = 9; // between times at the axis, values of a logarithmic one, and letters [px]
 
 export function numberText(value) {
   if (value === null || !Number.isFinite(value)) return "–";
@@ -85,9 +85,8 @@ export function makePlot(box, about, span) {
   function squeezed(foot) {
     const from = Math.max(xOf(axis.bend), LEFT), to = wide - RIGHT;
     if (from >= to) return [];
-    const made = [shape("rect", { class: "squeezed", x: from, y: TOP, width: to - from, height: foot - TOP })];
-    if (from > LEFT) made.push(shape("path", { class: "cut", d: `M${from - 5} ${foot + 6}l5 -12m3 12l5 -12` }));
-    return made;
+    const cut = from > LEFT ? [shape("path", { class: "cut", d: `M${from - 5} ${foot + 6}l5 -12m3 12l5 -12` })] : [];
+    return [shape("rect", { class: "squeezed", x: from, y: TOP, width: to - from, height: foot - TOP }), ...cut];
   }
 
   function scale(parts) {
@@ -139,8 +138,9 @@ export function makePlot(box, about, span) {
     frame.append(...axis.proofs.filter((proof) => visible(proof.time)).map(({ engine, time }) => upright(`proof ${engine}`, time)));
     const proofs = axis.proofs.map(({ time }) => time).filter(visible).map(x);
     if (proofs.length) {
-      const isRight = proofs.at(-1) > (LEFT + right) / 2, at = isRight ? proofs[0] - 7 : proofs.at(-1) + 7;
-      named.push(shape("text", { x: at, y: TOP + 17, "text-anchor": isRight ? "end" : "start" }, proofText(axis.proofs)));
+      const text = proofText(axis.proofs), room = LETTER * text.length, isLeft = proofs[0] - LEFT > right - proofs.at(-1);
+      const at = isLeft ? Math.max(proofs[0] - 7, LEFT + room) : Math.min(proofs.at(-1) + 7, right - room);
+      named.push(shape("text", { x: at, y: TOP + 17, "text-anchor": isLeft ? "end" : "start" }, text));
     }
     frame.append(...named);
     drawn.replaceChildren(...made, frame);

@@ -247,6 +247,47 @@ ROWS = [
         ["0", "1234.6", "1e-4", "1.2e+5", "–"],
     ),
     (
+        "plot",
+        f"(() => {{ const span = m.makeSpan([{{ end_time: 1, times: [], path: {TURNED} }}]);"
+        " span.show(0.2, 0.6); span.zoom(0.5); return [span.low, span.high]; })()",
+        pytest.approx([0.3, 0.5]),
+    ),
+    (
+        "plot",
+        "(() => { const box = document.createElement('div'), lines = [{ time: [0, 1], values: [0, 1] }];"
+        f" const span = m.makeSpan([{{ end_time: 1, times: [], path: {TURNED} }}]);"
+        " document.body.append(box); m.makePlot(box, { range: [0, 1], lines }, span);"
+        " const { points } = box.querySelector('polyline'); box.remove();"
+        " return [...points].map(({ y }) => y); })()",
+        [290 - 48, 26],
+    ),
+    # A text of marks far apart begins inside of the frame, and ends there.
+    (
+        "plot",
+        f"(() => {{ const box = document.createElement('div'), path = {TURNED};"
+        " const span = m.makeSpan([0.15, 0.95].map((end_time) => ({ end_time, times: [], path })));"
+        " box.style.width = '600px'; document.body.append(box);"
+        " m.makePlot(box, { range: [0, 1], lines: [] }, span); const { left } = box.getBoundingClientRect();"
+        " const text = box.querySelector('svg svg text').getBoundingClientRect(); box.remove();"
+        " return [text.left - left > 66, text.right - left < 586, text.width > 100]; })()",
+        [True, True, True],
+    ),
+    # At twice the speed frames after 0.1 s and 0.15 s.
+    (
+        "player",
+        "(() => { const box = document.createElement('div'), frames = [], seen = [];"
+        " for (const id of ['play', 'time', 'clock', 'speed', 'marks'])"
+        " box.append(Object.assign(document.createElement('input'), { id, value: 2 }));"
+        " document.body.append(box); const { requestAnimationFrame } = window;"
+        " window.requestAnimationFrame = (frame) => frames.push(frame);"
+        f" const tosses = [{{ end_time: 1, times: [], path: {TURNED} }}];"
+        " m.makePlayer((time) => seen.push(time)).load(tosses, true, 1);"
+        " if (!frames.length) box.firstChild.click();"
+        " for (const now of [7000, 7100, 7250]) frames.shift()(now);"
+        " Object.assign(window, { requestAnimationFrame }); box.remove(); return seen.slice(-3); })()",
+        pytest.approx([0, 0.2, 0.5]),
+    ),
+    (
         "ticks",
         "[[0, 1, 5], [20, 60, 4], [0, 7, 4], [0, 12, 4]].map((given) => m.ticks(...given).step)",
         [0.2, 10, 2, 5],
