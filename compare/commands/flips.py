@@ -104,17 +104,16 @@ def flips(counts: Path | None, source: Source | None, asked: SoughtHand) -> None
         write_text(asked.out, hand.hand_toml())
     if asked.json:
         is_tossed = source and not (hand and has_closed_form(source.scenario, asked.hand))
-        told = {
+        answer = {
             "sides": {name: one.as_dict() for name, one in table.sides.items()},
             **(hand.as_dict() if hand else {"offset": found and asdict(found)}),
             "seed": asked.seed,
             "tosses": asked.tosses if is_tossed else None,
         }
-        print_json(told, "analytic")
+        print_json(answer, "analytic")
     else:
-        shown = [sides_as_lines(table.sides)] if table.sides else []
-        shown += [as_lines(found)] if found else []
-        click.echo("\n\n".join(shown))
+        shown = (sides_as_lines(table.sides) if table.sides else "", as_lines(found) if found else "")
+        click.echo("\n\n".join(filter(None, shown)))
         if asked.out is not None and hand:
             so = "" if hand.is_possible else " is not written: no hand explains these counts"
             click.echo(f"\nhand        {asked.out}{so}")

@@ -69,10 +69,9 @@ def _along_the_normal(moments: Array, axes: Array, released: Array) -> Array:
     """
     energy = (released**2 / moments).sum(axis=-1)[..., None]
     about_the_largest = energy * moments[1] < 1
-    sides = np.sign(released[..., 0, None]), np.sign(released[..., 2, None])
-    (a, c), (n_a, n_c), (_, sign) = (
+    (a, c), (n_a, n_c), (_, l_c) = (
         (np.where(about_the_largest, least, most), np.where(about_the_largest, most, least))
-        for least, most in (moments[[0, 2]], axes[2, [0, 2]], sides)
+        for least, most in (moments[[0, 2]], axes[2, [0, 2]], (released[..., [0]], released[..., [2]]))
     )
     b, n_b = moments[1], axes[2, 1]
     from_a, from_c = 1 - energy * a, energy * c - 1
@@ -82,4 +81,4 @@ def _along_the_normal(moments: Array, axes: Array, released: Array) -> Array:
         np.sqrt(np.maximum(square, 0))
         for square in (a * from_c / (c - a), b * from_c / (c - b), c * from_a / (c - a))
     )
-    return n_a * along_a * cn + n_b * along_b * sn + n_c * sign * along_c * dn
+    return n_a * along_a * cn + n_b * along_b * sn + n_c * np.sign(l_c) * along_c * dn

@@ -166,8 +166,10 @@ def flips(
     unused = {"hand": (hand, None), "tosses": (tosses, TOSSES), "device": (device, Device.CPU)}
     for name, (value, usual) in unused.items():
         if is_closed and value != usual:
-            accepted = "only with a scenario whose coin is tossed, or is caught in vacuum, given a `hand`"
-            raise SweepError(f"`{name}` {value}: accepted: {accepted}")
+            raise SweepError(
+                f"`{name}` {value}: accepted: only with a scenario whose coin is tossed, "
+                "or is caught in vacuum, given a `hand`"
+            )
     usual = Hand() if hand is None else hand if isinstance(hand, Hand) else load_hand(hand)
     if usual.spun:
         raise SweepError(

@@ -173,14 +173,13 @@ def fit_people(flips: Flips, people: People) -> PeopleFit:
 def _most_likely(
     log_likelihood: Callable[[Array], float], start: tuple[float, ...], bounds: list[tuple[float, float]]
 ) -> Array:
-    best = minimize(
+    return minimize(
         lambda x: -log_likelihood(x),
         x0=start,
         bounds=bounds,
         method="Nelder-Mead",
         options={"xatol": _TOLERANCE, "fatol": _TOLERANCE},
-    )
-    return best.x
+    ).x
 
 
 def spread_interval(flips: Flips, found: PeopleFit) -> Array:
