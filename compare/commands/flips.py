@@ -93,9 +93,12 @@ def flips(counts: Path | None, source: Source | None, asked: SoughtHand) -> None
         is_offset = source and table.sides and asked.hand is not None and load_hand(asked.hand).spun
         if table.flips and not is_offset:
             found = fitted(table.flips, source and source.scenario, **options)
-        elif asked.out or (asked.hand and not source):
+        elif asked.out or (
+            not source and (asked.hand, asked.tosses, asked.device) != (None, 1000, Device.CPU)
+        ):
             raise SweepError(
-                "`hand` and `out`: accepted: only with the side at the release, or `hand` with a SCENARIO"
+                "`hand`, `tosses`, `device` and `out`: accepted: only with a SCENARIO, and `out` only "
+                "with the side at the release"
             )
         elif source:
             found = offset(together(table.sides.values()), source.scenario, **options)
