@@ -1,7 +1,7 @@
 """The analytic engine: equations of motion, air drag, impact laws; imports models alone."""
 
 from cointoss.analytic.impact.own_law import OwnLaw
-from cointoss.analytic.many import require_rows, toss_rows
+from cointoss.analytic.many import require_rows, rest_rows, toss_rows
 from cointoss.analytic.settings import FINE, MANY, AnalyticSettings
 from cointoss.analytic.toss import require_supported, toss
 from cointoss.models.kernel.vectors import solve
@@ -13,6 +13,7 @@ __all__ = [
     "OwnLaw",
     "require_rows",
     "require_supported",
+    "rest_rows",
     "solve",
     "toss",
     "toss_rows",

@@ -72,10 +72,8 @@ def _toss_run(
     keep_all, y = wanted != NO_TRUST, np.empty(STATE_SIZE)
     impacts = np.zeros(FIRST_ROOM if keep_all else 2, IMPACT_ROW)
     for i in range(len(rows)):
-        rules, answer = rules_of(rows[i]), answers[i]
+        rules, answer = with_own_law(rules_of(rows[i]), own), answers[i]
         _forget(answer[ANSWER_AT.ending :])
-        if own.address != 0:
-            rules = with_own_law(rules, own)
         if keep_all:
             rules = with_budgets(rules, min(rules.max_impacts, MOST_LOSSLESS), rules.max_time)
         write_release(rows[i], y)

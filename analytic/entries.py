@@ -1,6 +1,6 @@
 """What Python and a page call of the compiled engine; annotations say which rows of numbers are passed."""
 
-from cointoss.analytic import by_rows, events, going_on, path, seeing, striking
+from cointoss.analytic import by_rows, events, going_on, path, resting, seeing, striking
 from cointoss.analytic.air import force
 from cointoss.analytic.horizon import certainty, horizon
 from cointoss.analytic.horizon import event_tangent as tangent
@@ -16,6 +16,7 @@ toss_one = engine.entry(by_rows.toss_one, BROWSER)
 sample_path = engine.entry(by_rows.sample_path, BROWSER)
 
 toss_rows = engine.entry(by_rows.toss_rows)
+rest_each = engine.entry(resting.rest_each)
 toss_apart = engine.entry(by_rows.toss_apart, CUDA)
 toss_coin = engine.entry(events.toss_coin)
 go_on = engine.entry(going_on.go_on)

@@ -4,10 +4,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.analytic.by_rows import CERTAIN, NO_TRUST, TRUST
+from cointoss.analytic.entries import rest_each
 from cointoss.analytic.entries import toss_rows as toss_some
 from cointoss.analytic.impact.own_law import OwnLaw, require_floor
 from cointoss.analytic.on_device import toss_on_device
-from cointoss.analytic.settings import MANY, AnalyticSettings, ContactLimits, contact_limits
+from cointoss.analytic.settings import COARSEST, MANY, AnalyticSettings, ContactLimits, contact_limits
 from cointoss.models.answers import ANSWER, NOT_TOSSED, Answers, Trust, unanswered
 from cointoss.models.batch import PLACE, checked_table, scenario_of_row
 from cointoss.models.body import NO_CODE
@@ -19,12 +20,16 @@ from cointoss.models.kernel.cuda import CardError, GraphicsCard
 from cointoss.models.making import MOST_LOSSLESS
 from cointoss.models.processor import Processor
 from cointoss.models.records import UnsupportedError
+from cointoss.models.rests import with_errors
 from cointoss.models.rows import has_linear_air
 from cointoss.models.scenario import MOST_KEPT, keeping_all
 from cointoss.models.tiles import in_tiles
 
 TILE, SLOW_TILE = 512, 8
 """The most tosses that a thread makes at a time; the second number holds for air with b > 0."""
+NEAR, COARSER = 1e-14, 10.0
+"""By which a neighbour of a toss is released faster and higher, relative, as ten steps of flight may err; and
+the factor of the error allowed in its steps of contact."""
 _WANTED = {None: NO_TRUST, "impacts": TRUST, "certain": CERTAIN}
 
 
@@ -148,6 +153,32 @@ def toss_rows(
     return Answers.of_table(found, trust)
 
 
+def rest_rows(
+    rows: Array, *, settings: AnalyticSettings = MANY, law: OwnLaw | None = None, workers: int | None = None
+) -> Array:
+    """Return where the coins of many scenarios come to rest, by the columns of `REST`, (n, 7).
+
+    Each toss is made and followed twice: the second time, for an estimate of the error, with release and
+    contact changed by `NEAR` and `COARSER`.
+
+    Args:
+        rows: as of `toss_rows`, which the CPU tosses again.
+        settings: of the engine.
+        law: a contact law of one's own, in place of the scenarios'.
+        workers: number of threads, by default one for each core.
+    """
+    own, limits = NO_CODE if law is None else law.code, contact_limits(settings)
+    coarser = limits._replace(tolerance=min(COARSER * limits.tolerance, COARSEST))
+
+    def follow(rows: Array, rests: Array, is_near: bool) -> None:
+        def work(part: slice) -> None:
+            rest_each(rows[part], own, coarser if is_near else limits, rests[part])
+
+        in_tiles(len(rows), SLOW_TILE, work, workers)
+
+    return with_errors(rows, follow, NEAR)
+
+
 def _tossed_on(
     card: GraphicsCard, processor: Processor, rows: Array, limits: ContactLimits, wanted: int, found: Array
 ) -> NDArray[np.intp]:
@@ -165,3 +196,4 @@ _FLOOR, _AIR, _CENTER, _INERTIA = (
     [i for field, i in PLACE.items() if field.startswith(f"{table}.")]
     for table in ("floor", "air", "coin.center_of_mass", "coin.inertia")
 )
+"""The fields of the tables by their places in a row."""

@@ -5,6 +5,7 @@ from typing import Any
 from cointoss.coin_mj.many import require_rows, toss_rows
 from cointoss.coin_mj.model.settings import FINE, MANY, Friction, MujocoSettings, Realisation
 from cointoss.coin_mj.release_fields import release_fields
+from cointoss.coin_mj.resting import rest_rows
 from cointoss.coin_mj.toss import impacts_of, require_supported, toss
 from cointoss.homes import brought
 
@@ -18,6 +19,7 @@ __all__ = [
     "release_fields",
     "require_rows",
     "require_supported",
+    "rest_rows",
     "toss",
     "toss_rows",
 ]

@@ -8,6 +8,7 @@ from cointoss.models.kernel.library import Library
 engine = Library(__name__, lacks_none=True)
 
 toss_rows = engine.entry(by_rows.toss_rows)
+rest_each = engine.entry(by_rows.rest_each)
 toss_coin = engine.entry(events.toss_coin)
 go_on = engine.entry(events.go_on)
 sample_path = engine.entry(sampling.sample_path)

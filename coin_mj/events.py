@@ -175,13 +175,13 @@ def go_on(
             if way == FlightExit.BUDGET:
                 break
             touched, sustained = touch_of(coin, plastic, rules)
-        start, left_by = time, ContactExit.LIFT_OFF
+        start, left_by, now = time, ContactExit.LIFT_OFF, Ending.NONE
         if not sustained:
             result, time, _, path = resolve_impact(touched, time, path)
             sustained = result == TouchResult.SUSTAINED
         held = sustained
         if held:
-            left_by, time, steps_left, _, _, path = follow_contact(
+            left_by, time, steps_left, _, now, path = follow_contact(
                 coin, plastic, rules, time, steps_left, history, path, still
             )
         touches = doubled(touches) if n == len(touches) else touches
@@ -190,6 +190,8 @@ def go_on(
         steps_left -= 1
         sustained, lands = False, left_by == ContactExit.RIM_LANDS
         if left_by == ContactExit.DECIDED:
+            if now == Ending.AT_REST:
+                joint_of(coin).qvel[:] = 0
             break
     path = add_knot(coin, time, StepKind.FLIGHT, path)
     return path.table[: path.size], touches[:n]

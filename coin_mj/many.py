@@ -1,12 +1,11 @@
 """Many tosses in MuJoCo, on all cores."""
 
-import threading
-
 import numpy as np
 
 from cointoss.coin_mj.entries import toss_rows as toss_some
-from cointoss.coin_mj.model.machine import Machine, machine_of
+from cointoss.coin_mj.model.machine import Machine
 from cointoss.coin_mj.model.settings import MANY, MujocoSettings
+from cointoss.coin_mj.on_machines import on_machines
 from cointoss.coin_mj.toss import require_supported, warn_of_approximation
 from cointoss.models.answers import Answers, Trust, unanswered
 from cointoss.models.batch import PLACE, checked_table, scenario_of_row
@@ -16,13 +15,8 @@ from cointoss.models.fields import FIELDS
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.processor import Processor
 from cointoss.models.records import UnsupportedError
-from cointoss.models.tiles import in_tiles
 
-TILE = 8
-"""The most tosses that a thread makes at a time."""
 _FLOOR = [i for field, i in PLACE.items() if field.startswith("floor.")]
-_OF_MACHINE = PLACE["release.position.x"]
-"""What is before it in a row, MuJoCo's model is made of."""
 
 
 def require_rows(
@@ -90,23 +84,9 @@ def toss_rows(
     rows = checked_table("rows", rows, len(FIELDS))
     require_rows(rows, settings=settings, law=law, trust=trust, device=device)
     found = unanswered(len(rows), answers)
-    # NaN, for a field that is left out, counts as equal to itself here.
-    machines = np.nan_to_num(rows[:, :_OF_MACHINE], nan=np.inf)
-    _, coins = np.unique(machines, axis=0, return_inverse=True)
-    order, of_thread = np.argsort(coins, kind="stable"), threading.local()
 
-    def machine(row: int) -> Machine:
-        """Return the coin of a row, made again where this thread tossed another one before."""
-        if getattr(of_thread, "coin", None) != coins[row]:
-            of_thread.coin, of_thread.machine = coins[row], machine_of(scenario_of_row(rows[row]), settings)
-        return of_thread.machine
+    def toss_here(machine: Machine, some: Array, answered: Array) -> None:
+        toss_some(machine.coin, machine.plastic, machine.settings.budgets, some, answered)
 
-    def work(part: slice) -> None:
-        mine = order[part]
-        for some in np.split(mine, np.flatnonzero(np.diff(coins[mine])) + 1):
-            made, answered = machine(some[0]), found[some]
-            toss_some(made.coin, made.plastic, made.settings.budgets, rows[some], answered)
-            found[some] = answered
-
-    in_tiles(len(rows), TILE, work, workers)
+    on_machines(rows, settings, workers, found, toss_here)
     return Answers.of_table(found)

@@ -63,6 +63,8 @@ if TYPE_CHECKING:
     from cointoss.models.records import TrustEnd as TrustEnd
     from cointoss.models.records import UnsupportedError as UnsupportedError
     from cointoss.models.records import UnusableEngineError as UnusableEngineError
+    from cointoss.models.resting_place import Rest as Rest
+    from cointoss.models.resting_place import RestReason as RestReason
     from cointoss.models.scenario import Scenario as Scenario
     from cointoss.models.sources import named_scenarios as named_scenarios
     from cointoss.models.unlikely import UnitWarning as UnitWarning

@@ -31,12 +31,16 @@ class Package(Protocol):
     MANY: Any
     """Settings of many tosses."""
 
-    def toss(self, scenario: ScenarioSource, *, settings: Any = ...) -> Toss:
+    def toss(self, scenario: ScenarioSource, *, settings: Any = ..., rest: bool = ...) -> Toss:
         """Toss a coin; raise `UnsupportedError` for what the engine doesn't model."""
         ...
 
     def toss_rows(self, rows: Array, **how: Any) -> Answers:
         """Toss the scenarios of rows; see `cointoss.analytic.toss_rows`."""
+        ...
+
+    def rest_rows(self, rows: Array, **how: Any) -> Array:
+        """Return where the coins of rows come to rest; see `cointoss.analytic.rest_rows`."""
         ...
 
     def require_rows(self, rows: Array, **how: Any) -> None:
@@ -90,6 +94,7 @@ def toss(
     *,
     settings: Any = None,
     law: "OwnLaw | None" = None,
+    rest: bool = False,
 ) -> Toss:
     """Toss a coin by one engine.
 
@@ -98,6 +103,7 @@ def toss(
         engine: "analytic" or "mujoco".
         settings: `analytic.AnalyticSettings` or `coin_mj.MujocoSettings`; by default those of one toss.
         law: a contact law of one's own, in place of the scenario's, for the engine "analytic".
+        rest: whether to find where the coin comes to rest, `Toss.rest`; its path goes on up to there.
 
     Raises:
         ScenarioError: for a scenario, a file or a name that can't be used.
@@ -112,4 +118,5 @@ def toss(
         raise UnsupportedError(
             f'law: given, accepted: none with the engine {name}; engine = "analytic" takes one'
         )
-    return package.toss(scenario, settings=package.FINE if settings is None else settings, **more)
+    chosen = package.FINE if settings is None else settings
+    return package.toss(scenario, settings=chosen, rest=rest, **more)

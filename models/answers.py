@@ -11,6 +11,7 @@ from cointoss.models.kernel.arrays import Array, Row
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.labelled import meanings_of
 from cointoss.models.records import Ending, Face, Outcome
+from cointoss.models.resting_place import RestReason
 from cointoss.models.rows import NOT_TOSSED as NOT_TOSSED
 from cointoss.models.rows import REFUSED as REFUSED
 
@@ -54,8 +55,20 @@ COLUMNS = {
     "outcome_certain": AnswerColumn(
         kind=np.int8, attributes={"long_name": "whether the engine's own errors can't change the outcome"}
     ),
+    "rest_reason": _worded("whether the coin comes to rest, or why not", RestReason.by_value()),
+    **{
+        name: AnswerColumn(kind=np.float64, attributes={"long_name": told, "units": unit}, missing=np.nan)
+        for name, told, unit in (
+            ("rest_time", "time of rest", "s"),
+            ("rest_x", "x of the coin's centre at rest", "m"),
+            ("rest_y", "y of the coin's centre at rest", "m"),
+            ("rest_heading", "heading at rest", "rad"),
+            ("rest_path", "length of the path from the first touch to rest", "m"),
+            ("rest_error", "estimated error of a place on the rim at rest", "m"),
+        )
+    },
 }
-"""The columns of the results by name, in the order of `ANSWER`."""
+"""The columns of the results by name, in the order of `ANSWER` and of `REST`."""
 
 
 def names_of(trust: Trust | None) -> tuple[str, ...]:

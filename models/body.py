@@ -122,8 +122,11 @@ def with_time_alone(rules: Rules, max_time: float) -> Rules:
 
 @compiled
 def with_own_law(rules: Rules, own: OwnCode) -> Rules:
-    """Return the rules with a contact law of one's own, which is not followed into sustained contact."""
-    return _with_law(_with_own(rules, own), ContactLaw.SHARP_EDGE.value)
+    """Return the rules with a contact law of one's own, which is not followed into sustained contact.
+
+    With `NO_CODE` they stay what they are.
+    """
+    return rules if own.address == 0 else _with_law(_with_own(rules, own), ContactLaw.SHARP_EDGE.value)
 
 
 @compiled

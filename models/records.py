@@ -15,6 +15,7 @@ from cointoss.models.geometry import FACE_SINE
 from cointoss.models.interruptible import interruptible
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.labelled import EqualByValue, column, dataset, freeze, table
+from cointoss.models.resting_place import Rest, RestReason
 from cointoss.models.scenario import Scenario
 from cointoss.models.views import views
 from cointoss.models.words import Word
@@ -423,6 +424,10 @@ class Toss(EqualByValue):
     path: Path = field(compare=False)
     later: Later = field(default_factory=Later)
     """How the coin goes on after `end_time`."""
+    rest: Rest | None = None
+    """Where the coin comes to rest; None where it was not asked for, or where there is a reason against."""
+    rest_reason: RestReason | None = None
+    """That the coin comes to rest, or why not; None where it was not asked for."""
 
     def __post_init__(self) -> None:
         """Check the contacts and make them read-only."""

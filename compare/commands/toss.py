@@ -45,6 +45,8 @@ class Answer:
     """Also draw height, tilt and energy over time."""
     play: bool = False
     """Also open the lab, which plays this toss and has a slider for each quantity."""
+    rest: bool = False
+    """Also find where the coin comes to rest; its path goes on up to there."""
     margin: bool = False
     """Also find the smallest changes of the release that change the outcome."""
 
@@ -84,7 +86,7 @@ def toss(source: Source, asked: Answer, verbose: bool) -> None:
         if (value := getattr(asked, name)) is not None
     }
     fine = replace(package.FINE, **chosen)
-    result = package.toss(coin, settings=fine)
+    result = package.toss(coin, settings=fine, rest=asked.rest)
     if asked.trajectory is not None:
         times = answer.path_times(result)
         write_text(asked.trajectory, answer.path_csv(result.sample(times), coin))

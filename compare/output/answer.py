@@ -18,6 +18,7 @@ from cointoss.models.records import (
     Toss,
     UnsupportedError,
 )
+from cointoss.models.resting_place import SENTENCES, Rest, RestReason
 from cointoss.models.scenario import Scenario
 
 _JSON_FIELDS = [item.name for item in fields(Impacts) if item.name not in ("time", "face", "energy_change")]
@@ -61,8 +62,15 @@ def as_json(toss: Toss) -> dict[str, Any]:
             {**_impact(toss.impacts, i), "flags": sorted(flags)} for i, flags in enumerate(toss.flags)
         ],
         "contacts": [{"start": start, "end": end} for start, end in toss.contacts.tolist()],
+        **rest_as_json(toss),
         "certificate": [asdict(setting) for setting in toss.certificate],
     }
+
+
+def rest_as_json(toss: Toss) -> dict[str, Any]:
+    """Return where a coin comes to rest, and that it does or why not; nothing where it was not asked for."""
+    known = {"rest": toss.rest and asdict(toss.rest), "rest_reason": str(toss.rest_reason)}
+    return {} if toss.rest_reason is None else known
 
 
 def _other(other: OtherOutcome | None) -> dict[str, Any] | None:
@@ -119,6 +127,18 @@ def contact_line(toss: Toss) -> str:
     return f"{len(contacts)} times, {total:.6f} s in all, the last {last}"
 
 
+def rest_told(rest: Rest | None, reason: RestReason) -> str:
+    """Return where a coin comes to rest, or why it does not."""
+    if rest is None:
+        return f"none: {in_options(SENTENCES[reason])}"
+    x, y, path = np.round([1e3 * rest.x, 1e3 * rest.y, 1e3 * rest.path], 3) + 0.0
+    error = "unknown" if rest.error is None else f"about {1e3 * rest.error:.1g} mm"
+    return (
+        f"at {rest.time:.6f} s: x {x:.3f} mm, y {y:.3f} mm, heading {np.degrees(rest.heading):.2f} deg\n"
+        f"          (after a path of {path:.3f} mm from the first touch; error of the place {error})"
+    )
+
+
 def as_lines(toss: Toss, *, whole: bool = False, checked: bool = False) -> str:
     """Return a toss as text for a person.
 
@@ -137,6 +157,7 @@ def as_lines(toss: Toss, *, whole: bool = False, checked: bool = False) -> str:
         f"sequence  {shown if whole else shortened(shown)}",
         f"trusted   {toss.trust}",
         *([f"          ({_meaning_of_trust(toss)})"] if toss.trusted_impacts else []),
+        *([] if toss.rest_reason is None else [f"rest      {rest_told(toss.rest, toss.rest_reason)}"]),
     ]
     if checked and (residuals := _residuals(toss)):
         lines.append(f"checked   largest residuals: {residuals}")

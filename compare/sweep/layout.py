@@ -129,7 +129,7 @@ def holds_tosses(name: str, values: NDArray[Any]) -> NDArray[np.bool_]:
     """Return where an array, by its name, holds what a toss gave."""
     if name == "margin":
         return ~np.isnan(values)
-    if name == "end_time":  # NaN, too, of what is no scenario
+    if values.dtype.kind == "f":  # NaN, too, of what is no scenario
         return np.ones(values.shape, dtype=bool)
     known = {"outcome": [*Outcome], "outcome_certain": [0, 1]}.get(name)
     return (values == REFUSED) | (values >= 0 if known is None else np.isin(values, known))

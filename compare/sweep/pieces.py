@@ -12,12 +12,22 @@ from numpy.typing import NDArray
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.batch import Batch
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.models.answers import ANSWER, NOT_TOSSED, REFUSED, AnswerColumn, Answers, Trust, names_of
+from cointoss.models.answers import (
+    ANSWER,
+    COLUMNS,
+    NOT_TOSSED,
+    REFUSED,
+    AnswerColumn,
+    Answers,
+    Trust,
+    names_of,
+)
 from cointoss.models.batch import PLACE, refused
 from cointoss.models.devices import Device
 from cointoss.models.errors import ScenarioError
 from cointoss.models.processor import Processor
 from cointoss.models.records import Array
+from cointoss.models.resting_place import REST
 from cointoss.models.stages import stage
 from cointoss.models.unused import warn_of_unused_fields
 
@@ -50,6 +60,8 @@ class How:
     """Number of threads; by default one for each core."""
     keeps: bool = False
     """Whether a row that is no scenario gets the answer "refused"; else the rows are not checked again."""
+    rest: bool = False
+    """Whether to find where each coin comes to rest."""
     processor: Processor = field(default_factory=Processor, compare=False)
     """What tosses, and counts what a card tossed."""
     after: int | None = None
@@ -61,7 +73,7 @@ class How:
     @property
     def names(self) -> tuple[str, ...]:
         """The names of the answers."""
-        return names_of(self.trust)
+        return names_of(self.trust) + (REST if self.rest else ())
 
     @property
     def quantity(self) -> "ReleaseQuantity":
@@ -197,8 +209,10 @@ def columns_of(batch: Batch, how: How, numbers: NDArray[np.intp], answers: Answe
         numbers: of the tosses.
         answers: of the engine.
     """
-    found: Columns = {name: getattr(answers, name) for name in how.names}
+    found: Columns = {name: getattr(answers, name) for name in names_of(how.trust)}
     found["outcome"] = _shown(how, answers)
+    if how.rest:
+        found |= _rests(how, _rows(batch, how, numbers), answers.outcome)
     if how.margin is not None:
         found["margin"] = _margins(how, _rows(batch, how, numbers))
     return found
@@ -207,6 +221,16 @@ def columns_of(batch: Batch, how: How, numbers: NDArray[np.intp], answers: Answe
 def _shown(how: How, answers: Answers) -> NDArray[np.int8]:
     """Return the outcomes, or the faces at a touch."""
     return answers.outcome if how.after is None else answers.after(how.after)
+
+
+def _rests(how: How, rows: Array, outcomes: NDArray[np.int8]) -> Columns:
+    """Return where coins come to rest, by name; of a toss that was not made the reason is its outcome."""
+    table, made = np.full((len(rows), len(REST)), np.nan), outcomes >= 0
+    table[:, 0] = outcomes
+    law = {} if how.law is None else {"law": how.law}
+    rest_rows = how.engine.package.rest_rows
+    table[made] = rest_rows(rows[made], settings=how.settings, workers=how.workers, **law)
+    return {name: column.astype(COLUMNS[name].kind) for name, column in zip(REST, table.T, strict=True)}
 
 
 def _margins(how: How, rows: Array) -> Array:

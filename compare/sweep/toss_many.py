@@ -35,6 +35,7 @@ def toss_many(
     *,
     engine: Engine | str = "analytic",
     trust: Trust | None = None,
+    rest: bool = False,
     settings: Any = None,
     law: "OwnLaw | None" = None,
     workers: int | None = None,
@@ -65,6 +66,8 @@ def toss_many(
         trust: "impacts" also finds how many leading impacts of each toss can be trusted, in two to three
             times the time; "certain" finds that, and whether the engine's own errors can't change its
             outcome, in two to seven; by the analytic engine only.
+        rest: whether to find where each coin comes to rest, on the CPU: each toss is made and followed twice
+            more.
         settings: the engine's settings, by default its settings for many tosses.
         law: a contact law of one's own, in place of the scenario's, for the analytic engine.
         workers: number of threads, by default one for each core.
@@ -81,8 +84,9 @@ def toss_many(
     Returns:
         `outcome`, `ending` and `last_face` in words, `impacts`, `end_time` [s], and where asked for
         `trusted_impacts` and `outcome_certain`, over the dimensions of what varies, whose values are the
-        coordinates. The attributes name the device, and say how many tosses a card handed over to the CPU.
-        `ds.cointoss` counts, draws and saves. With `out` the dataset is the store's, which is
+        coordinates. With `rest` also `rest_reason`, and the fields of `cointoss.Rest`, as `rest_x`. The
+        attributes name the device, and say how many tosses a card handed over to the CPU. `ds.cointoss`
+        counts, draws and saves. With `out` the dataset is the store's, which is
         read as it is asked for, and has codes in place of words: `ds.cointoss` knows both.
 
     Raises:
@@ -101,7 +105,14 @@ def toss_many(
     """
     batch = batch_of(scenario, vary)
     how = how_of(
-        engine, trust=trust, settings=settings, law=law, workers=workers, device=device, errors=errors
+        engine,
+        trust=trust,
+        rest=rest,
+        settings=settings,
+        law=law,
+        workers=workers,
+        device=device,
+        errors=errors,
     )
     if out is None and (resume or overwrite):
         raise SweepError(f"{'resume' if resume else 'overwrite'}: given, accepted: only with out")
@@ -148,6 +159,7 @@ def how_of(
     engine: Engine | str,
     *,
     trust: Any = None,
+    rest: bool = False,
     settings: Any = None,
     law: Any = None,
     workers: Any = None,
@@ -174,6 +186,7 @@ def how_of(
         engine=chosen,
         settings=usual if settings is None else settings,
         trust=trust,
+        rest=rest,
         law=law,
         workers=workers,
         keeps=errors == "keep",
