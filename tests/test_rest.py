@@ -139,6 +139,8 @@ def test_an_error_is_about_that_of_the_engine():
     )
     assert ours.error / 100 < hypot(ours.x - finer.x, ours.y - finer.y) < 10 * ours.error
     assert hypot(ours.x - theirs.x, ours.y - theirs.y) < theirs.error < 5e-3
+    dropped = on({"position": [0, 0, 0.016], "angles": [0, 0.5, 0]}, rolling_friction=DELTA)
+    assert resting(dropped, "mujoco")[1].error > 0
 
 
 @pytest.mark.parametrize("engine", BOTH)
