@@ -5,10 +5,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-_OF_BOUNCE = (
-    *("Bounce", "PairBounce", "PairRest", "PhysxBounce", "Rebounds"),
-    *("bounce", "physx_bounce", "solref", "solref_of"),
-)
+_OF_BOUNCE = ("Bounce", "PairBounce", "PairRest", "Rebounds", "bounce", "solref", "solref_of")
 MOVED: dict[str, str] = {
     **{name: f"cointoss_bounce.{name} now; accepted: pip install cointoss-bounce" for name in _OF_BOUNCE},
     **{

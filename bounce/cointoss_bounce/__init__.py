@@ -10,23 +10,23 @@ if TYPE_CHECKING:
     from cointoss_bounce.errors import DeepContactWarning as DeepContactWarning
     from cointoss_bounce.inverse import Rebounds as Rebounds
     from cointoss_bounce.inverse import solref_of as solref_of
+    from cointoss_bounce.own_law import EngineBounce as EngineBounce
+    from cointoss_bounce.own_law import engine_bounce as engine_bounce
     from cointoss_bounce.pair import PairBounce as PairBounce
     from cointoss_bounce.pair import bounce as bounce
     from cointoss_bounce.pair_rest import PairRest as PairRest
-    from cointoss_bounce.physx import PhysxBounce as PhysxBounce
-    from cointoss_bounce.physx import physx_bounce as physx_bounce
     from cointoss_bounce.recipe import Bounce as Bounce
     from cointoss_bounce.recipe import solref as solref
 
 _HOMES = {
     "Bounce": "recipe",
     "DeepContactWarning": "errors",
+    "EngineBounce": "own_law",
     "PairBounce": "pair",
     "PairRest": "pair_rest",
-    "PhysxBounce": "physx",
     "Rebounds": "inverse",
     "bounce": "pair",
-    "physx_bounce": "physx",
+    "engine_bounce": "own_law",
     "solref": "recipe",
     "solref_of": "inverse",
 }

@@ -12,6 +12,7 @@ import numpy as np
 from cointoss_bounce.arrays import Array
 from cointoss_bounce.errors import FieldError
 from cointoss_bounce.jacobian import jacobian_of
+from cointoss_bounce.spring import end_of
 
 FARTHEST = 1e3
 """Distance beyond which two geoms are not moved together [m]."""
@@ -19,8 +20,6 @@ TRIES = 200
 """Moves by which two geoms are brought to a distance."""
 TURN = 0.2
 """The largest of these moves [m or rad]."""
-HALVINGS = 60
-"""Halvings by which the distance to a height field is found."""
 CLOSED = 1e-10
 """Error of an equality constraint that is met [m or rad]."""
 HELD = 1e-6
@@ -219,11 +218,8 @@ class Pair:
             mujoco.mj_collision(self.model, self.data)
             return any(contact.dist <= 0 for _, contact in self._between())
 
-        apart, inside = height - size[2] - 2 * reach, height
-        reached = overlaps(inside)
-        for _ in range(HALVINGS):
-            middle = (apart + inside) / 2
-            apart, inside = (apart, middle) if overlaps(middle) else (middle, inside)
+        reached = overlaps(height)
+        inside = end_of(lambda lowered: not overlaps(lowered), height - size[2] - 2 * reach, height)
         mujoco.mj_forward(self.model, self.data)
         if not reached:
             raise self._apart("MuJoCo lets them pass, or the one is not above the height field")

@@ -2,6 +2,9 @@
 
 from enum import StrEnum
 
+OWN = ("drake", "gazebo", "isaaclab", "pybullet")
+"""Engines with a law of restitution of their own, which MuJoCo can't measure."""
+
 
 class Backend(StrEnum):
     """What steps a model."""

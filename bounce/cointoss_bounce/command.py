@@ -17,6 +17,7 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
+from cointoss_bounce.backends import OWN, Backend
 from cointoss_bounce.errors import DeepContactWarning, FieldError
 from cointoss_bounce.quantities import Given, numbers, quantity
 
@@ -26,9 +27,11 @@ BESIDE = {
     **dict.fromkeys(("--with", "--integrator", "--solimp"), ("--of",)),
 }
 """Options of solref that are accepted only beside one of others."""
+_OWN = tuple(f"--backend {name}" for name in OWN)
 WITHOUT = {
-    "--model": ("--json", "--backend newton", "--backend genesis", "--backend isaaclab"),
-    **dict.fromkeys(("--spring", "--body", "--mass"), ("--backend isaaclab",)),
+    "--model": ("--json", "--backend newton", "--backend genesis", *_OWN),
+    **dict.fromkeys(("--spring", "--body"), _OWN),
+    "--mass": tuple(each for each in _OWN if each != "--backend drake"),
 }
 """Options of solref that are accepted only without others."""
 
@@ -181,7 +184,7 @@ def _require_picture(png: Path, model: Path) -> None:
 )
 @click.option(
     "--backend",
-    type=Word(["mujoco", "mjx", "warp", "newton", "genesis", "isaaclab"]),
+    type=Word([*map(str, Backend), *OWN]),
     help="Simulator that takes the settings; by default MuJoCo itself. They are printed in its own form.",
 )
 @click.option(
@@ -231,15 +234,13 @@ def solref(ctx: click.Context, whole: bool, as_json: bool, **options: Any) -> No
     asked = {name: value.value if isinstance(value, Given) else value for name, value in given.items()}
     option_of = {param.name: param.opts[0] for param in ctx.command.params}
     with _measuring(lambda error: f"{typed[option_of[error.field]]}:"):
-        from cointoss_bounce import inverse, physx, recipe
+        from cointoss_bounce import inverse, own_law, recipe
         from cointoss_bounce.solref_lines import solref_lines
 
         if "solref" in asked:
             found = inverse.solref_of(**asked)
-        elif asked.get("backend") == "isaaclab":
-            found = physx.physx_bounce(
-                **{name: asked[name] for name in ("restitution", "timestep", "gravity")}
-            )
+        elif asked.get("backend") in OWN:
+            found = own_law.engine_bounce(**asked)
         else:
             found = recipe.solref(**asked)
     if as_json:

@@ -16,13 +16,11 @@ from cointoss_bounce.contact import DEFAULT, GRAVITY, INTEGRATORS, ContactSettin
 from cointoss_bounce.drops import SPEED, drops_of
 from cointoss_bounce.measured import Measured
 from cointoss_bounce.rest import rest_of
-from cointoss_bounce.spring import contact_duration, restitution_of
+from cointoss_bounce.spring import contact_duration, end_of, restitution_of
 
 TWO = "two numbers as in a <geom>: both above 0, or both at most 0, such as 0.02 1 or -1000 -10"
 SOFTEST, HARDEST_IMPEDANCE = 1e-4, 0.9999
 """Impedances to which MuJoCo limits those of a solimp."""
-HALVINGS = 60
-"""Halvings by which a depth is found."""
 _PAIR = """<mujoco>
   <worldbody>
     <geom type="sphere" size="1" {one}/>
@@ -192,11 +190,7 @@ def _depth_at_rest(contact: ContactSettings, stiffness: float) -> float:
         d = _impedance(solimp, depth)
         return (1 - d) * contact.gravity * (deep / d) ** 2 / stiffness
 
-    low, high = 0.0, max(held(0.0), held(math.inf))
-    for _ in range(HALVINGS):
-        middle = (low + high) / 2
-        low, high = (middle, high) if held(middle) > middle else (low, middle)
-    return high
+    return end_of(lambda depth: held(depth) > depth, 0.0, max(held(0.0), held(math.inf)))
 
 
 def _impedance(solimp: str, depth: float) -> float:

@@ -8,7 +8,7 @@ from numbers import Integral
 import numpy as np
 
 from cointoss_bounce.accepted import require, require_bounds
-from cointoss_bounce.backends import Backend
+from cointoss_bounce.backends import OWN, Backend
 from cointoss_bounce.bodies import BALL, FlatBody, body_of
 from cointoss_bounce.contact import (
     GRAVITY,
@@ -152,8 +152,8 @@ def solref(
     """
     require_bounds(timestep, restitution=restitution, mass=mass, gravity=gravity)
     known = [item.value for item in Backend]
-    physx = "; physx_bounce has the settings of isaaclab" if backend == "isaaclab" else ""
-    require("backend", backend, backend in known, ", ".join(known) + physx)
+    own = f"; engine_bounce has the settings of {backend}" if backend in OWN else ""
+    require("backend", backend, backend in known, ", ".join(known) + own)
     engine = Backend(backend)
     spring = spring or engine is Backend.GENESIS
     most, by = (FIRMEST, "genesis") if engine is Backend.GENESIS else (1, "a spring")

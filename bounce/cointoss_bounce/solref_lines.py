@@ -8,7 +8,7 @@ from cointoss_bounce.contact import GRAVITY, text_of
 from cointoss_bounce.drops import SPEED
 from cointoss_bounce.flight import energy_change
 from cointoss_bounce.inverse import Rebounds
-from cointoss_bounce.physx import PhysxBounce
+from cointoss_bounce.own_law import EngineBounce
 from cointoss_bounce.recipe import Bounce, exact_of
 from cointoss_bounce.rest import Rest, depth_at_rest, rest_of
 
@@ -16,13 +16,15 @@ FAILS = 0.2
 """A formula that is further off than this part of itself fails."""
 
 
-def solref_lines(found: Bounce | PhysxBounce | Rebounds) -> str:
+def solref_lines(found: Bounce | EngineBounce | Rebounds) -> str:
     """Return settings and what they do, line by line."""
     match found:
         case Rebounds():
             return _rebounds(found)
-        case PhysxBounce():
-            return _physx(found)
+        case EngineBounce():
+            return "\n".join(
+                [found.settings, "", *(f"{name:11} {text}" for name, text in found.notes.items())]
+            )
         case Bounce():
             return _settings(found)
 
@@ -82,21 +84,6 @@ def _friction(found: Bounce) -> list[str]:
         f"slides, and lets a body that it holds {slips};",
         "docs/MUJOCO.md of cointoss says how to avoid both",
     ]
-
-
-def _physx(found: PhysxBounce) -> str:
-    """Return the settings of Isaac Lab for a restitution, and what they ask for, line by line."""
-    return "\n".join(
-        [
-            found.settings,
-            "",
-            "backend     isaaclab: names of Isaac Lab 2.3, not run",
-            'combine     "max" has priority over other modes: the larger restitution of both bodies holds',
-            f"threshold   a touch slower than {found.threshold:.3g} m/s, 2 g DT, does not bounce; "
-            "Isaac Lab has 0.5 m/s by default",
-            "spring      none: with a compliant_contact_stiffness above 0 there is no restitution",
-        ]
-    )
 
 
 def _rebounds(found: Rebounds) -> str:

@@ -6,9 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
-from cointoss_bounce import physx_bounce, solref
+from cointoss_bounce import engine_bounce, solref
 from cointoss_bounce.drops import drops_of
+from cointoss_bounce.spring import rebound_of
 
 
 def tuples(text):
@@ -37,6 +39,29 @@ def test_newton_is_given_solref_and_solimp_as_they_are(spring):
     assert f'integrator="{"rk4" if spring else "implicitfast"}"' in found.settings
 
 
-def test_the_threshold_of_physx_is_what_gravity_adds_in_two_steps():
-    assert physx_bounce(0.8, 2e-3, gravity=1.62).threshold == pytest.approx(2 * 1.62 * 2e-3)
-    assert "bounce_threshold_velocity=0.03924)" in physx_bounce(0.8, 2e-3).settings
+@pytest.mark.parametrize("backend", ["gazebo", "isaaclab", "pybullet"])
+def test_the_threshold_is_what_gravity_adds_in_two_steps(backend):
+    found = engine_bounce(0.8, 2e-3, backend=backend, gravity=1.62)
+    assert found.threshold == pytest.approx(2 * 1.62 * 2e-3)
+    assert "0.00648" in found.settings
+
+
+@pytest.mark.parametrize("e", [0.05, 0.5, 0.8, 0.999])
+def test_a_ball_on_the_contact_of_drake_rebounds_as_asked_and_lies_as_deep_as_told(e):
+    """It is stepped by SciPy: f = k x (1 + d v), without weight, and half of what both bodies have."""
+    found = engine_bounce(e, 2e-3, backend="drake", mass=0.5)
+    k, d, m = found.stiffness / 2, found.dissipation, 0.5
+
+    def rates(_, state):
+        return state[1], -k * max(state[0] * (1 + d * state[1]), 0.0) / m
+
+    for speed in (2.0, 0.5):
+        left = solve_ivp(rates, (0, 0.1), (0, speed), max_step=1e-4, rtol=1e-9, atol=1e-14).y[1, -1]
+        assert -left / speed == pytest.approx(rebound_of(d * speed), rel=1e-5)
+    assert rebound_of(2 * d) == pytest.approx(e, rel=1e-9)
+    assert f"{1e3 * m * 9.81 / k:.3g} mm deep" in found.notes["rest"]
+    assert np.pi * np.sqrt(m / k) == pytest.approx(4 * 2e-3)
+
+
+def test_an_elastic_ball_of_drake_has_no_dissipation():
+    assert "dissipation=0," in engine_bounce(1, 2e-3, backend="drake").settings

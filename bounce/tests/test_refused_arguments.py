@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from cointoss_bounce import bounce, physx_bounce, solref, solref_of
+from cointoss_bounce import bounce, engine_bounce, solref, solref_of
 from two_geoms import FLOOR, ball, model
 
 TWO_GEOMS = FLOOR + ball("")
@@ -50,12 +50,17 @@ SETTINGS = [
     ({"restitution": 1, "backend": "genesis"}, "restitution = 1: accepted: .* 0.999 by genesis"),
     ({"restitution": 0, "backend": "genesis"}, "restitution = 0: accepted: .* 0.01 to 0.999"),
     ({"backend": "brax"}, "accepted: mujoco, mjx, warp, newton, genesis$"),
-    ({"backend": "isaaclab"}, "genesis; physx_bounce has the settings of isaaclab$"),
+    ({"backend": "isaaclab"}, "genesis; engine_bounce has the settings of isaaclab$"),
     ({"gravity": 1001.0}, "gravity = 1001.0: accepted: from 0.001 to 1000 m/s.2 at this step"),
     ({"mass": 1e-7}, "mass = 1e-07: accepted: from 1e-06 to"),
     ({"body": "sphere 1e-7"}, "body = .*: accepted: a type and its size"),
     ({"steps": 501, "spring": True}, "steps = 501: accepted: a whole number from 5 to 500"),
     ({"timestep": 2e-3, "gravity": 501.0}, "gravity = 501.0: accepted: from 0.001 to 500 m/s.2"),
+]
+OF_ENGINES = [
+    ({"restitution": 1.2}, "restitution = 1.2: accepted: a number from 0 to 1"),
+    ({"restitution": 0, "backend": "drake"}, "restitution = 0: accepted: a number from 0.01 to 1 by drake"),
+    ({"backend": "ode"}, 'backend = "ode": accepted: drake, gazebo, isaaclab, pybullet'),
 ]
 OF_GIVEN = [
     ({"solref": (0.01, -1)}, "solref = .*: accepted: two numbers as in a <geom>"),
@@ -132,7 +137,7 @@ OF_BOUNCE = [
 GIVEN = {
     solref: {"restitution": 0.5, "timestep": 1e-3},
     solref_of: {"solref": (0.02, 1), "timestep": 1e-3},
-    physx_bounce: {"restitution": 0.5, "timestep": 1e-3},
+    engine_bounce: {"restitution": 0.5, "timestep": 1e-3, "backend": "gazebo"},
     bounce: {"model": model(TWO_GEOMS), "one": "a", "two": "b"},
 }
 """Arguments that each function accepts."""
@@ -141,7 +146,7 @@ REFUSED = [
     for function, rows in (
         (solref, SETTINGS),
         (solref_of, OF_GIVEN),
-        (physx_bounce, [({"restitution": 1.2}, "restitution = 1.2: accepted: a number from 0 to 1")]),
+        (engine_bounce, OF_ENGINES),
         (bounce, OF_BOUNCE),
     )
     for wrong, said in rows

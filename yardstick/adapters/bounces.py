@@ -1,54 +1,100 @@
-"""How a ball bounces in Newton with what `cointoss solref --backend newton` prints.
+"""How a ball bounces with what `cointoss solref --backend NAME` prints for Newton, Drake or PyBullet.
 
-    cointoss solref --restitution 0.8 --dt 0.002 --backend newton --json | python -m adapters.bounces
+    cointoss solref --restitution 0.8 --dt 0.002 --backend drake --json | python -m adapters.bounces
 
 prints the lowest and the highest restitution of touches at four phases of a step, without gravity.
 """
 
 import json
-import re
 import sys
-from ast import literal_eval
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from math import pi
 from typing import Any
 
 RADIUS, MASS, SPEED, PHASES, LONGEST = 0.01, 0.01, 2.0, 4, 400
 DENSITY = MASS / (4 / 3 * pi * RADIUS**3)
 
+Step = Callable[[], tuple[float, float]]
+"""Takes a step, and returns the height of the ball [m] and its speed upwards [m/s]."""
 
-def newton(found: dict[str, Any], steps: list[float]) -> Iterator[float]:
-    """Yield the speed after each touch that begins so many steps after the start, by SolverMuJoCo."""
+
+def newton(found: dict[str, Any], height: float) -> Step:
+    """Return the step of a ball that comes from a height, by SolverMuJoCo."""
     import newton
     import warp
     from newton.solvers import SolverMuJoCo
 
-    solref, solimp = numbers(found["settings"])
-    own = {"solref": solref, "solref_mode": 1, "geom_solimp": solimp, "geom_priority": 1, "condim": 1}
-    with warp.ScopedDevice("cpu"):
-        builder = newton.ModelBuilder(gravity=(0, 0, 0))
-        SolverMuJoCo.register_custom_attributes(builder)
-        builder.add_ground_plane()
-        shape = newton.ModelBuilder.ShapeConfig(density=DENSITY)
-        attributes = {f"mujoco:{name}": value for name, value in own.items()}
-        builder.add_shape_sphere(builder.add_body(), radius=RADIUS, cfg=shape, custom_attributes=attributes)
-        model = builder.finalize()
-        solver = SolverMuJoCo(model, integrator=found["integrator"].lower())
-        state, after, control = model.state(), model.state(), model.control()
+    before, call, rest = found["settings"].rpartition("SolverMuJoCo(model")
+    warp.set_device("cpu")
+    builder = newton.ModelBuilder(gravity=(0, 0, 0))
+    printed = {"SolverMuJoCo": SolverMuJoCo, "builder": builder}
+    exec(before, printed)
+    builder.add_ground_plane()
+    shape = newton.ModelBuilder.ShapeConfig(density=DENSITY)
+    own = printed["custom_attributes"]
+    builder.add_shape_sphere(builder.add_body(), radius=RADIUS, cfg=shape, custom_attributes=own)
+    model = builder.finalize()
+    solver = eval(call + rest, printed | {"model": model})
+    state, after, control = model.state(), model.state(), model.control()
+    state.joint_q.assign([0, 0, height, 0, 0, 0, 1])
+    state.joint_qd.assign([0, 0, -SPEED, 0, 0, 0])
 
-        def step() -> tuple[float, float]:
-            solver.step(state, after, control, None, found["timestep"])
-            state.assign(after)
-            return float(state.joint_q.numpy()[2]), float(state.joint_qd.numpy()[2])
+    def step() -> tuple[float, float]:
+        solver.step(state, after, control, None, found["timestep"])
+        state.assign(after)
+        return float(state.joint_q.numpy()[2]), float(state.joint_qd.numpy()[2])
 
-        for flight in steps:
-            state.joint_q.assign([0, 0, RADIUS + SPEED * flight * found["timestep"], 0, 0, 0, 1])
-            state.joint_qd.assign([0, 0, -SPEED, 0, 0, 0])
-            yield left(step)
+    return step
 
 
-def left(step: Callable[[], tuple[float, float]]) -> float:
-    """Return the speed at which a ball leaves the floor, by steps that return height and speed; 0: never."""
+def drake(found: dict[str, Any], height: float) -> Step:
+    """Return the step of a ball that comes from a height, in the plant that is printed."""
+    import pydrake.all as drake
+
+    printed = {**vars(drake), "properties": drake.ProximityProperties()}
+    exec(found["settings"], printed)
+    builder = drake.DiagramBuilder()
+    plant, _ = drake.AddMultibodyPlant(printed["plant_config"], builder)
+    ball = plant.AddRigidBody("ball", drake.SpatialInertia.SolidSphereWithMass(MASS, RADIUS))
+    for body, shape in ((plant.world_body(), drake.HalfSpace()), (ball, drake.Sphere(RADIUS))):
+        pose = drake.RigidTransform()
+        plant.RegisterCollisionGeometry(body, pose, shape, "shape", printed["properties"])
+    plant.mutable_gravity_field().set_gravity_vector([0, 0, 0])
+    plant.Finalize()
+    simulator = drake.Simulator(builder.Build())
+    drake.ApplySimulatorConfig(printed["simulator_config"], simulator)
+    context = plant.GetMyMutableContextFromRoot(simulator.get_mutable_context())
+    plant.SetPositions(context, [1, 0, 0, 0, 0, 0, height])
+    plant.SetVelocities(context, [0, 0, 0, 0, 0, -SPEED])
+
+    def step() -> tuple[float, float]:
+        simulator.AdvanceTo(simulator.get_context().get_time() + found["timestep"])
+        return plant.GetPositions(context)[6], plant.GetVelocities(context)[5]
+
+    return step
+
+
+def pybullet(found: dict[str, Any], height: float) -> Step:
+    """Return the step of a ball that comes from a height, with the settings that are printed."""
+    import pybullet as p
+
+    p.connect(p.DIRECT)
+    p.resetSimulation()
+    two = p.createMultiBody(0, p.createCollisionShape(p.GEOM_PLANE))
+    one = p.createMultiBody(MASS, p.createCollisionShape(p.GEOM_SPHERE, RADIUS), -1, (0, 0, height))
+    p.changeDynamics(one, -1, linearDamping=0)
+    p.resetBaseVelocity(one, (0, 0, -SPEED))
+    exec(found["settings"], {"p": p, "one": one, "two": two})
+
+    def step() -> tuple[float, float]:
+        p.stepSimulation()
+        return p.getBasePositionAndOrientation(one)[0][2], p.getBaseVelocity(one)[0][2]
+
+    return step
+
+
+def left(step: Step) -> float:
+    """Return the speed at which a ball leaves the floor; 0: never."""
     for _ in range(LONGEST):
         height, speed = step()
         if speed > 0 and height > RADIUS:
@@ -56,12 +102,9 @@ def left(step: Callable[[], tuple[float, float]]) -> float:
     return 0.0
 
 
-def numbers(settings: str) -> list[tuple[float, ...]]:
-    """Return the lists of numbers in brackets of printed settings."""
-    return [literal_eval(one) for one in re.findall(r"\([-\d.e, ]+,[-\d.e, ]+\)", settings)]
-
-
 if __name__ == "__main__":
     asked = json.load(sys.stdin)
-    rebounds = [v / SPEED for v in newton(asked, [2 + (n + 0.5) / PHASES for n in range(PHASES)])]
+    start = {"newton": newton, "drake": drake, "pybullet": pybullet}[asked["backend"]]
+    heights = [RADIUS + SPEED * asked["timestep"] * (2 + (n + 0.5) / PHASES) for n in range(PHASES)]
+    rebounds = [left(start(asked, height)) / SPEED for height in heights]
     print(f"{min(rebounds):.4f} to {max(rebounds):.4f}")
