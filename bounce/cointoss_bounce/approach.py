@@ -44,7 +44,8 @@ class Pair:
             FieldError: where no joint brings them together, or MuJoCo lets them pass through each other.
         """
         self.model = copy.copy(model)
-        self.model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
+        # MuJoCo before 3.4 has no sleep.
+        self.model.opt.enableflags &= ~int(getattr(mujoco.mjtEnableBit, "mjENBL_SLEEP", 0))
         self.geoms = {one, two}
         others = np.array([number not in self.geoms for number in range(model.ngeom)])
         self.model.geom_contype[others] = 0

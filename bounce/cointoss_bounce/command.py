@@ -100,8 +100,13 @@ def main(ctx: click.Context) -> None:
 @click.argument("one", metavar="GEOM")
 @click.argument("two", metavar="GEOM")
 @click.option("--png", type=click.Path(path_type=Path), help="Draw the restitution over the speed.")
+@click.option(
+    "--against",
+    metavar="PYTHON",
+    help="Print the same by the MuJoCo of another Python beside it, line by line.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
-def bounce(model: Path, one: str, two: str, png: Path | None, as_json: bool) -> None:
+def bounce(model: Path, one: str, two: str, png: Path | None, against: str | None, as_json: bool) -> None:
     """Print how two geoms of your own MuJoCo model bounce off each other.
 
     GEOM is the name or the number of a geom. They come together at six speeds and eight phases of a step,
@@ -118,10 +123,12 @@ def bounce(model: Path, one: str, two: str, png: Path | None, as_json: bool) -> 
         return f"{model}:" + ("" if error.field == "model" else f" {error.field} {error.value}:")
 
     with _measuring(named):
-        from cointoss_bounce.bounce_lines import bounce_lines
+        from cointoss_bounce import elsewhere
         from cointoss_bounce.pair import bounce as bounce_of
 
         found = bounce_of(model, one, two)
+        here = elsewhere.told(found)
+        there = elsewhere.measured_by(against, str(model), one, two) if against else None
     if png is not None:
         from cointoss_bounce.picture import draw_bounce
 
@@ -129,9 +136,10 @@ def bounce(model: Path, one: str, two: str, png: Path | None, as_json: bool) -> 
         draw_bounce(found).savefig(drawn, format="png", dpi=150)
         png.write_bytes(drawn.getvalue())
     if as_json:
-        _print_json(asdict(found))
+        _print_json(here["found"] | ({"against": there} if there else {}))
     else:
-        click.echo(bounce_lines(found) + (f"\n\npicture     {png}" if png else ""))
+        text = elsewhere.beside(here, there) if there else "\n".join(here["lines"])
+        click.echo(text + (f"\n\npicture     {png}" if png else ""))
 
 
 def _require_picture(png: Path, model: Path) -> None:

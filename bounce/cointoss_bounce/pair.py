@@ -21,6 +21,7 @@ from cointoss_bounce.errors import FieldError
 from cointoss_bounce.inverse import TWO
 from cointoss_bounce.pair_rest import PairRest, rest_between
 from cointoss_bounce.points import SHARE, Instant, Points, gravity_in
+from cointoss_bounce.states import copied
 from cointoss_bounce.unlogged import unlogged
 from cointoss_bounce.user_model import geom_of, load_model, require_measurable
 
@@ -234,7 +235,7 @@ def _come(pair: Pair, speed: float) -> tuple[Points, Instant] | PairOutcome:
             break
         if pair.has_passed():
             return PairOutcome.PASSES
-        mujoco.mj_copyData(pair.apart, model, data)
+        pair.apart = copied(model, data, pair.apart)
         mujoco.mj_step(model, data)
     else:
         return PairOutcome.UNSTABLE if _is_unstable(pair) else PairOutcome.MISSES

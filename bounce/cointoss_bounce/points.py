@@ -12,6 +12,7 @@ import numpy as np
 from cointoss_bounce.approach import Pair
 from cointoss_bounce.arrays import Array
 from cointoss_bounce.jacobian import jacobian_of
+from cointoss_bounce.states import copied
 
 SHARE = 0.1
 """A speed may differ at the touch by this part from the speed asked for and from that within a step."""
@@ -58,9 +59,9 @@ class Points:
             apart: the state.
             overlapping: the speed of the points on the other side of the gap, a step before or after [m/s].
         """
-        model, step, there = self.model, float(self.model.opt.timestep), self.spare
+        model, step = self.model, float(self.model.opt.timestep)
         rk4 = model.opt.integrator == int(mujoco.mjtIntegrator.mjINT_RK4)
-        mujoco.mj_copyData(there, model, apart)
+        there = copied(model, apart, self.spare)
         mujoco.mj_step(model, there)
         row, gap, speed = self._row(apart), self.gap(apart), self.speed(apart)
         # RK4's step may meet the contact; the others' implicit damping takes less than their q̈ says.

@@ -42,10 +42,10 @@ def rebound_of(loss: float) -> float:
     is u - b.
 
     Args:
-        loss: a > 0.
+        loss: a >= 0.
     """
     left = loss - math.log1p(loss)
-    return -math.expm1(-end_of(lambda u: u + math.expm1(-u) < left, 0.0, left + 1)) / loss
+    return -math.expm1(-end_of(lambda u: u + math.expm1(-u) < left, 0.0, left + 1)) / loss if loss else 1.0
 
 
 def dissipation_of(restitution: float) -> float:

@@ -61,7 +61,3 @@ def test_a_ball_on_the_contact_of_drake_rebounds_as_asked_and_lies_as_deep_as_to
     assert rebound_of(2 * d) == pytest.approx(e, rel=1e-9)
     assert f"{1e3 * m * 9.81 / k:.3g} mm deep" in found.notes["rest"]
     assert np.pi * np.sqrt(m / k) == pytest.approx(4 * 2e-3)
-
-
-def test_an_elastic_ball_of_drake_has_no_dissipation():
-    assert "dissipation=0," in engine_bounce(1, 2e-3, backend="drake").settings
