@@ -1,6 +1,6 @@
-"""How a ball bounces with what `cointoss solref --backend NAME` prints for Newton, Drake or PyBullet.
+"""How a ball bounces in Newton with what `cointoss solref --backend newton` prints.
 
-    cointoss solref --restitution 0.8 --dt 0.002 --backend drake --json | python -m adapters.bounces
+    cointoss solref --restitution 0.8 --dt 0.002 --backend newton --json | python -m adapters.bounces
 
 prints the lowest and the highest restitution of touches at four phases of a step, without gravity.
 """
@@ -47,52 +47,6 @@ def newton(found: dict[str, Any], height: float) -> Step:
     return step
 
 
-def drake(found: dict[str, Any], height: float) -> Step:
-    """Return the step of a ball that comes from a height, in the plant that is printed."""
-    import pydrake.all as drake
-
-    printed = {**vars(drake), "properties": drake.ProximityProperties()}
-    exec(found["settings"], printed)
-    builder = drake.DiagramBuilder()
-    plant, _ = drake.AddMultibodyPlant(printed["plant_config"], builder)
-    ball = plant.AddRigidBody("ball", drake.SpatialInertia.SolidSphereWithMass(MASS, RADIUS))
-    for body, shape in ((plant.world_body(), drake.HalfSpace()), (ball, drake.Sphere(RADIUS))):
-        pose = drake.RigidTransform()
-        plant.RegisterCollisionGeometry(body, pose, shape, "shape", printed["properties"])
-    plant.mutable_gravity_field().set_gravity_vector([0, 0, 0])
-    plant.Finalize()
-    simulator = drake.Simulator(builder.Build())
-    drake.ApplySimulatorConfig(printed["simulator_config"], simulator)
-    context = plant.GetMyMutableContextFromRoot(simulator.get_mutable_context())
-    plant.SetPositions(context, [1, 0, 0, 0, 0, 0, height])
-    plant.SetVelocities(context, [0, 0, 0, 0, 0, -SPEED])
-
-    def step() -> tuple[float, float]:
-        simulator.AdvanceTo(simulator.get_context().get_time() + found["timestep"])
-        return plant.GetPositions(context)[6], plant.GetVelocities(context)[5]
-
-    return step
-
-
-def pybullet(found: dict[str, Any], height: float) -> Step:
-    """Return the step of a ball that comes from a height, with the settings that are printed."""
-    import pybullet as p
-
-    p.connect(p.DIRECT)
-    p.resetSimulation()
-    two = p.createMultiBody(0, p.createCollisionShape(p.GEOM_PLANE))
-    one = p.createMultiBody(MASS, p.createCollisionShape(p.GEOM_SPHERE, RADIUS), -1, (0, 0, height))
-    p.changeDynamics(one, -1, linearDamping=0)
-    p.resetBaseVelocity(one, (0, 0, -SPEED))
-    exec(found["settings"], {"p": p, "one": one, "two": two})
-
-    def step() -> tuple[float, float]:
-        p.stepSimulation()
-        return p.getBasePositionAndOrientation(one)[0][2], p.getBaseVelocity(one)[0][2]
-
-    return step
-
-
 def left(step: Step) -> float:
     """Return the speed at which a ball leaves the floor; 0: never."""
     for _ in range(LONGEST):
@@ -104,7 +58,6 @@ def left(step: Step) -> float:
 
 if __name__ == "__main__":
     asked = json.load(sys.stdin)
-    start = {"newton": newton, "drake": drake, "pybullet": pybullet}[asked["backend"]]
     heights = [RADIUS + SPEED * asked["timestep"] * (2 + (n + 0.5) / PHASES) for n in range(PHASES)]
-    rebounds = [left(start(asked, height)) / SPEED for height in heights]
+    rebounds = [left(newton(asked, height)) / SPEED for height in heights]
     print(f"{min(rebounds):.4f} to {max(rebounds):.4f}")
