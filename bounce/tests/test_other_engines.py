@@ -41,9 +41,7 @@ def test_newton_is_given_solref_and_solimp_as_they_are(spring):
 
 @pytest.mark.parametrize("backend", ["gazebo", "isaaclab", "pybullet"])
 def test_the_threshold_is_what_gravity_adds_in_two_steps(backend):
-    found = engine_bounce(0.8, 2e-3, backend=backend, gravity=1.62)
-    assert found.threshold == pytest.approx(2 * 1.62 * 2e-3)
-    assert "0.00648" in found.settings
+    assert f"{2 * 1.62 * 2e-3:.6g}" in engine_bounce(0.8, 2e-3, backend=backend, gravity=1.62).settings
 
 
 @pytest.mark.parametrize("e", [0.05, 0.5, 0.8, 0.999])
@@ -58,6 +56,5 @@ def test_a_ball_on_the_contact_of_drake_rebounds_as_asked_and_lies_as_deep_as_to
     for speed in (2.0, 0.5):
         left = solve_ivp(rates, (0, 0.1), (0, speed), max_step=1e-4, rtol=1e-9, atol=1e-14).y[1, -1]
         assert -left / speed == pytest.approx(rebound_of(d * speed), rel=1e-5)
-    assert rebound_of(2 * d) == pytest.approx(e, rel=1e-9)
     assert f"{1e3 * m * 9.81 / k:.3g} mm deep" in found.notes["rest"]
-    assert np.pi * np.sqrt(m / k) == pytest.approx(4 * 2e-3)
+    assert (rebound_of(2 * d), np.pi * np.sqrt(m / k)) == pytest.approx((e, 4 * 2e-3), rel=1e-9)

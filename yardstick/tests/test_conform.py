@@ -142,7 +142,7 @@ def test_a_card_has_errors_by_step_and_their_order():
     assert [run.error for run in parabola.runs] == pytest.approx(
         [(run.dt or 0) / 0.4 for run in parabola.runs], rel=1e-6
     )
-    assert parabola.order == pytest.approx(1.0, abs=1e-6)
+    assert (parabola.order, parabola.lasting) == pytest.approx((1.0, 0.0), abs=1e-6)
     uneven = run_case(engine, CASES["parabola"], 7e-3)
     assert uneven.error == pytest.approx(0.4 / 57 / 0.4, rel=1e-6), "a step ends with the case"
     card = Card.of(engine, [parabola, terminal, flat])
@@ -158,6 +158,14 @@ def test_a_card_has_errors_by_step_and_their_order():
         "half-implicit",
     ):
         assert part in page
+
+
+def test_a_card_says_which_error_no_shorter_step_takes_away():
+    engine = simulator_of(Planted(lambda case: case.replace("gravity", 9.8), dt=1e-3))
+    card = Card.of(engine, run_cases([engine], [CASES["parabola"], CASES["flat_1"]]))
+    assert [each.lasting for each in card.results] == pytest.approx([0.01 * 0.08 / 0.7848, 0.0], rel=1e-3)
+    told = "an error of 1.0e-03 does not shrink with the step: the law differs"
+    assert (card.told, card.as_lines().count(told), card.page().count(told)) == ("2 of 2 cases met", 1, 1)
 
 
 def test_full_is_an_hour_and_10000_tosses():

@@ -84,7 +84,14 @@ class Card:
         folder = resources.files("cointoss_yardstick.suite")
         environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
         template = environment.from_string((folder / "card.html.j2").read_text(encoding="utf-8"))
-        return template.render(card=self, value=value, error=error_told, order=order_told, height=height_told)
+        return template.render(
+            card=self,
+            value=value,
+            error=error_told,
+            order=order_told,
+            lasting=lasting_told,
+            height=height_told,
+        )
 
 
 def _as_json(result: Result) -> dict[str, Any]:
@@ -98,6 +105,7 @@ def _as_json(result: Result) -> dict[str, Any]:
         "tolerance": result.tolerance,
         "reason": case.reason,
         "order": result.order,
+        "lasting": result.lasting,
         **_run_as_json(result.own),
         "runs": [{"dt": run.dt, **_run_as_json(run)} for run in result.runs],
     }
@@ -125,7 +133,7 @@ def _lines(result: Result) -> list[str]:
         ]
     elif own.why:
         lines += [f"  {own.why}"]
-    return lines
+    return [*lines, *(f"  {told}" for told in [lasting_told(result)] if told)]
 
 
 def value(numbers: Sequence[float]) -> str:
@@ -145,6 +153,15 @@ def error_told(run: Run) -> str:
 def height_told(run: Run) -> str:
     """Return at which height the lowest point touches or lies, as text; "" where that is allowed."""
     return f"; the lowest point touches or lies at {1e3 * run.height:+.3g} mm" if run.height else ""
+
+
+def lasting_told(result: Result) -> str:
+    """Return the error that lasts, as text; "" where none does."""
+    return (
+        f"an error of {result.lasting:.1e} does not shrink with the step: the law differs"
+        if result.lasting
+        else ""
+    )
 
 
 def order_told(result: Result) -> str:

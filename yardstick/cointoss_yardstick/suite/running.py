@@ -23,6 +23,8 @@ HAND = Hand.people(height=0.1, speed=1.0, spin=80.0)
 STEPS = (2.0, 1.0, 0.5, 0.25, 0.125, 0.0625)
 """The steps with which a case is run, over the engine's own."""
 
+ALIKE = 0.1
+"""The part by which two limits of an error may differ that lasts."""
 BETWEEN = 0.25
 """The part of the way between close states by which a touch may be off where no step is late."""
 
@@ -79,6 +81,20 @@ class Result:
             return None
         steps, errors = np.log([run.dt or 1 for run in known]), np.log([run.error for run in known])
         return float(np.polyfit(steps, errors, 1)[0])
+
+    @property
+    def lasting(self) -> float:
+        """The error that no shorter step takes away, if above the limit of an engine without a step; else 0.
+
+        Of three steps, each half the one before, each two extrapolate to a limit. An error lasts where both
+        limits are off alike.
+        """
+        case, found = self.case, [np.array(run.found) for run in self.runs[-3:]]
+        if not case.scale or len(found) < 3 or {len(each) for each in found} != {len(case.right)}:
+            return 0.0
+        before, off = (2 * found[i + 1] - found[i] - case.right for i in (0, 1))
+        size, change = (float(np.linalg.norm(each)) / case.scale for each in (off, off - before))
+        return size if size > case.tolerance["event_driven"] and change <= ALIKE * size else 0.0
 
 
 _ROUNDING = 1e-7
