@@ -41,7 +41,10 @@ def test_a_ceiling_and_a_sum_sink_to_what_is_there_and_never_rise():
     now = {"sums": {"houses": 13}, "houses": {"one": 7, "two/three": 5}}
     found = ceilings.sunk(now, {"houses": {"one": 6, "two/three": 6}})
     assert found.endswith('[sums]\nhouses = 11\n\n[houses]\n"one" = 6\n"two/three" = 5\n')
-    history = "-houses = 12\n+houses = 11\n+houses = 12\n"
+    before = "diff --git a b\n+houses = 5\n"
+    history = f"diff --git a b\n+# Granted: some\n-houses = 5\n+houses = 12\n{before}"
+    assert ceilings.risen({"houses": 12}, history) == []
+    history = f"diff --git a b\n-houses = 12\n+houses = 11\n{history}"
     assert ceilings.risen({"houses": 11}, history) == []
     assert ceilings.risen({"houses": 12}, history) == [
         "houses: a sum of 12, accepted: 11, which it was; a sum never rises"

@@ -64,13 +64,15 @@ def exceeded(ceilings: Ceilings, counts: Ceilings) -> list[str]:
 
 
 def risen(sums: Mapping[str, int], history: str) -> list[str]:
-    """Return a line for each sum that is above one that the file has had.
+    """Return a line for each sum that is above one that the file has had, since a rise was last granted.
 
     Args:
         sums: by kind.
-        history: the patches of the file, as of `git log -p`.
+        history: the patches of the file, as of `git log -p`; a grant is a comment, "# Granted".
     """
-    had = re.findall(rf"^\+({'|'.join(sums)}) = (\d+)$", history, re.MULTILINE)
+    patches = history.split("diff --git ")
+    granted = next((n for n, patch in enumerate(patches) if "\n+# Granted" in patch), len(patches))
+    had = re.findall(rf"^\+({'|'.join(sums)}) = (\d+)$", "".join(patches[: granted + 1]), re.MULTILINE)
     least = {
         kind: min([int(sum_) for name, sum_ in had if name == kind], default=sums[kind]) for kind in sums
     }
