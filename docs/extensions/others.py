@@ -3,6 +3,7 @@
 import json
 import math
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +26,16 @@ NEAR = 0.01
 """The error whose processor time is shown."""
 TIMED = "tilted"
 """The case that is timed."""
+SHEET = {
+    "e = 1": ("flat_1", lambda v: v[0]),
+    "ten touches": ("energy", lambda v: math.exp(10 * v[0])),
+    "rest": ("rest", lambda v: 1e3 * v[0]),
+    "slides": ("coulomb_slip", lambda v: v[1] / v[2] / 0.15),
+    "sticks": ("coulomb_stick", lambda v: v[1] / STUCK),
+    "spin": ("spin_kept", lambda v: v[-1] / 1000),
+}
+"""The columns of the table of engines: the case, and the number of what was found there."""
+STUCK = next(case.right[1] for case in cases() if case.name == "coulomb_stick")
 UNTIL = next(case.until for case in cases() if case.name == TIMED)
 
 
@@ -41,6 +52,7 @@ def blocks(docs: Path) -> dict[str, str]:
         "errors": errors(known),
         "orders": orders(known),
         "settings": settings(known),
+        "sheet": sheet(known),
         "findings": findings(docs.parent / ADAPTERS),
     }
 
@@ -99,6 +111,21 @@ def settings(known: list[dict[str, Any]]) -> str:
         for card in known
     ]
     return table("engine | settings | likely", rows, words=True)
+
+
+def sheet(known: list[dict[str, Any]]) -> str:
+    """Return what each engine does at a touch, at rest and in flight, and the heights at which it touches."""
+    rows = []
+    for card in known:
+        told = [_number(of_case(card, name), what) for name, what in SHEET.values()]
+        height = of_case(card, "flat_50").get("height")
+        told += ["" if height is None else f"{1e3 * height:.2g}", shown(of_case(card, "precession"))]
+        rows.append([card["engine"], card["date"], *told])
+    return table(["engine", "measured", *SHEET, "gap", "wobble"], rows)
+
+
+def _number(case: dict[str, Any], what: Callable[[list[float]], float]) -> str:
+    return shown(case) if case["error"] is None else f"{what(case['found']):.3g}"
 
 
 def of_case(card: dict[str, Any], name: str) -> dict[str, Any]:

@@ -11,6 +11,7 @@ import json
 import subprocess
 import sys
 import venv
+from datetime import date
 from pathlib import Path
 from typing import Any
 
@@ -51,7 +52,7 @@ def card_of(name: str, settings: str, python: Path) -> dict[str, Any]:
     answered = subprocess.run(command, cwd=HERE.parent, stdout=subprocess.PIPE, text=True)
     if answered.returncode not in (0, 1):
         raise SystemExit(f"{name}: {settings}: cointoss conform ended with status {answered.returncode}")
-    card = json.loads(answered.stdout)
+    card = {"engine": "", "date": str(date.today())} | json.loads(answered.stdout)
     for case in card["cases"]:
         runs = [[run["dt"], run["error"], run["processor_time"]] for run in case["runs"]]
         kept = {key: case[key] for key in KEPT}
