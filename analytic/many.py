@@ -171,10 +171,8 @@ def rest_rows(
     coarser = limits._replace(tolerance=min(COARSER * limits.tolerance, COARSEST))
 
     def follow(rows: Array, rests: Array, is_near: bool) -> None:
-        def work(part: slice) -> None:
-            rest_each(rows[part], own, coarser if is_near else limits, rests[part])
-
-        in_tiles(len(rows), SLOW_TILE, work, workers)
+        chosen = coarser if is_near else limits
+        in_tiles(len(rows), SLOW_TILE, lambda part: rest_each(rows[part], own, chosen, rests[part]), workers)
 
     return with_errors(rows, follow, NEAR)
 

@@ -10,7 +10,6 @@ from cointoss.analytic.going_on import go_on
 from cointoss.analytic.path import sample_piece
 from cointoss.analytic.settings import ContactLimits
 from cointoss.models.body import Body, OwnCode, with_budgets, with_own_law
-from cointoss.models.ending import followed_until
 from cointoss.models.free_joint import joint_of_states
 from cointoss.models.impact_row import FIRST_ROOM
 from cointoss.models.kernel.arrays import Row, Table
@@ -55,8 +54,7 @@ def _rest_one(body: Body, row: Row, own: OwnCode, limits: ContactLimits, rest: R
     started = started_of(go_on(body, rules, limits, pieces, ending, until))
     end, friction = joint_of_states(body, started.states[-1:])[0], friction_in_contact(rules)
     path = length_of(body, friction, limits.tolerance, started) if is_still(end) else 0.0
-    due = followed_until(rules, ending, end_time, until)
-    write_rest(reason, due, started.times[-1], end, path, rest)
+    write_rest(reason, started.times[-1], end, path, rest)
 
 
 @compiled

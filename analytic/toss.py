@@ -14,7 +14,6 @@ from cointoss.analytic.events import Started
 from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, state_of
 from cointoss.analytic.horizon.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR
 from cointoss.analytic.impact.own_law import OwnLaw, contact_in, residuals, rules_by
-from cointoss.analytic.many import rest_rows
 from cointoss.analytic.runs import EventLog, horizon_of, later_part, other_outcome, run
 from cointoss.analytic.settings import FINE, AnalyticSettings
 from cointoss.models.attitude import rotation_matrix
@@ -26,8 +25,6 @@ from cointoss.models.interruptible import interruptible
 from cointoss.models.parts import Release
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Array, Ending, Impacts, Setting, States, Toss, TrustEnd
-from cointoss.models.rests import with_rest
-from cointoss.models.rows import row_of
 from cointoss.models.scenario import Scenario, keeping_all
 from cointoss.models.stages import reached, stage
 
@@ -77,13 +74,7 @@ def require_supported(scenario: Scenario, *, settings: AnalyticSettings) -> None
     """Refuse nothing: this engine tosses every scenario."""
 
 
-def toss(
-    scenario: ScenarioSource,
-    *,
-    settings: AnalyticSettings = FINE,
-    law: OwnLaw | None = None,
-    rest: bool = False,
-) -> Toss:
+def toss(scenario: ScenarioSource, *, settings: AnalyticSettings = FINE, law: OwnLaw | None = None) -> Toss:
     """Toss a coin by the analytic engine.
 
     Free flight by eqs (21)-(22) of Strzalko et al. 2008 in Euler parameters, air drag by eqs (49)-(74),
@@ -102,8 +93,6 @@ def toss(
         scenario: what to toss; or a file's path, or a name such as "fig24a".
         settings: of the engine.
         law: a contact law of one's own, in place of the scenario's.
-        rest: whether to find where the coin comes to rest; its path goes on up to there, as by
-            `ending.until = "rest"`.
 
     Raises:
         ScenarioError: for a file or a name that can't be used, and for more impacts than can be kept.
@@ -111,12 +100,10 @@ def toss(
     """
     require_type("settings", settings, AnalyticSettings, "analytic.AnalyticSettings, such as analytic.FINE")
     described = scenario_of(scenario)
-    described = described.replace("ending.until", "rest") if rest else described
     rules = keeping_all(rules_by(law, described), described)
     so_far = np.zeros(2)
     with stage("tossing by the analytic engine", detail=lambda: reached(int(so_far[0]), so_far[1])):
-        found = interruptible(lambda: _toss(described, rules, settings, law, so_far))
-    return with_rest(found, rest_rows(row_of(described)[None], settings=settings, law=law)) if rest else found
+        return interruptible(lambda: _toss(described, rules, settings, law, so_far))
 
 
 def _toss(

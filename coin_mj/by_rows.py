@@ -9,7 +9,6 @@ from cointoss.coin_mj.model.state import put_at, state_of
 from cointoss.coin_mj.steps.knots import StepKind
 from cointoss.models.answers import write_end
 from cointoss.models.body import with_budgets
-from cointoss.models.ending import followed_until
 from cointoss.models.impact_row import FIRST_ROOM
 from cointoss.models.kernel.arrays import Table
 from cointoss.models.kernel.compiled import compiled
@@ -65,5 +64,4 @@ def rest_each(coin: MujocoCoin, plastic: MujocoCoin, budgets: Budgets, rows: Tab
         until = AT_REST if reason == RestReason.AT_REST else 0.0
         knots, _ = go_on(coin, plastic, rules, budgets, knots, ending, until)
         touched = knots[np.argmax(knots[:, 1] != StepKind.FLIGHT.value) :]
-        path, due = path_length(touched[:, 0], touched[:, 2:]), followed_until(rules, ending, end_time, until)
-        write_rest(reason, due, knots[-1, 0], knots[-1, 2:], path, rests[i])
+        write_rest(reason, knots[-1, 0], knots[-1, 2:], path_length(touched[:, 0], touched[:, 2:]), rests[i])

@@ -3,7 +3,6 @@
 import numpy as np
 
 from cointoss.coin_mj.entries import toss_rows as toss_some
-from cointoss.coin_mj.model.machine import Machine
 from cointoss.coin_mj.model.settings import MANY, MujocoSettings
 from cointoss.coin_mj.on_machines import on_machines
 from cointoss.coin_mj.toss import require_supported, warn_of_approximation
@@ -84,9 +83,5 @@ def toss_rows(
     rows = checked_table("rows", rows, len(FIELDS))
     require_rows(rows, settings=settings, law=law, trust=trust, device=device)
     found = unanswered(len(rows), answers)
-
-    def toss_here(machine: Machine, some: Array, answered: Array) -> None:
-        toss_some(machine.coin, machine.plastic, machine.settings.budgets, some, answered)
-
-    on_machines(rows, settings, workers, found, toss_here)
+    on_machines(rows, settings, workers, found, toss_some)
     return Answers.of_table(found)

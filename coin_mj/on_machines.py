@@ -6,7 +6,8 @@ from collections.abc import Callable
 import numpy as np
 
 from cointoss.coin_mj.model.machine import Machine, machine_of
-from cointoss.coin_mj.model.settings import MujocoSettings
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
+from cointoss.coin_mj.model.settings import Budgets, MujocoSettings
 from cointoss.models.batch import PLACE, scenario_of_row
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.tiles import in_tiles
@@ -22,7 +23,7 @@ def on_machines(
     settings: MujocoSettings,
     workers: int | None,
     found: Array,
-    work: Callable[[Machine, Array, Array], None],
+    work: Callable[[MujocoCoin, MujocoCoin, Budgets, Array, Array], None],
     softer: float = 1.0,
 ) -> None:
     """Do work on rows, those of one coin on its machine.
@@ -32,7 +33,8 @@ def on_machines(
         settings: of the machines.
         workers: number of threads, by default one for each core.
         found: what is found of each row, (n, k); written to as it comes.
-        work: writes what is found of some rows of one coin into a table of their own.
+        work: writes what is found of some rows of one coin into a table of their own; takes MuJoCo's coin,
+            the same for plastic touches, the budgets, the rows and the table.
         softer: the part by which the contacts are softened, see `MujocoSettings.softened`.
     """
     # NaN, for a field that is left out, counts as equal to itself here.
@@ -52,8 +54,8 @@ def on_machines(
     def work_on(part: slice) -> None:
         mine = order[part]
         for some in np.split(mine, np.flatnonzero(np.diff(coins[mine])) + 1):
-            written = found[some]
-            work(machine(some[0]), rows[some], written)
+            made, written = machine(some[0]), found[some]
+            work(made.coin, made.plastic, made.settings.budgets, rows[some], written)
             found[some] = written
 
     in_tiles(len(rows), TILE, work_on, workers)

@@ -1,7 +1,6 @@
 """Where MuJoCo's coins come to rest."""
 
 from cointoss.coin_mj.entries import rest_each
-from cointoss.coin_mj.model.machine import Machine
 from cointoss.coin_mj.model.settings import MANY, MujocoSettings
 from cointoss.coin_mj.on_machines import on_machines
 from cointoss.models.kernel.arrays import Array
@@ -25,10 +24,7 @@ def rest_rows(rows: Array, *, settings: MujocoSettings = MANY, workers: int | No
         workers: number of threads, by default one for each core.
     """
 
-    def rest_here(machine: Machine, some: Array, rests: Array) -> None:
-        rest_each(machine.coin, machine.plastic, machine.settings.budgets, some, rests)
-
     def follow(rows: Array, rests: Array, is_near: bool) -> None:
-        on_machines(rows, settings, workers, rests, rest_here, SOFTER if is_near else 1.0)
+        on_machines(rows, settings, workers, rests, rest_each, SOFTER if is_near else 1.0)
 
     return with_errors(rows, follow, NEAR)

@@ -16,7 +16,6 @@ from cointoss.coin_mj.model.machine import Machine, machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import FINE, ROUGH, Friction, MujocoSettings, Realisation
 from cointoss.coin_mj.path import Knots
-from cointoss.coin_mj.resting import rest_rows
 from cointoss.coin_mj.steps.held_step import contact_restitution
 from cointoss.coin_mj.trust import lawful_impacts, shared_impacts
 from cointoss.models.body import Body, Rules
@@ -42,8 +41,6 @@ from cointoss.models.records import (
     TrustEnd,
     UnsupportedError,
 )
-from cointoss.models.rests import with_rest
-from cointoss.models.rows import row_of
 from cointoss.models.scenario import Scenario, keeping_all
 from cointoss.models.stages import reached, stage
 
@@ -106,7 +103,7 @@ def require_supported(scenario: Scenario, *, settings: MujocoSettings) -> None:
             )
 
 
-def toss(scenario: ScenarioSource, *, settings: MujocoSettings = FINE, rest: bool = False) -> Toss:
+def toss(scenario: ScenarioSource, *, settings: MujocoSettings = FINE) -> Toss:
     """Toss a coin in MuJoCo.
 
     A spring's contact lasts about π/√stiffness, in which the coin turns a little: the impulse differs from
@@ -122,8 +119,6 @@ def toss(scenario: ScenarioSource, *, settings: MujocoSettings = FINE, rest: boo
     Args:
         scenario: what to toss; or a file's path, or a name such as "fig24a".
         settings: how MuJoCo realises the floor, and how finely it steps.
-        rest: whether to find where the coin comes to rest; its path goes on up to there, as by
-            `ending.until = "rest"`.
 
     Raises:
         ScenarioError: for a file or a name that can't be used, and for more impacts than can be kept.
@@ -135,13 +130,11 @@ def toss(scenario: ScenarioSource, *, settings: MujocoSettings = FINE, rest: boo
     """
     require_type("settings", settings, MujocoSettings, "coin_mj.MujocoSettings, such as coin_mj.FINE")
     described = scenario_of(scenario)
-    described = described.replace("ending.until", "rest") if rest else described
     require_supported(described, settings=settings)
     rules = keeping_all(described.rules, described)
     warn_of_approximation(described)
     with stage("tossing by MuJoCo"):
-        found = interruptible(lambda: _toss(described, rules, settings))
-    return with_rest(found, rest_rows(row_of(described)[None], settings=settings)) if rest else found
+        return interruptible(lambda: _toss(described, rules, settings))
 
 
 def _toss(scenario: Scenario, rules: Rules, settings: MujocoSettings) -> Toss:

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any, Protocol, cast
 from cointoss.models.answers import Answers
 from cointoss.models.distribution import versions_of
 from cointoss.models.kernel.arrays import Array
-from cointoss.models.reading import ScenarioSource
+from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Toss, UnsupportedError
+from cointoss.models.rests import with_rest
+from cointoss.models.rows import row_of
 from cointoss.models.scenario import Scenario
 
 if TYPE_CHECKING:
@@ -31,7 +33,7 @@ class Package(Protocol):
     MANY: Any
     """Settings of many tosses."""
 
-    def toss(self, scenario: ScenarioSource, *, settings: Any = ..., rest: bool = ...) -> Toss:
+    def toss(self, scenario: ScenarioSource, *, settings: Any = ...) -> Toss:
         """Toss a coin; raise `UnsupportedError` for what the engine doesn't model."""
         ...
 
@@ -103,7 +105,8 @@ def toss(
         engine: "analytic" or "mujoco".
         settings: `analytic.AnalyticSettings` or `coin_mj.MujocoSettings`; by default those of one toss.
         law: a contact law of one's own, in place of the scenario's, for the engine "analytic".
-        rest: whether to find where the coin comes to rest, `Toss.rest`; its path goes on up to there.
+        rest: whether to find where the coin comes to rest, `Toss.rest`; its path goes on up to there, as by
+            `ending.until = "rest"`.
 
     Raises:
         ScenarioError: for a scenario, a file or a name that can't be used.
@@ -113,10 +116,13 @@ def toss(
     """
     name = Engine(engine)
     package = name.package
-    more = {} if law is None else {"law": law}
+    more: dict[str, Any] = {} if law is None else {"law": law}
     if more and name != Engine.ANALYTIC:
         raise UnsupportedError(
             f'law: given, accepted: none with the engine {name}; engine = "analytic" takes one'
         )
-    chosen = package.FINE if settings is None else settings
-    return package.toss(scenario, settings=chosen, rest=rest, **more)
+    more["settings"] = package.FINE if settings is None else settings
+    if not rest:
+        return package.toss(scenario, **more)
+    found = package.toss(scenario_of(scenario).replace("ending.until", "rest"), **more)
+    return with_rest(found, package.rest_rows(row_of(found.scenario)[None], **more))

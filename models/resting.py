@@ -32,14 +32,12 @@ def unrest(body: Body, rules: Rules, ending: Ending, end_time: float, v: Vector)
         return RestReason.CAUGHT
     if followed_until(rules, ending, end_time, AT_REST) == end_time:
         return RestReason.UNDECIDED
-    mu = rules.friction if uses_friction(rules.law) else 0.0
-    mu = math.inf if is_rough(rules.law) else mu
+    mu = math.inf if is_rough(rules.law) else rules.friction if uses_friction(rules.law) else 0.0
     if not friction_can_hold(body, mu):
         return RestReason.SLOPE
+    is_free = mu == 0 and in_vacuum(body) and not resists(rules)
     slides = math.hypot(v[0], v[1]) > SLOW * (body.gravity * body.radius) ** 0.5
-    if slides and mu == 0 and in_vacuum(body) and not resists(rules):
-        return RestReason.FRICTIONLESS
-    return RestReason.AT_REST
+    return RestReason.FRICTIONLESS if is_free and slides else RestReason.AT_REST
 
 
 @compiled
@@ -60,29 +58,28 @@ def path_length(times: Row, motions: Table) -> float:
     for i in range(len(times) - 1):
         dt, one, two = times[i + 1] - times[i], motions[i], motions[i + 1]
         if dt > 0:
-            x = 1.5 * (two[0] - one[0]) / dt - (one[7] + two[7]) / 4
-            y = 1.5 * (two[1] - one[1]) / dt - (one[8] + two[8]) / 4
-            ends = math.hypot(one[7], one[8]) + math.hypot(two[7], two[8])
-            total += dt / 6 * (ends + 4 * math.hypot(x, y))
+            midway = math.hypot(
+                1.5 * (two[0] - one[0]) / dt - (one[7] + two[7]) / 4,
+                1.5 * (two[1] - one[1]) / dt - (one[8] + two[8]) / 4,
+            )
+            total += dt / 6 * (math.hypot(one[7], one[8]) + 4 * midway + math.hypot(two[7], two[8]))
     return total
 
 
 @compiled
-def write_rest(reason: RestReason, due: float, time: float, motion: Array, path: float, rest: Row) -> None:
+def write_rest(reason: RestReason, time: float, motion: Array, path: float, rest: Row) -> None:
     """Write whether a coin has come to rest, and where.
 
     Args:
         reason: that it may, or why not.
-        due: the time up to which it was followed if nothing else ended its path [s].
         time: at which its path ends [s].
         motion: qpos and qvel there, (13,).
         path: the length of its path from the first touch on [m].
         rest: where it goes, see `cointoss.models.resting_place.REST`, (7,); its error is not found here.
     """
-    if reason == RestReason.AT_REST and not is_still(motion):
-        reason = RestReason.TIME if time >= due else RestReason.STEPS
-    rest[0] = reason.value
-    if reason == RestReason.AT_REST:
-        R = rotation_matrix(four(motion, 3))
-        axis = 0 if abs(R[2][2]) > 0.5 else 2
-        copy_into(rest[1:6], (time, motion[0], motion[1], math.atan2(R[1][axis], R[0][axis]), path))
+    R = rotation_matrix(four(motion, 3))
+    axis = 0 if abs(R[2][2]) > 0.5 else 2
+    if reason != RestReason.AT_REST or not is_still(motion):
+        rest[0] = RestReason.MOVING.value if reason == RestReason.AT_REST else reason.value
+    else:
+        copy_into(rest[:6], (0.0, time, motion[0], motion[1], math.atan2(R[1][axis], R[0][axis]), path))

@@ -16,8 +16,7 @@ class RestReason(Word):
     CAUGHT = 2
     FRICTIONLESS = 3
     SLOPE = 4
-    TIME = 5
-    STEPS = 6
+    MOVING = 5
 
 
 SENTENCES = {
@@ -26,8 +25,10 @@ SENTENCES = {
     RestReason.CAUGHT: "A hand caught the coin.",
     RestReason.FRICTIONLESS: "Nothing stops the coin: the floor has no friction, and there is no air.",
     RestReason.SLOPE: "Friction cannot hold the coin on this slope.",
-    RestReason.TIME: "The coin still moves a minute after its toss, or at [ending] max_time.",
-    RestReason.STEPS: "The coin still moves when its steps are spent, or its contact law goes no further.",
+    RestReason.MOVING: (
+        "The coin still moves a minute after its toss, at [ending] max_time, when its steps are spent, "
+        "or where its contact law goes no further."
+    ),
 }
 """What each reason means."""
 

@@ -13,7 +13,6 @@ from cointoss.models.records import Toss
 from cointoss.models.resting_place import REST, Rest, RestReason
 from cointoss.models.rows import AT
 
-_NAMES = [name.removeprefix("rest_") for name in REST[1:]]
 _MOTION = [i for i, field in enumerate(FIELDS) if field.startswith(("release.velocity", "release.angular"))]
 
 
@@ -29,22 +28,20 @@ def with_errors(rows: Array, follow: Callable[[Array, Array, bool], None], chang
     rests = np.full((len(rows), len(REST)), np.nan)
     follow(rows, rests, False)
     at_rest = rests[:, 0] == RestReason.AT_REST
-    near, others = rows[at_rest], rests[at_rest]
-    reach = 2 * np.hypot(near[:, AT.coin_radius], near[:, AT.coin_thickness])
-    near[:, AT.release_position_z] *= np.where(near[:, AT.release_position_z] > reach, 1 + change, 1)
+    near, others = rows[at_rest], np.full((at_rest.sum(), len(REST)), np.nan)
+    height, radius = near[:, AT.release_position_z], near[:, AT.coin_radius]
+    height[height > 2 * np.hypot(radius, near[:, AT.coin_thickness])] *= 1 + change
     near[:, _MOTION] *= 1 + change
-    others[:] = np.nan
     follow(near, others, True)
     _, _, x, y, heading, _, _ = (rests[at_rest] - others).T
     turned = np.abs((heading + np.pi) % (2 * np.pi) - np.pi)
-    rests[at_rest, -1] = np.hypot(x, y) + near[:, AT.coin_radius] * turned
+    rests[at_rest, -1] = np.hypot(x, y) + radius * turned
     return rests
 
 
 def with_rest(toss: Toss, rests: Array) -> Toss:
     """Return a toss that says where its coin comes to rest, from that row of `REST`, (1, 7)."""
-    code, *numbers = rests[0].tolist()
-    named = zip(_NAMES, numbers, strict=True)
-    found: dict[str, Any] = {name: None if math.isnan(one) else one for name, one in named}
-    rest = None if found["time"] is None else Rest(**found)
-    return replace(toss, rest=rest, rest_reason=RestReason(int(code)))
+    code, *numbers = (None if math.isnan(one) else one for one in rests[0].tolist())
+    named: Any = dict(zip((name.removeprefix("rest_") for name in REST[1:]), numbers, strict=True))
+    reason = RestReason(int(code or 0))
+    return replace(toss, rest=Rest(**named) if reason == RestReason.AT_REST else None, rest_reason=reason)

@@ -116,6 +116,7 @@ def first_sides(plan: "Plan") -> "Iterator[tuple[int, Counts]]":
 def _answer(counted: int, counts: Counts, told: dict[str, Any], lines: "HandLines | None") -> None:
     """Print what is counted; as JSON where there are no lines for a person."""
     from cointoss.compare.metrics.estimates import share_of
+    from cointoss.compare.output.hand_lines import uncaught
 
     shares = {name: share_of(met, of) for name, (met, of) in counts.items() if of}
     not_caught = counted - counts["caught"][1] if "caught" in counts else 0
@@ -125,13 +126,11 @@ def _answer(counted: int, counts: Counts, told: dict[str, Any], lines: "HandLine
         print_json({**told, kind: {k: asdict(v) for k, v in shares.items()}}, told["engine"])
         return
     not_flat = counted - counts["at rest"][1] if "at rest" in counts else 0
-    click.echo(lines.above)
-    for name, one in shares.items():
-        click.echo(f"{name:9} {one.value:7.2%} [{one.low:.2%}, {one.high:.2%}] of {one.count:,d} tosses")
-    if not_caught:
-        click.echo(
-            f"left out  {not_caught:,d} coin{'s' * (not_caught != 1)} that never came down to the hand"
-        )
+    told_shares = (
+        f"{name:9} {one.value:7.2%} [{one.low:.2%}, {one.high:.2%}] of {one.count:,d} tosses"
+        for name, one in shares.items()
+    )
+    left_out = [f"left out  {uncaught(not_caught)}"] if not_caught else []
     if not_flat:
-        click.echo(f"left out  at rest: {not_flat:,d} coin{'s' * (not_flat != 1)} that ended on no face")
-    click.echo("\n".join(["", *lines.below]))
+        left_out.append(f"left out  at rest: {not_flat:,d} coin{'s' * (not_flat != 1)} that ended on no face")
+    click.echo("\n".join([lines.above, *told_shares, *left_out, "", *lines.below]))

@@ -156,6 +156,7 @@ def _print(found: "xr.Dataset", plan: "Plan", scenario: str, as_json: bool) -> N
     """Print the shares."""
     import numpy as np
 
+    from cointoss.compare.output.hand_lines import uncaught
     from cointoss.compare.output.terminal import laid_out
     from cointoss.compare.shares import show
     from cointoss.compare.sweep.axes import HAND
@@ -163,24 +164,25 @@ def _print(found: "xr.Dataset", plan: "Plan", scenario: str, as_json: bool) -> N
     if as_json:
         print_json({"scenario": scenario, "to": plan.to, **show.as_json(found)}, *plan.engines)
         return
-    click.echo(laid_out(show.markdown(found), _width()))
     of = "coins that the hand catches, by the side that is up" if plan.catches else "tosses, by how they end"
-    click.echo(f"\nshares     of the {of}; in brackets 99 % intervals")
     varied = [axis.field for axis in plan.vary if axis.field in HAND]
     instead = f"; but {' and '.join(varied)} as above" if varied else ""
-    click.echo(f"hand       {plan.hand.in_words}{instead}")
-    if plan.unvaried:
-        click.echo(f"unvaried   {plan.unvaried}")
-    click.echo(f"engine     {' and '.join(plan.engines)}, seed {plan.seed}")
-    if missed := int(found.not_caught.sum()):
-        click.echo(f"left out   {missed:,d} coin{'s' * (missed != 1)} that never came down to the hand")
-    if len(alike := show.alike(found)):
-        click.echo(
-            f"alike      p = {np.nanmin(alike):.2g}: engines that agree differ as much with this probability"
-        )
-        if len(alike) > 1:
-            by_chance = f"by chance the least is as small in {show.least_alike(found):.2g} of all runs"
-            click.echo(f"           (the least of {len(alike)} settings; {by_chance})")
+    missed, alike = int(found.not_caught.sum()), show.alike(found)
+    differ = "engines that agree differ as much with this probability"
+    lines = [
+        laid_out(show.markdown(found), _width()),
+        "",
+        f"shares     of the {of}; in brackets 99 % intervals",
+        f"hand       {plan.hand.in_words}{instead}",
+        *([f"unvaried   {plan.unvaried}"] if plan.unvaried else []),
+        f"engine     {' and '.join(plan.engines)}, seed {plan.seed}",
+        *([f"left out   {uncaught(missed)}"] if missed else []),
+        *([f"alike      p = {np.nanmin(alike):.2g}: {differ}"] if len(alike) else []),
+    ]
+    if len(alike) > 1:
+        by_chance = f"by chance the least is as small in {show.least_alike(found):.2g} of all runs"
+        lines.append(f"           (the least of {len(alike)} settings; {by_chance})")
+    click.echo("\n".join(lines))
 
 
 def _width() -> int:

@@ -71,6 +71,7 @@ def toss(source: Source, asked: Answer, verbose: bool) -> None:
 
     with stage("getting ready"):  # what is imported takes long on a busy machine
         from cointoss.compare.engines import Engine
+        from cointoss.compare.engines import toss as toss_by
         from cointoss.compare.film.back_end import require_mujoco
         from cointoss.compare.output import answer
         from cointoss.compare.output.files import write_bytes, write_text
@@ -86,7 +87,7 @@ def toss(source: Source, asked: Answer, verbose: bool) -> None:
         if (value := getattr(asked, name)) is not None
     }
     fine = replace(package.FINE, **chosen)
-    result = package.toss(coin, settings=fine, rest=asked.rest)
+    result = toss_by(coin, asked.engine, settings=fine, rest=asked.rest)
     if asked.trajectory is not None:
         times = answer.path_times(result)
         write_text(asked.trajectory, answer.path_csv(result.sample(times), coin))

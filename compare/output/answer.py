@@ -62,15 +62,14 @@ def as_json(toss: Toss) -> dict[str, Any]:
             {**_impact(toss.impacts, i), "flags": sorted(flags)} for i, flags in enumerate(toss.flags)
         ],
         "contacts": [{"start": start, "end": end} for start, end in toss.contacts.tolist()],
-        **rest_as_json(toss),
+        **({} if toss.rest_reason is None else rest_as_json(toss)),
         "certificate": [asdict(setting) for setting in toss.certificate],
     }
 
 
 def rest_as_json(toss: Toss) -> dict[str, Any]:
-    """Return where a coin comes to rest, and that it does or why not; nothing where it was not asked for."""
-    known = {"rest": toss.rest and asdict(toss.rest), "rest_reason": str(toss.rest_reason)}
-    return {} if toss.rest_reason is None else known
+    """Return where a coin comes to rest, and that it does or why not."""
+    return {"rest": toss.rest and asdict(toss.rest), "rest_reason": str(toss.rest_reason)}
 
 
 def _other(other: OtherOutcome | None) -> dict[str, Any] | None:

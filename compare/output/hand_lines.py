@@ -42,6 +42,11 @@ def hand_lines(hand: Hand, scenario: Scenario, engine: str, seed: int) -> HandLi
     return HandLines(above, (*why, *below))
 
 
+def uncaught(count: int) -> str:
+    """Return how many coins a hand did not catch, in words."""
+    return f"{count:,d} coin{'s' * (count != 1)} that never came down to the hand"
+
+
 def keeps_momenta(scenario: Scenario) -> bool:
     """Return whether no contact changes the angular momenta about the vertical and about the coin's axis."""
     coin, floor = scenario.coin, scenario.floor

@@ -227,9 +227,12 @@ def _rests(how: How, rows: Array, outcomes: NDArray[np.int8]) -> Columns:
     """Return where coins come to rest, by name; of a toss that was not made the reason is its outcome."""
     table, made = np.full((len(rows), len(REST)), np.nan), outcomes >= 0
     table[:, 0] = outcomes
-    law = {} if how.law is None else {"law": how.law}
-    rest_rows = how.engine.package.rest_rows
-    table[made] = rest_rows(rows[made], settings=how.settings, workers=how.workers, **law)
+    table[made] = how.engine.package.rest_rows(
+        rows[made],
+        settings=how.settings,
+        workers=how.workers,
+        **({} if how.law is None else {"law": how.law}),
+    )
     return {name: column.astype(COLUMNS[name].kind) for name, column in zip(REST, table.T, strict=True)}
 
 
