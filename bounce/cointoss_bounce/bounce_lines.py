@@ -31,20 +31,16 @@ def bounce_lines(found: PairBounce) -> str:
     """Return how two geoms bounce off each other, line by line."""
     solref = " ".join(f"{number:g}" for number in found.solref)
     friction = f' friction="{found.friction:g}"' if found.condim > 1 else ""
-    return (
-        f'mixed       solref="{solref}" solimp="{found.solimp}" condim="{found.condim}"{friction}\n'
-        f"integrator  {found.integrator}, {1e3 * found.timestep:g} ms\n{_margin(found)}"
-        f"approach    {_approach(found)}\n\n{bounce_table(found)}\n\n{rest_lines(found)}"
-    )
-
-
-def _approach(found: PairBounce) -> str:
-    """Return how the geoms were thrown at each other, in words."""
-    return (
+    approach = (
         "as an impulse between the geoms moves the joints: "
         f"a body turns by {found.turning:.3g} rad on each metre of the way"
         if found.turning
         else "straight: no body turns"
+    )
+    return (
+        f'mixed       solref="{solref}" solimp="{found.solimp}" condim="{found.condim}"{friction}\n'
+        f"integrator  {found.integrator}, {1e3 * found.timestep:g} ms\n{_margin(found)}"
+        f"approach    {approach}\n\n{bounce_table(found)}\n\n{rest_lines(found)}"
     )
 
 

@@ -138,8 +138,8 @@ def bounce(model: Path, one: str, two: str, png: Path | None, against: str | Non
     if as_json:
         _print_json(here["found"] | ({"against": there} if there else {}))
     else:
-        text = elsewhere.beside(here, there) if there else "\n".join(here["lines"])
-        click.echo(text + (f"\n\npicture     {png}" if png else ""))
+        click.echo(elsewhere.beside(here, there) if there else "\n".join(here["lines"]))
+        click.echo(f"\npicture     {png}") if png else None
 
 
 def _require_picture(png: Path, model: Path) -> None:

@@ -33,20 +33,22 @@ def measured_by(python: str, *asked: str) -> dict[str, Any]:
     Raises:
         FieldError: with the last line that it says, where it measures nothing.
     """
-    folder = Path(__file__).parent
-    command = [python, "-c", RUN, folder / "__init__.py", folder, *asked]
+    command = [python, "-c", RUN, Path(__file__).with_name("__init__.py"), Path(__file__).parent, *asked]
     try:
         return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
     except (OSError, ValueError, subprocess.CalledProcessError) as error:
-        said = getattr(error, "stderr", "") or str(error)
+        said = (getattr(error, "stderr", "") or str(error)).strip().splitlines()[-1]
         accepted = "a Python from 3.11 on with numpy, and mujoco from 3.3 on"
-        raise FieldError("--against", f"{python}: {said.strip().splitlines()[-1]}", accepted) from None
+        raise FieldError("--against", f"{python}: {said}", accepted) from None
 
 
 def told(found: PairBounce) -> dict[str, Any]:
     """Return the version of MuJoCo here, what was measured, and its lines."""
-    lines = bounce_lines(found).splitlines()
-    return {"mujoco": mujoco.__version__, "found": asdict(found), "lines": lines}
+    return {
+        "mujoco": mujoco.__version__,
+        "found": asdict(found),
+        "lines": bounce_lines(found).splitlines(),
+    }
 
 
 def beside(here: dict[str, Any], there: dict[str, Any]) -> str:

@@ -10,14 +10,11 @@ from cointoss_bounce.backends import OWN
 from cointoss_bounce.bodies import BALL
 from cointoss_bounce.contact import GRAVITY
 from cointoss_bounce.drops import SPEED
+from cointoss_bounce.recipe import LEAST
 from cointoss_bounce.spring import dissipation_of, rebound_of
 
 STEPS = 4
 """Steps of the simulation in a contact of Drake, whose integrator takes shorter ones."""
-LEAST = 0.01
-"""The least restitution by a dissipation."""
-SPEEDS = (0.5, 1.0, 2.0, 5.0)
-"""Speeds for which a restitution that depends on them is told [m/s]."""
 _LAWS = tomllib.loads((resources.files("cointoss_bounce") / "own_laws.toml").read_text(encoding="utf-8"))
 
 
@@ -58,10 +55,13 @@ class EngineBounce:
     @property
     def notes(self) -> dict[str, str]:
         """What to know of it, by the name of each line."""
-        rebounds = ", ".join(f"{rebound_of(self.dissipation * v):.3g} at {v:g} m/s" for v in SPEEDS)
-        rest = 2e3 * self.mass * self.gravity / self.stiffness
-        texts = _LAWS[self.backend]["notes"].items()
-        return {name: text.format(self, rebounds=rebounds, rest=rest) for name, text in texts}
+        more = {
+            "rebounds": ", ".join(
+                f"{rebound_of(self.dissipation * v):.3g} at {v:g} m/s" for v in (0.5, 1, SPEED, 5)
+            ),
+            "rest": 2e3 * self.mass * self.gravity / self.stiffness,
+        }
+        return {name: text.format(self, **more) for name, text in _LAWS[self.backend]["notes"].items()}
 
 
 def engine_bounce(
@@ -86,8 +86,8 @@ def engine_bounce(
     """
     require_bounds(timestep, restitution=restitution, gravity=gravity, mass=mass)
     require("backend", backend, backend in OWN, ", ".join(OWN))
-    given = backend != "drake" or restitution >= LEAST
-    require("restitution", restitution, given, f"a number from {LEAST} to 1 by drake")
+    has_law = backend != "drake" or restitution >= LEAST
+    require("restitution", restitution, has_law, f"a number from {LEAST} to 1 by drake")
     return EngineBounce(
         backend=backend, restitution=restitution, timestep=timestep, gravity=gravity, mass=mass
     )

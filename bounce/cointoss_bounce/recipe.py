@@ -29,7 +29,7 @@ from cointoss_bounce.rest import rest_of
 SPRING_STEPS = 40
 """Steps in a contact by a spring, by default."""
 LEAST = 0.01
-"""Restitution by a spring."""
+"""The least restitution by a spring, or by the dissipation of Drake."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -37,6 +37,7 @@ def _settings(found: Bounce) -> str:
         _rest(found.rest, found.solimp),
         f"on several points the depth is 1/4 to 2 times (1 - d) g/k = {alone:.3g} um: --body measures it",
     ]
+    integrators = ", any but discrete, which errs more" if spring else ", or Euler; not RK4, not discrete"
     body = f"{'an' if found.body[0] in 'aeiou' else 'a'} {found.body}"
     flight = f"a brick at 10 turns a second {_change(found.flight)} of its energy in half a second"
     if not spring and own:
@@ -50,7 +51,7 @@ def _settings(found: Bounce) -> str:
         [
             found.settings,
             "",
-            f"integrator  {found.integrator}" + (_integrators(spring) if own else ""),
+            f"integrator  {found.integrator}" + (integrators if own else ""),
             f"backend     {found.backend}: {found.backend.remark}",
             f"error       {_at_most(found.error)} at worst in the restitution, "
             f"of {body} that touches at 16 phases" + ("" if own else ", by MuJoCo"),
@@ -64,10 +65,6 @@ def _settings(found: Bounce) -> str:
             *_column("friction", _friction(found)),
         ]
     )
-
-
-def _integrators(spring: bool) -> str:
-    return ", any but discrete, which errs more" if spring else ", or Euler; not RK4, not discrete"
 
 
 def _friction(found: Bounce) -> list[str]:
@@ -181,8 +178,9 @@ def _at_most(error: float) -> str:
 
 def _change(part: float) -> str:
     """Return a change of energy in words."""
-    amount = f"{100 * abs(part):.2g} %" if abs(part) > 1e-4 else f"{abs(part):.0e}"
-    return f"{'loses' if part < 0 else 'gains'} {amount}"
+    return ("loses " if part < 0 else "gains ") + (
+        f"{100 * abs(part):.2g} %" if abs(part) > 1e-4 else f"{abs(part):.0e}"
+    )
 
 
 def _rest(rest: Rest, solimp: str) -> str:

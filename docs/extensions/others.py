@@ -26,17 +26,18 @@ NEAR = 0.01
 """The error whose processor time is shown."""
 TIMED = "tilted"
 """The case that is timed."""
+KNOWN = {case.name: case for case in cases()}
 SHEET = {
-    "e = 1": ("flat_1", lambda v: v[0]),
-    "ten touches": ("energy", lambda v: math.exp(10 * v[0])),
-    "rest": ("rest", lambda v: 1e3 * v[0]),
-    "slides": ("coulomb_slip", lambda v: v[1] / v[2] / 0.15),
-    "sticks": ("coulomb_stick", lambda v: v[1] / STUCK),
-    "spin": ("spin_kept", lambda v: v[-1] / 1000),
+    "e = 1": ("flat_1", lambda case: case["found"][0]),
+    "ten touches": ("energy", lambda case: math.exp(10 * case["found"][0])),
+    "rest": ("rest", lambda case: 1e3 * case["found"][0]),
+    "slides": ("coulomb_slip", lambda case: case["found"][1] / case["found"][2] / 0.15),
+    "sticks": ("coulomb_stick", lambda case: case["found"][1] / KNOWN["coulomb_stick"].right[1]),
+    "spin": ("spin_kept", lambda case: case["found"][-1] / 1000),
+    "gap": ("flat_50", lambda case: math.nan if case.get("height") is None else 1e3 * case["height"]),
+    "wobble": ("precession", lambda case: case["error"]),
 }
-"""The columns of the table of engines: the case, and the number of what was found there."""
-STUCK = next(case.right[1] for case in cases() if case.name == "coulomb_stick")
-UNTIL = next(case.until for case in cases() if case.name == TIMED)
+"""The columns of the table of engines: the case, and the number of what came of it."""
 
 
 def cards(adapters: Path) -> list[dict[str, Any]]:
@@ -114,18 +115,16 @@ def settings(known: list[dict[str, Any]]) -> str:
 
 
 def sheet(known: list[dict[str, Any]]) -> str:
-    """Return what each engine does at a touch, at rest and in flight, and the heights at which it touches."""
-    rows = []
-    for card in known:
-        told = [_number(of_case(card, name), what) for name, what in SHEET.values()]
-        height = of_case(card, "flat_50").get("height")
-        told += ["" if height is None else f"{1e3 * height:.2g}", shown(of_case(card, "precession"))]
-        rows.append([card["engine"], card["date"], *told])
-    return table(["engine", "measured", *SHEET, "gap", "wobble"], rows)
+    """Return what each engine does at a touch, at rest and in flight, by version and date."""
+    rows = [
+        [card["engine"], card["date"], *(_number(of_case(card, case), of) for case, of in SHEET.values())]
+        for card in known
+    ]
+    return table(["engine", "measured", *SHEET], rows)
 
 
-def _number(case: dict[str, Any], what: Callable[[list[float]], float]) -> str:
-    return shown(case) if case["error"] is None else f"{what(case['found']):.3g}"
+def _number(case: dict[str, Any], of: Callable[[dict[str, Any]], float]) -> str:
+    return shown(case) if case["error"] is None else f"{of(case):.3g}".replace("nan", "")
 
 
 def of_case(card: dict[str, Any], name: str) -> dict[str, Any]:
@@ -143,7 +142,11 @@ def shown(case: dict[str, Any]) -> str:
 
 def cost(card: dict[str, Any]) -> str:
     """Return the least processor time of a simulated second in which the rim's rebound is 1 % off at most."""
-    near = [run[2] / UNTIL for run in of_case(card, TIMED)["runs"] if run[1] is not None and run[1] <= NEAR]
+    near = [
+        run[2] / KNOWN[TIMED].until
+        for run in of_case(card, TIMED)["runs"]
+        if run[1] is not None and run[1] <= NEAR
+    ]
     return f"{min(near):.2g} s" if near else "not reached"
 
 

@@ -80,7 +80,10 @@ class Rapier:
         return world, world.add_body(builder, [cylinder])
 
 
-SIZE = {"length_unit": 0.01, "normalized_max_linear_velocity": 1e5}
 as_documented = Rapier("Rapier 0.36.1, as documented", {}, {})
-AWAKE = {"can_sleep": False, "allow_fast_rotation": True}
-tuned = Rapier("Rapier 0.36.1, tuned", SIZE, AWAKE, 0.001)
+tuned = Rapier(
+    "Rapier 0.36.1, tuned",
+    {"length_unit": 0.01, "normalized_max_linear_velocity": 1e5},
+    {"can_sleep": False, "allow_fast_rotation": True},
+    0.001,
+)

@@ -83,5 +83,10 @@ def _set(owner: Any, values: dict[str, Any]) -> None:
 DAMPED = {"angular_damping": 0.0, "max_angular_velocity": 1e6, "sleep_threshold": 0.0}
 SOLVER = {"solver_position_iterations": 100, "solver_velocity_iterations": 10}
 as_documented = Sapien("SAPIEN 3.0.3 (PhysX), as documented", {}, {}, {})
-SHARP, NEAR = {"bounce_threshold": 0.0}, {"contact_offset": 1e-4}
-tuned = Sapien("SAPIEN 3.0.3 (PhysX), tuned", SHARP, NEAR, DAMPED | SOLVER, 0.001)
+tuned = Sapien(
+    "SAPIEN 3.0.3 (PhysX), tuned",
+    {"bounce_threshold": 0.0},
+    {"contact_offset": 1e-4},
+    DAMPED | SOLVER,
+    0.001,
+)
