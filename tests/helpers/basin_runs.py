@@ -1,5 +1,6 @@
 """Maps of a coin made in small tiles, here or in another process."""
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -38,6 +39,7 @@ TUMBLING = scenario(
 AXES = ("--x", "release.angular_velocity.eta=20:60:48", "--y", "release.position.z=0.2:0.6:40")
 SMALL, TILES = 48, 40
 """Tosses in a tile of these tests, and tiles in a map."""
+basin = partial(cointoss, "basin")
 
 
 def map_asked(x: str, y: str, case: Scenario | str = SCENARIO, **extra: Any) -> tuple[Batch, How]:
@@ -49,10 +51,6 @@ def map_asked(x: str, y: str, case: Scenario | str = SCENARIO, **extra: Any) -> 
 def map_layout(x: str, y: str, case: str = SCENARIO, *, name: str = "", **extra: Any) -> Layout:
     """Return the layout of such a map."""
     return layout_of(*map_asked(x, y, case, **extra), name=name, scenario_text=case)
-
-
-def basin(*arguments):
-    return cointoss("basin", *arguments)
 
 
 def pixels(path):

@@ -32,22 +32,17 @@ READY = "document.body?.dataset.ready === 'true'"
 """A page of the lab says that it is ready."""
 
 
-def chromium() -> str:
-    """Return the path of Chromium; `make test` installs it."""
-    found = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-    assert found, "the tests of the pages need Chromium; on Debian or Ubuntu: apt-get install chromium"
-    return found
-
-
 @contextmanager
 def browser(profile: Path) -> Iterator["Browser"]:
-    """Start Chromium with a profile of its own."""
+    """Start Chromium with a profile of its own; `make test` installs it."""
     import fcntl  # other tests run on Windows too
 
+    found = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    assert found, "the tests of the pages need Chromium; on Debian or Ubuntu: apt-get install chromium"
     orders, ordered = os.pipe()
     answered, answers = os.pipe()
     theirs = [fcntl.fcntl(each, fcntl.F_DUPFD, 10) for each in (orders, answers)]
-    command = [chromium(), *OPTIONS, f"--user-data-dir={profile}", "about:blank"]
+    command = [found, *OPTIONS, f"--user-data-dir={profile}", "about:blank"]
     launch = ("-S", "-E", "-c", LAUNCH, *theirs, *command)
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     with started(*launch, pass_fds=theirs, **quiet) as process:

@@ -1,6 +1,5 @@
 """Many releases as states, and what each of their tosses must be."""
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,15 +11,10 @@ from tests.helpers.draws import draw_release
 PARTS = ("position", "velocity", "quaternion", "angular_velocity")
 
 
-def as_states(drawn: Sequence[dict[str, Any]]) -> Array:
-    """Return releases, one by one, as states, (n, 13)."""
-    return np.array([np.concatenate([one[name] for name in PARTS]) for one in drawn])
-
-
 def draw_states(rng: np.random.Generator, n: int) -> tuple[list[dict[str, Any]], Array]:
     """Draw releases, one by one and as states, (n, 13)."""
     drawn = [draw_release(rng) for _ in range(n)]
-    return drawn, as_states(drawn)
+    return drawn, np.array([np.concatenate([one[name] for name in PARTS]) for one in drawn])
 
 
 def same_states(
@@ -33,9 +27,6 @@ def same_states(
 
 def assert_same_toss(answers: Answers, i: int, tossed: Toss) -> None:
     """Check that one of many is this toss, to the bit."""
-    faces = tossed.impacts.face
-    assert answers.outcome[i] == tossed.outcome
-    assert answers.ending[i] == tossed.ending
-    assert answers.impacts[i] == len(faces)
-    assert answers.end_time[i] == tossed.end_time
-    assert answers.last_face[i] == (faces[-1] if len(faces) else 0)
+    faces = [0, *tossed.impacts.face]
+    due = (tossed.outcome, tossed.ending, len(faces) - 1, faces[-1], tossed.end_time)
+    assert tuple(column[i] for column in answers[:5]) == due  # outcome, ending, impacts, last_face, end_time
