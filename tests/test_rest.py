@@ -16,7 +16,6 @@ from tests.helpers.draws import scenario
 G, R, H, MU, V, W = 9.81, 1.25e-2, 2e-3, 0.05, 0.5, 40.0
 COIN = {"mass": 5e-3, "radius": R, "thickness": H}
 STOP, WAY = V / (MU * G), V**2 / (2 * MU * G)
-BOTH = list(Engine)
 DROP, DELTA, PIVOT = 0.05, 2e-4, 1e-3
 FALL = sqrt(2 * DROP / G)
 
@@ -32,9 +31,8 @@ def on(release, ending=None, coin=None, **floor):
 
 
 def resting(case, engine="analytic", **how) -> Any:
-    """Return a toss that is followed, and where its coin rests."""
-    toss = cointoss.toss(case, engine, rest=True, **how)
-    return toss, toss.rest
+    """Return a toss that is followed to where its coin rests."""
+    return cointoss.toss(case, engine, rest=True, **how)
 
 
 SLIDES, SPINS = on({"velocity": [V, 0, 0]}), {"angular_velocity": [0, 0, W]}
@@ -80,34 +78,32 @@ RESTS = {
 NEAR = {Engine.ANALYTIC: 2e-4, Engine.MUJOCO: 5e-3}
 
 
-@pytest.mark.parametrize("engine", BOTH)
+@pytest.mark.parametrize("engine", Engine)
 @pytest.mark.parametrize("name", RESTS)
 def test_a_coin_rests_where_the_closed_form_says(name, engine):
     case, expected = RESTS[name]
-    toss, rest = resting(case, engine)
-    assert {one: getattr(rest, one) for one in expected} == pytest.approx(
-        expected, rel=NEAR[engine], abs=1e-6
-    )
-    assert rest.time == toss.path_end
-    assert rest.error < 1e-4
+    toss = resting(case, engine)
+    found = {one: getattr(toss.rest, one) for one in expected}
+    assert found == pytest.approx(expected, rel=NEAR[engine], abs=1e-6)
+    assert toss.rest.time == toss.path_end
+    assert toss.rest.error < 1e-4
 
 
 def test_friction_of_the_face_stops_a_spin():
-    _, rest = resting(on(SPINS))
-    assert (rest.time, rest.heading) == pytest.approx(
-        (3 * R * W / (4 * MU * G), remainder(TURNED, 2 * pi)), rel=1e-6
-    )
+    rest = resting(on(SPINS)).rest
+    due = (3 * R * W / (4 * MU * G), remainder(TURNED, 2 * pi))
+    assert (rest.time, rest.heading) == pytest.approx(due, rel=1e-6)
 
 
 def test_the_place_is_that_of_the_coin_s_centre():
     """Of an unbalanced coin the path has it at C."""
     case = on({"velocity": [V, 0, 0], **SPINS}, coin={"center_of_mass": [2e-3, 1e-3, 0]})
-    toss, rest = resting(case)
-    states = toss.sample(rest.time)
+    toss = resting(case)
+    rest, states = toss.rest, toss.sample(toss.rest.time)
     Rm = np.array(rotation_matrix(tuple(states.quaternion[0])))
     place = states.position[0] - Rm @ case.coin.center_of_mass
-    assert (rest.x, rest.y) == pytest.approx(tuple(place[:2]), abs=1e-12)
-    assert rest.heading == pytest.approx(np.arctan2(Rm[1, 0], Rm[0, 0]), abs=1e-12)
+    due = (*place[:2], np.arctan2(Rm[1, 0], Rm[0, 0]))
+    assert (rest.x, rest.y, rest.heading) == pytest.approx(due, abs=1e-12)
 
 
 SMOOTH = {"contact": "smooth", "friction": 0.0}
@@ -125,46 +121,39 @@ SMOOTH = {"contact": "smooth", "friction": 0.0}
     ],
 )
 def test_where_a_coin_does_not_rest_there_is_a_reason(case, reason):
-    for engine in BOTH:
-        toss, rest = resting(case, engine)
-        assert toss.rest_reason == reason
-        assert (rest is None) == (reason != "at_rest")
+    for toss in (resting(case, engine) for engine in Engine):
+        assert (toss.rest_reason, toss.rest is None) == (reason, reason != "at_rest")
     few = analytic.AnalyticSettings(contact_steps=2)
-    assert resting(load("table"), settings=few)[0].rest_reason == "moving"
+    assert resting(load("table"), settings=few).rest_reason == "moving"
 
 
 def test_an_error_is_about_that_of_the_engine():
     """Of a coin that wobbles to rest finer steps are as far off as is said, and MuJoCo's at most so far."""
-    fine = analytic.AnalyticSettings(contact_tolerance=1e-12)
-    table = load("table")
-    (_, ours), (_, finer), (_, theirs) = (
-        resting(table),
-        resting(table, settings=fine),
-        resting(table, "mujoco"),
-    )
+    table, fine = load("table"), analytic.AnalyticSettings(contact_tolerance=1e-12)
+    tosses = resting(table), resting(table, settings=fine), resting(table, "mujoco")
+    ours, finer, theirs = (toss.rest for toss in tosses)
     assert ours.error / 100 < hypot(ours.x - finer.x, ours.y - finer.y) < 10 * ours.error
     assert hypot(ours.x - theirs.x, ours.y - theirs.y) < theirs.error < 5e-3
     dropped = on({"position": [0, 0, 0.016], "angles": [0, 0.5, 0]}, rolling_friction=DELTA)
-    assert resting(dropped, "mujoco")[1].error > 0
+    assert resting(dropped, "mujoco").rest.error > 0
 
 
-@pytest.mark.parametrize("engine", BOTH)
+@pytest.mark.parametrize("engine", Engine)
 def test_many_rest_as_one_does_and_a_store_has_them(engine, tmp_path):
     vary = {"contact": ["coulomb", "smooth"], "release.velocity.x": [[0.1], [0.2]], "restitution": 0.5}
     ds = toss_many(SLIDES, vary, engine=engine, rest=True)
     for at in np.ndindex(ds.outcome.shape):
         here = ds[dict(zip(ds.outcome.dims, at, strict=True))]
-        case = SLIDES.replace("floor.contact", here["floor.contact"].item())
-        case = case.replace("release.velocity.x", here["release.velocity.x"].item())
-        said = rest_as_json(resting(case, engine, settings=engine.package.MANY)[0])
+        given = [part for name, one in here.coords.items() for part in (name, one.item())]
+        case = ds.cointoss.scenario.replace(*given)
+        said = rest_as_json(resting(case, engine, settings=engine.package.MANY))
         assert here.rest_reason == said["rest_reason"]
         for name in ("time", "x", "y", "heading", "path", "error"):
             expected = nan if said["rest"] is None else said["rest"][name]
             assert np.array_equal(here[f"rest_{name}"], expected, equal_nan=True), name
-    kept = toss_many(SLIDES, vary, engine=engine, rest=True, out=tmp_path / "a.zarr").cointoss.words
-    again = toss_many(SLIDES, vary, engine=engine, rest=True, out=tmp_path / "a.zarr", resume=True)
-    for one in (kept, again.cointoss.words):
-        assert all(one[name].equals(ds[name]) for name in ds.data_vars)
+    for resume in (False, True):
+        kept = toss_many(SLIDES, vary, engine=engine, rest=True, out=tmp_path / "a.zarr", resume=resume)
+        assert all(kept.cointoss.words[name].equals(ds[name]) for name in ds.data_vars)
 
 
 def test_what_is_no_scenario_rests_nowhere():
