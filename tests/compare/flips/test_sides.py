@@ -1,6 +1,7 @@
 """Whether a coin is fair: published counts, the size of a sample in closed form, and tables of heads."""
 
 import json
+from typing import Any
 
 import pytest
 from scipy.stats import binomtest, norm
@@ -78,15 +79,11 @@ def test_heads_are_read_from_counts_and_from_rows_of_sides(counts, text):
 
 
 def test_the_same_side_is_counted_where_the_start_is_known(counts):
-    found = read_table(counts(PRINTED))
+    found: Any = read_table(counts(PRINTED))
     assert found.sides["Kerrich"] == Sides(heads=5067, tails=4933)
-    assert found.flips is not None
-    assert found.flips.people == ("Ku", "Larwood")
-    assert found.flips.same.tolist() == [10231, 9986]
-    pairs = read_table(counts("HH,HT,TT,TH\n5,1,3,2\n"))
-    assert pairs.sides == {"1": Sides(heads=7, tails=4)}
-    assert pairs.flips is not None
-    assert pairs.flips.same.tolist() == [8]
+    assert (found.flips.people, found.flips.same.tolist()) == (("Ku", "Larwood"), [10231, 9986])
+    pairs: Any = read_table(counts("HH,HT,TT,TH\n5,1,3,2\n"))
+    assert (pairs.sides, pairs.flips.same.tolist()) == ({"1": Sides(heads=7, tails=4)}, [8])
 
 
 @pytest.mark.parametrize(
@@ -111,11 +108,8 @@ def test_a_record_of_no_sides_is_refused(heads, tails, named):
 
 
 def test_the_command_says_whether_the_coin_is_fair(counts):
-    typed, read = (
-        printed("flips", "--heads", 493, "--tails", 507),
-        printed("flips", counts("H" * 493 + "T" * 507)),
-    )
-    assert typed == read
+    typed = printed("flips", "--heads", 493, "--tails", 507)
+    assert typed == printed("flips", counts("H" * 493 + "T" * 507))
     assert "1        1000  49.3 [45.2, 53.4]   0.68" in typed
     assert Sides(heads=493, tails=507).verdict in typed
     told = json.loads(printed("flips", "counts.csv", "--json"))
@@ -125,6 +119,9 @@ def test_the_command_says_whether_the_coin_is_fair(counts):
 
 def test_the_command_adds_a_hand_where_the_start_is_known(counts):
     told = printed("flips", counts(PRINTED))
-    assert "all      50000  50.6 [50.0, 51.2]" in told
-    assert "Ku       20000  51.2 [50.2, 52.1]" in told
-    assert "Larwood  20000  49.9 [49.0, 50.8]" in told
+    rows = (
+        "all      50000  50.6 [50.0, 51.2]",
+        "Ku       20000  51.2 [50.2, 52.1]",
+        "Larwood  20000  49.9 [49.0, 50.8]",
+    )
+    assert [row for row in rows if row not in told] == []

@@ -1,5 +1,7 @@
 """Tables of counts as people write them, and what is wrong with others."""
 
+import re
+
 import pytest
 
 from cointoss.compare.fitting.errors import ObservationError
@@ -36,9 +38,11 @@ def read(tmp_path):
 )
 def test_each_way_to_count_says_the_same(read, text):
     found = read(text)
-    assert found.people == ("Anna", "Ben")
-    assert found.same.tolist() == [520, 4]
-    assert found.flips.tolist() == [1000, 10]
+    counts = found.same.tolist(), found.flips.tolist()
+    assert dict(zip(found.people, zip(*counts, strict=True), strict=True)) == {
+        "Anna": (520, 1000),
+        "Ben": (4, 10),
+    }
 
 
 def test_rows_without_names_are_numbered(read):
@@ -96,10 +100,8 @@ def test_sides_are_read_in_any_spelling():
     ],
 )
 def test_what_no_counts_are_is_refused(read, text, message):
-    with pytest.raises(ObservationError, match=r"^\S*seen.csv: ") as refused:
+    with pytest.raises(ObservationError, match=rf"^\S*seen.csv: .*{re.escape(message)}.*$"):
         read(text)
-    assert message in str(refused.value)
-    assert "\n" not in str(refused.value)
 
 
 @pytest.mark.parametrize(
