@@ -15,8 +15,7 @@ def test_agreement_tells_near_from_away_by_the_reference_alone():
     # Away: all but two pixels along every side of each half.
     assert (found.away.agreeing, found.away.compared) == (36 * 32 - 2, 36 * 32 - 1)
     assert (found.near.agreeing, found.near.compared) == (1600 - 36 * 32 - 40, 1600 - 36 * 32)
-    assert found.undecided == 1
-    assert found.away.fraction == (36 * 32 - 2) / (36 * 32 - 1)
+    assert (found.undecided, found.away.fraction) == (1, (36 * 32 - 2) / (36 * 32 - 1))
 
 
 def test_agreement_of_nothing_is_not_known():

@@ -42,8 +42,7 @@ def test_the_entropy_of_boxes_is_that_of_their_shares(outcomes, box, basin, boun
     found = basin_entropy(outcomes, box=box)
     entropies = np.array([found.basin, found.boundary], dtype=float)  # NaN for none
     assert entropies == pytest.approx([basin, boundary], rel=1e-14, nan_ok=True)
-    assert (found.boxes, found.boundary_boxes) == (boxes, mixed)
-    assert found.log_2_test is Log2Test.SILENT, "of two outcomes"
+    assert (found.boxes, found.boundary_boxes, found.log_2_test) == (boxes, mixed, Log2Test.SILENT)
 
 
 Y, X = np.mgrid[-1:1:300j, -1:1:300j]

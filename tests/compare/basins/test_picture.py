@@ -47,9 +47,8 @@ def test_each_pixel_is_drawn_around_its_coordinates(axis):
 
 def test_axes_are_named_with_their_units_and_the_legend_names_what_is_there():
     figure = draw_map([[1, 2, 0], [1, 1, 3]], x=X, y=Y)
-    axes = figure.axes[0]
-    assert axes.get_xlabel() == "release.angular_velocity.eta [rad/s]"
-    assert axes.get_ylabel() == "floor.restitution"
+    labels = figure.axes[0].get_xlabel(), figure.axes[0].get_ylabel()
+    assert labels == ("release.angular_velocity.eta [rad/s]", "floor.restitution")
     assert legend(figure) == ["heads", "tails", "edge", "undecided"]
     assert legend(draw_map(halves(2, 4), x=X, y=Y, style=PictureStyle(boundaries=True))) == [
         "heads",

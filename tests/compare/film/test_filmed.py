@@ -58,9 +58,8 @@ def going_on(end=1.0, until=2.0, then=Ending.LYING):
 def test_the_film_goes_on_at_real_speed_when_all_faces_are_settled():
     later = shown(made(MadePath(position=(0, 0, 0.1)), end=1.2))
     times, speeds = film_times([going_on(), later], 60)
-    assert times[-1] == 2
-    assert speeds[np.abs(times - 0.3).argmin()] == pytest.approx(SLOW, rel=0.05)
-    assert speeds[np.abs(times - 1.15).argmin()] == pytest.approx(FAST, rel=1e-9)
+    slow, fast = (speeds[np.abs(times - at).argmin()] for at in (0.3, 1.15))
+    assert (times[-1], slow, fast) == (2, pytest.approx(SLOW, rel=0.05), pytest.approx(FAST, rel=1e-9))
     assert speeds[times > 1.2 + SPEEDS_UP_FOR] == pytest.approx(SETTLED, rel=1e-9)
 
 

@@ -67,7 +67,7 @@ def test_heights_as_tracker_exports_them(read):
         found = read(
             "#multi:\ncoin\t\t\t\nt\tx\ty\t\n0.000E0\t1.2E-1\t3.0E-1\t\n8.3E-3\t1.2E-1\t\t\n1.67E-2\t0\t2.9E-1\t\n"
         )
-    assert found.times.tolist() == [0.0, 8.3e-3, 1.67e-2]
+    np.testing.assert_array_equal(found.times, [0.0, 8.3e-3, 1.67e-2])
     np.testing.assert_array_equal(found.heights, [0.3, np.nan, 0.29])
     assert found.count == 2
 
@@ -138,6 +138,5 @@ def test_a_pipe_is_a_table_and_one_that_nobody_writes_to_is_refused(tmp_path):
     os.write(write, b"t\n0.1\n0.2\n")
     os.close(write)
     found = read_seen(f"/dev/fd/{read}", SD)
-    assert isinstance(found, Observed)
     assert found.touch_times.tolist() == [0.1, 0.2]
     os.close(read)

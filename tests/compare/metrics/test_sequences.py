@@ -52,12 +52,11 @@ def test_impulses_are_tried_with_twice_the_largest_error_so_far_to_both_sides(tr
     assert [case.rules.max_impacts for case in tried] == [2, 2, 1, 1, 1, 1]
     for i, case in enumerate(tried):
         at, most = i // 2, (1 - i % 2 * 2) * 2 * [1e-8, 3e-8, 3e-8][i // 2]
-        for name, given in (
-            ("velocity", case.release.velocity),
-            ("angular_velocity", case.release.angular_velocity),
-        ):
+        for name in ("velocity", "angular_velocity"):
             before, after = (getattr(impacts, f"{name}_{when}")[at] for when in ("before", "after"))
-            assert given - after == pytest.approx(most * (after - before), rel=1e-5, abs=1e-14)
+            assert getattr(case.release, name) - after == pytest.approx(
+                most * (after - before), rel=1e-5, abs=1e-14
+            )
 
 
 def test_touches_are_tried_as_much_earlier_and_later_as_they_may_be(tried):

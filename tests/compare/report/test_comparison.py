@@ -29,10 +29,8 @@ def test_both_tosses_are_compared(found):
     assert (found.scenario, found.absent) == (SHORT, {})
     assert [toss.engine for toss in found.tosses] == ["analytic", "mujoco"]
     pair = found["mujoco"]
-    assert found.against == (pair,)
-    assert found.tosses == (found.measure, pair.toss)
-    assert (pair.common_horizon, pair.common_prefix) == (3, 3)
-    assert pair.common_horizon_time is None
+    assert (found.against, found.tosses) == ((pair,), (found.measure, pair.toss))
+    assert (pair.common_horizon, pair.common_prefix, pair.common_horizon_time) == (3, 3, None)
     assert len(pair.errors) == len(pair.differences.time) == 3
     with pytest.raises(ValueError, match="read-only"):
         pair.errors[0] = 0
@@ -69,10 +67,8 @@ def test_a_comparison_shows_its_verdict_and_both_tosses(found):
 )
 def test_a_plot_shows_both_paths_and_up_to_where_the_faces_must_agree(engines, title, label):
     found = compare("fig24a", engines)
-    given = Figure().add_subplot()
-    axes = found.plot(given)
-    assert axes is given
-    assert axes.get_title() == title
+    axes = found.plot(given := Figure().add_subplot())
+    assert (axes, axes.get_title()) == (given, title)
     lines = {str(line.get_label()): line for line in axes.get_lines()}
     for pair in found.against:
         assert pair.common_horizon_time == found.measure.impacts.time[pair.common_horizon - 1]

@@ -31,9 +31,8 @@ def film_caption(tosses, **absent):
         vars(pair).update(common_prefix=0, common_horizon=0, errors=np.zeros(0))
     with patch("cointoss.compare.report.page.motion_of", return_value={}):
         page = render(shown, film=(b"", b""))
-    found = re.search(r"id=\"film\".*?<figcaption>(.*?)<br>", page, re.DOTALL)
-    assert found
-    return " ".join(found[1].split())
+    (found,) = re.findall(r"id=\"film\".*?<figcaption>(.*?)<br>", page, re.DOTALL)
+    return " ".join(found.split())
 
 
 @pytest.mark.parametrize(

@@ -42,10 +42,13 @@ def test_the_numbers_are_those_of_the_tosses(found, folder):
     assert [toss["engine"] for toss in numbers["tosses"]] == ["analytic", "mujoco"]
     pair, written = found["mujoco"], numbers["comparisons"]["mujoco"]
     assert numbers["tosses"][0]["impacts"][1]["time"] == found.measure.impacts.time[1]
-    assert written["impulse_difference"] == pair.differences.impulse.tolist()
-    assert written["time_difference"] == pair.differences.time.tolist()
-    assert written["impulse_error"] == pair.errors.tolist()
-    assert written["common_horizon"] == pair.common_horizon
+    due = {
+        "impulse_difference": pair.differences.impulse.tolist(),
+        "time_difference": pair.differences.time.tolist(),
+        "impulse_error": pair.errors.tolist(),
+        "common_horizon": pair.common_horizon,
+    }
+    assert written == written | due
     assert numbers["absent"] == {}
 
 

@@ -38,5 +38,4 @@ def test_a_piece_takes_a_second(monkeypatch, cost, most):
 
 def test_the_numbers_of_a_large_batch_are_never_all_in_memory():
     parts = whole(10**12)
-    assert next(parts)[-1] == MOST - 1
-    assert next(parts)[0] == MOST
+    assert (next(parts)[-1], next(parts)[0]) == (MOST - 1, MOST)

@@ -30,13 +30,12 @@ def test_each_toss_is_that_of_toss(engine, trust):
         here = ds[dict(zip(ds.outcome.dims, at, strict=True))]
         given = [part for name, one in here.coords.items() for part in (str(name), one.item())]
         toss = engine.package.toss(ds.cointoss.scenario.replace(*given), settings=engine.package.MANY)
-        assert (here.outcome, here.ending) == (str(toss.outcome), str(toss.ending))
-        assert (here.impacts, here.end_time) == (len(toss.impacts), toss.end_time)
         face = {1: "heads", 2: "tails"}[toss.impacts.face[-1]] if len(toss.impacts) else "none"
-        assert here.last_face == face
+        due = {"outcome": str(toss.outcome), "ending": str(toss.ending), "last_face": face}
+        due |= {"impacts": len(toss.impacts), "end_time": toss.end_time}
         if trust:
-            assert here.trusted_impacts == toss.trusted_impacts
-            assert here.outcome_certain.values.tolist() is toss.outcome_certain
+            due |= {"trusted_impacts": toss.trusted_impacts, "outcome_certain": toss.outcome_certain}
+        assert {name: one.item() for name, one in here.data_vars.items()} == due
 
 
 def test_a_dataset_can_be_written_by_xarray_itself_and_a_store_has_its_words(tmp_path):
@@ -59,8 +58,7 @@ def test_what_is_no_scenario_is_refused_or_kept(tmp_path):
     assert kept.outcome.values.tolist() == [alone.outcome[0], "refused", "refused", alone.outcome[1]]
     assert np.isnan(kept.end_time[1:3]).all()
     assert not kept.outcome_certain[1]
-    assert kept.cointoss.counts["refused"] == 2
-    assert int(kept.cointoss.shares()["count"].sum()) == 2
+    assert kept.cointoss.counts["refused"] == int(kept.cointoss.shares()["count"].sum()) == 2
     for resume in (False, True):
         stored = toss_many(CASE, vary, errors="keep", out=tmp_path / "a.zarr", resume=resume)
         assert stored.cointoss.words.outcome.values.tolist() == kept.outcome.values.tolist()
