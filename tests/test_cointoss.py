@@ -29,12 +29,9 @@ def test_each_name_is_that_of_its_home_says_what_it_is_and_a_type_checker_knows_
     homes = {alias.asname or "": node.module or "" for node in imported for alias in node.names}
     assert sorted([*({*homes} - {*PACKAGES}), *PACKAGES, "__version__"]) == dir(cointoss)
     public = {name: getattr(cointoss, name) for name in dir(cointoss) if name != "__version__"}
-    for name, item in public.items():
-        found = (
-            sys.modules[f"cointoss.{name}"] if name in PACKAGES else getattr(import_module(homes[name]), name)
-        )
-        assert item is found
-        assert len((item.__doc__ or "").split()) >= 3, name
+    brought = {name: getattr(import_module(home), name) for name, home in homes.items() if name in public}
+    assert public == brought | {name: sys.modules[f"cointoss.{name}"] for name in PACKAGES}
+    assert [name for name, item in public.items() if len((item.__doc__ or "").split()) < 3] == []
     assert len(public) > 25
     assert cointoss.__version__ == version(DISTRIBUTION)
 
@@ -150,7 +147,5 @@ def test_settings_of_another_type_are_refused(engine, name, wrong):
 def test_the_package_compare_is_described_as_the_function_once_it_is_asked():
     told = pydoc.plain(pydoc.render_doc(cointoss.compare))
     assert inspect.signature(cointoss.compare) == inspect.signature(compare)
-    assert f"compare{inspect.signature(compare)}\n" in told
-    assert all(
-        words in told for words in ("Both engines asked the same question", "settings: of our engines")
-    )
+    words = "Both engines asked the same question", "settings: of our engines"
+    assert all(said in told for said in (f"compare{inspect.signature(compare)}\n", *words))

@@ -108,11 +108,10 @@ def test_a_scenario_is_tossed_as_it_was(toss):
 
 
 def test_a_trajectory_has_the_columns_it_had(release, tmp_path):
-    earlier, table = release / "made" / "caught.csv", tmp_path / "path.csv"
+    then, table = rows(release / "made" / "caught.csv"), tmp_path / "path.csv"
     assert cointoss("toss", release / "given" / "caught.toml", "--trajectory", table).exit_code == 0
-    then, now = rows(earlier), rows(table)
     assert len(then) > 50
-    assert unlike(then, now) == []
+    assert unlike(then, rows(table)) == []
 
 
 @pytest.mark.parametrize("name", ["hand", "spun"])
