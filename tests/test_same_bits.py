@@ -35,13 +35,10 @@ REALISED = (ContactLaw.SMOOTH, ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH)
 
 def is_tossed(package, settings, floor):
     """Return whether an engine tosses on a floor: MuJoCo by three laws; its cone resists no rolling."""
-    if package is analytic:
-        return True
     is_resisted = floor.rolling_friction > 0 or floor.contour_friction > 0
     kinematic = floor.restitution_kind == RestitutionKind.KINEMATIC
-    return (
-        floor.contact in REALISED and kinematic and not (is_resisted and settings.friction == Friction.NATIVE)
-    )
+    realised = floor.contact in REALISED and kinematic
+    return package is analytic or (realised and not (is_resisted and settings.friction == Friction.NATIVE))
 
 
 TOSSED = {

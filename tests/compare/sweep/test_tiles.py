@@ -15,10 +15,9 @@ from tests.helpers.basin_runs import map_asked
 @pytest.mark.parametrize("y", ["release.velocity.z=1:2:{}", "floor.friction=1:2:{}"])
 def test_tiles_cover_the_map_once_and_are_of_the_size_agreed(shape, x, y):
     batch, how = map_asked(x.format(shape[1]), y.format(shape[0]))
-    tile = tile_shape(how.engine, batch)
-    assert tile[0] * tile[1] <= module.TILE_TOSSES[Engine.ANALYTIC]
+    tile, most = tile_shape(how.engine, batch), module.TILE_TOSSES[Engine.ANALYTIC]
     # No smaller than it must be: whole rows and columns that would fit aside, half of what is allowed.
-    assert tile[0] * tile[1] >= min(shape[0] * shape[1], module.TILE_TOSSES[Engine.ANALYTIC]) / 2
+    assert min(shape[0] * shape[1], most) / 2 <= tile[0] * tile[1] <= most
     covered = np.zeros(shape, dtype=int)
     for part in tiles(shape, tile):
         covered[part] += 1
