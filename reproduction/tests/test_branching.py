@@ -10,27 +10,17 @@ import pytest
 from cointoss.models.records import Outcome
 from cointoss_reproduction.precision import branching
 from cointoss_reproduction.precision.branching import PARTS, branch, chances, expand, what_lies_there
-from cointoss_reproduction.precision.planar_coin import PlanarRelease, planar_coin, units
+from cointoss_reproduction.precision.planar_coin import PlanarRelease
 from cointoss_reproduction.precision.planar_numbers import Toss, spread, toss_many
 from cointoss_reproduction.precision.planar_state import Impact
 from cointoss_reproduction.setups.planar_maps import case
 from cointoss_reproduction.setups.uncertain_shares import uncertain_shares
+from planar import coin_of, drawn
 
 LAST = 24
 """Digits of a release of the map."""
 NO_COIN: Any = None
 """What is tossed by the map."""
-
-
-def coin_of(chi, law="smooth"):
-    scenario = case(air=False, restitution=chi).replace("floor.contact", law)
-    return planar_coin(scenario), units(scenario)
-
-
-def drawn(number, seed=1):
-    rng = np.random.default_rng(seed)
-    z, w = rng.uniform(0.2, 0.6, number), rng.uniform(20, 60, number)
-    return [PlanarRelease(Fraction(a), Fraction(b)) for a, b in zip(z, w, strict=True)]
 
 
 def ends_at(digits):
@@ -161,8 +151,8 @@ def test_chances_sum_to_the_population_and_follow_the_scores(scores, population)
 @pytest.mark.parametrize(("chi", "law", "intervals"), [(0.0, "smooth", 60), (0.3, "perfectly_rough", 8)])
 def test_no_dead_part_holds_a_boundary(chi, law, intervals):
     """Parts of it, and parts of these, are tossed."""
-    coin, own = coin_of(chi, law)
-    rng, count, parents = np.random.default_rng(5), 0, drawn(intervals)
+    coin, own = coin_of(chi, law=law)
+    rng, count, parents = np.random.default_rng(5), 0, drawn(intervals)[2]
 
     def some(releases, most):
         return [releases[i] for i in rng.permutation(len(releases))[:most]]
@@ -200,7 +190,7 @@ def test_boundaries_are_told_apart_by_what_the_coin_does_there():
     """
     coin, own = coin_of(0.8)
     step = Fraction(1, 10**5)
-    line = spread(drawn(1, seed=2)[0], "height", step, 25)
+    line = spread(drawn(1, seed=2)[2][0], "height", step, 25)
     tosses = toss_many(coin, own, line)
     changes = [n for n, (one, other) in enumerate(pairwise(tosses)) if one.outcome != other.outcome]
     stands, lands = np.array([what_lies_there(coin, own, "height", step, line[n]) for n in changes]).T

@@ -25,6 +25,7 @@ from cointoss_reproduction.precision.planar_numbers import (
 )
 from cointoss_reproduction.precision.planar_state import State, in_own_units, precision, released
 from cointoss_reproduction.setups.planar_maps import case, planar_rows
+from planar import coin_of, drawn, scenario_of
 from tests.helpers.contacts import follow_step as contact_step
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
@@ -38,21 +39,6 @@ COINS = [
     (0.6, False, "perfectly_rough"),
     (0.2, False, "perfectly_rough"),
 ]
-
-
-def scenario_of(chi, air=False, law="smooth"):
-    return case(air=air, restitution=chi).replace("floor.contact", law)
-
-
-def coin_of(chi, air=False, law="smooth"):
-    scenario = scenario_of(chi, air, law)
-    return planar_coin(scenario), units(scenario)
-
-
-def drawn(number, seed=1):
-    rng = np.random.default_rng(seed)
-    z, w = rng.uniform(0.2, 0.6, number), rng.uniform(20, 60, number)
-    return z, w, [PlanarRelease(Fraction(a), Fraction(b)) for a, b in zip(z, w, strict=True)]
 
 
 def toss_one(coin, own, height, spin=41.0):
