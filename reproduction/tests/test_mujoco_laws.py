@@ -7,8 +7,6 @@ import pytest
 
 from cointoss import ContactLaw
 from cointoss.coin_mj import FINE, Friction, MujocoSettings, Realisation
-from cointoss_bounce.contact import ContactSettings, one_step_solref, spring_solref
-from cointoss_bounce.drops import drops_of
 from cointoss_reproduction.setups.mujoco_impacts import (
     by_law,
     by_mujoco,
@@ -103,23 +101,6 @@ def test_a_small_study_of_laws_bears_out_its_claims_and_sees_a_law_that_is_misse
     median = cells["median"].mask(cells["law"] == "(e) smooth", 0.1)
     (wrong,) = missed("mujoco-laws", cells.assign(median=median))
     assert wrong.startswith("MuJoCo realises the smooth")
-
-
-def errors_of_a_ball(e, solref, dt, integrator):
-    contact = ContactSettings(solref=solref, timestep=dt, integrator=integrator)
-    return np.abs(drops_of(contact).restitutions - e).max()
-
-
-@pytest.mark.parametrize("e", [0.0, 0.3, 1.0])
-@pytest.mark.parametrize("integrator", ["Euler", "implicitfast"])
-def test_one_step_of_mj_step_is_newtons_law(e, integrator):
-    assert errors_of_a_ball(e, one_step_solref(e, 1e-3), 1e-3, integrator) < 1e-9
-
-
-def test_more_steps_make_a_springs_restitution_better():
-    a, b, c = (errors_of_a_ball(0.5, spring_solref(0.5, 1e-4, n), 1e-4, "RK4") for n in (20, 40, 80))
-    # A touch falls anywhere within a step: first order.
-    assert [b / a, c / b] == pytest.approx([0.5, 0.5], abs=0.1)
 
 
 def test_the_example_of_the_docs_rebounds_as_it_says(capsys):
