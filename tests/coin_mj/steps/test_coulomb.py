@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.coin_mj import Friction, MujocoSettings, Realisation, impacts_of, toss
+from cointoss.coin_mj import MujocoSettings, Realisation, impacts_of, toss
 from cointoss.coin_mj.steps.coulomb import coulomb_force
 from cointoss.compare.metrics.impulses import match
 from cointoss.models.records import ApproximationWarning, Ending
@@ -97,12 +97,6 @@ def test_first_impacts_meet_rouths_law(realisation, median, worst):
         assert len(chosen) > 10, kind
         assert 1e-7 < np.median(chosen) < median, kind
         assert chosen.max() < worst, kind
-
-
-def test_mujocos_own_friction_is_far_from_coulombs():
-    """Its convex cone pushes a sliding contact apart."""
-    errors, _ = errors_and_kinds(np.random.default_rng(61), 40, friction=Friction.NATIVE)
-    assert 5e-3 < np.median(errors) < 0.1
 
 
 def test_a_perfectly_rough_floor_is_one_of_large_friction():
