@@ -162,14 +162,6 @@ def test_the_imperfect_coin_turns_over_in_the_drop_of_fig_3():
     assert tossed.sequence[0] == "T"
 
 
-@pytest.mark.parametrize("test", ["paper", "paper_smooth"])
-def test_the_papers_endings_have_their_names(test):
-    release = {"angles": [0, 0.1, 0], "angular_velocity": [0, 40.15, 0]}
-    tossed = analytic.toss(scenario(release=release, ending={"test": test}))
-    assert tossed.ending == Ending(test)
-    assert tossed.outcome in (Outcome.HEADS, Outcome.TAILS)
-
-
 WOBBLING = scenario(
     coin=THIN,
     floor={"restitution": 0.26},
