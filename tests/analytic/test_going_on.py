@@ -27,8 +27,8 @@ def on_rough_floor(release, until, **floor):
     return analytic.toss(scenario(coin=COIN, floor=floor, release=release, ending={"until": until}))
 
 
-def lying(until="3 s", **release):
-    return on_rough_floor({"position": [0, 0, h / 2], **release}, until)
+def lying(**release):
+    return on_rough_floor({"position": [0, 0, h / 2], **release}, "3 s")
 
 
 def time_of_rest(toss):
@@ -155,20 +155,3 @@ def test_a_caught_coin_stays_in_the_hand():
     assert np.ptp(states.position, axis=0).max() == 0
     assert states.position[0, 2] == pytest.approx(0.2)
     assert not toss.floor_force([1.5, 2]).any()
-
-
-@pytest.mark.parametrize(
-    ("name", "ending"),
-    [("contact_knurled", Ending.CHATTER), ("contact_perfectly_rough", Ending.MAX_IMPACTS)],
-)
-def test_what_is_not_decided_is_not_followed(name, ending):
-    toss = analytic.toss(load(name).replace("ending.until", "rest"))
-    assert toss.ending == ending
-    assert toss.path_end == toss.end_time
-    assert len(toss.later_times) == 0
-
-
-def test_times_beyond_the_path_are_refused():
-    toss = lying("3 s", velocity=[0.5, 0, 0])
-    with pytest.raises(ValueError, match=r"3.1 s is outside the toss, from 0 to 3.0 s"):
-        toss.sample(3.1)
