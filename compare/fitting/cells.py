@@ -14,6 +14,7 @@ LARGEST = 10_000_000
 """The most bytes of a file."""
 BEFORE_HEADER = 5
 """Lines above that with the names; Tracker writes the name of the track there."""
+_DECIMAL_COMMA = re.compile(r"^([-+]?\d+),(\d+(?:[eE][-+]?\d+)?)$")
 
 
 def read_cells(path: Path) -> list[list[str]]:
@@ -36,12 +37,7 @@ def read_cells(path: Path) -> list[list[str]]:
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "no text"
         raise ObservationError(f"{path}: can't be read ({reason}); accepted: a CSV file in UTF-8") from None
-    return rows if mark == "," else [[_with_point(cell) for cell in row] for row in rows]
-
-
-def _with_point(cell: str) -> str:
-    """Return a number written with a decimal comma with a point; another cell as it is."""
-    return cell.replace(",", ".") if re.fullmatch(r"[-+]?\d+,\d+(?:[eE][-+]?\d+)?", cell) else cell
+    return rows if mark == "," else [[_DECIMAL_COMMA.sub(r"\1.\2", cell) for cell in row] for row in rows]
 
 
 def require_whole_rows(rows: Sequence[Sequence[str]], least: int, columns: int) -> None:
@@ -58,6 +54,22 @@ def require_whole_rows(rows: Sequence[Sequence[str]], least: int, columns: int) 
                 f"row {n} has {len(cells)} cells; accepted: {columns}, one for each column; "
                 "decimal commas need semicolons or tabs between the cells"
             )
+
+
+def columns_of(keys: Sequence[str | None], head: Sequence[str]) -> dict[str, int]:
+    """Return the place of each column by its key; refuse two with one key.
+
+    Args:
+        keys: of the columns; None for one that is not used.
+        head: their names.
+    """
+    found: dict[str, int] = {}
+    for i, key in enumerate(keys):
+        if key in found:
+            raise ObservationError(f"columns {head[found[key]]} and {head[i]}; accepted: one of them")
+        if key is not None:
+            found[key] = i
+    return found
 
 
 def warn_of_unused_columns(names: Sequence[str]) -> None:

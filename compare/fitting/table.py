@@ -11,6 +11,7 @@ import numpy as np
 
 from cointoss.compare.fitting.cells import (
     BEFORE_HEADER,
+    columns_of,
     read_cells,
     require_whole_rows,
     warn_of_unused_columns,
@@ -175,14 +176,9 @@ def _columns(headings: Sequence[Heading]) -> dict[str, tuple[int, Heading]]:
     keys = [heading.key for heading in headings]
     if "height" not in keys:
         keys = ["height" if one.name.lower() == "y" else one.key for one in headings]
-    found: dict[str, tuple[int, Heading]] = {}
-    for i, (key, heading) in enumerate(zip(keys, headings, strict=True)):
-        if key in found:
-            raise ObservationError(f"columns {found[key][1].name} and {heading.name}; accepted: one of them")
-        if key is not None:
-            found[key] = (i, heading)
+    found = columns_of(keys, [one.name for one in headings])
     warn_of_unused_columns([one.name for key, one in zip(keys, headings, strict=True) if key is None])
-    return found
+    return {key: (i, headings[i]) for key, i in found.items()}
 
 
 def _of_columns(

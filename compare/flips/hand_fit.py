@@ -122,8 +122,7 @@ class HandFit:
     def hand_toml(self) -> str:
         """Return the file of the hand, with what is not as by default."""
         usual = {item.name: item.default for item in fields(Hand)}
-        own = {name: value for name, value in asdict(self.hand).items() if value != usual[name]}
-        return toml(own)
+        return toml({name: value for name, value in asdict(self.hand).items() if value != usual[name]})
 
 
 def flips(

@@ -81,11 +81,14 @@ class PeopleFit:
 
 def wobbling(side: SameSide) -> People:
     """Return people whose |90° - ψ| is half-normal; the parameter is the root of its mean square [rad]."""
-
-    def probability(parameters: Array, off: Array) -> Array:
-        return side.probability(np.minimum(parameters[0] * off, np.pi / 2))
-
-    return People(halfnorm(), (0.0, 11.0), probability, start=(0.2,), largest=np.pi / 2, tosses=side.tosses)
+    return People(
+        halfnorm(),
+        (0.0, 11.0),
+        lambda parameters, off: side.probability(np.minimum(parameters[0] * off, np.pi / 2)),
+        start=(0.2,),
+        largest=np.pi / 2,
+        tosses=side.tosses,
+    )
 
 
 def log_binomial(same: ArrayLike, flips: ArrayLike, p: ArrayLike, tosses: float = math.inf) -> Array:
@@ -215,13 +218,20 @@ def crossing(above: Callable[[float], float], inner: float, outer: float, steps:
     return float(root)
 
 
-def interval_of(likelihood: Callable[[Array], Array], tried: Array) -> tuple[float, float, float]:
-    """Return where the logarithm of a likelihood is largest, and the ends of its interval by the ratio.
+def estimate_of(same: int, flips: int, side: SameSide, tried: Array) -> Estimate:
+    """Return the argument of `side` that is most likely, with the interval by the likelihood ratio.
+
+    It is NaN where the interval has all that was tried. The likelihood may have several peaks.
 
     Args:
-        likelihood: the logarithm, (n,) to (n,); it may have several peaks.
-        tried: rising values at which it is evaluated first, (n,).
+        same: how often the same side came up.
+        flips: all flips.
+        side: how likely it is.
+        tried: rising arguments at which the likelihood is tried first, (n,).
     """
+
+    def likelihood(arguments: Array) -> Array:
+        return log_binomial(same, flips, side.probability(arguments), side.tosses)
 
     def at(value: float) -> float:
         return float(likelihood(np.array([value]))[0])
@@ -238,27 +248,7 @@ def interval_of(likelihood: Callable[[Array], Array], tried: Array) -> tuple[flo
         crossing(lambda value: at(value) - least, float(inner), float(outer))
         for inner, outer in zip(places[inside[[0, -1]]], around, strict=True)
     )
-    return best, low, high
-
-
-def estimate_of(same: int, flips: int, side: SameSide, tried: Array) -> Estimate:
-    """Return the argument of `side` that is most likely, with the interval by the likelihood ratio.
-
-    It is NaN where the interval has all that was tried.
-
-    Args:
-        same: how often the same side came up.
-        flips: all flips.
-        side: how likely it is.
-        tried: rising arguments at which the likelihood is tried first, (n,).
-    """
-
-    def likelihood(at: Array) -> Array:
-        return log_binomial(same, flips, side.probability(at), side.tosses)
-
-    best, low, high = interval_of(likelihood, tried)
-    is_open = (low, high) == (tried[0], tried[-1])
-    return Estimate(math.nan if is_open else best, low, high, flips, "flips")
+    return Estimate(math.nan if (low, high) == (tried[0], tried[-1]) else best, low, high, flips, "flips")
 
 
 def chances_of_shares(flips: Flips, p: Array) -> dict[str, float]:
@@ -272,11 +262,11 @@ def chances_of_shares(flips: Flips, p: Array) -> dict[str, float]:
     """
     people = len(flips.flips)
     same, count = (np.append(each, each.sum()) for each in (flips.same, flips.flips))
-    tails = {"seldom": binom.cdf(same, count, p.min()), "often": binom.sf(same - 1, count, p.max())}
+    tails = {"seldom": binom.cdf(same, count, p.min())}
+    if p.max() < 1:
+        tails["often"] = binom.sf(same - 1, count, p.max())
     chances: dict[str, float] = {}
     for how, tail in tails.items():
-        if how == "often" and p.max() == 1:
-            continue
         chances[f"the first side came up too {how}"] = float(tail[-1])
         if people > 1:
             least = int(np.argmin(tail[:-1]))

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from cointoss.compare.fitting.cells import (
     BEFORE_HEADER,
+    columns_of,
     read_cells,
     require_whole_rows,
     warn_of_unused_columns,
@@ -135,17 +136,11 @@ def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
 
 def _columns(head: Sequence[str]) -> dict[str, int]:
     """Return what each column is; refuse two for one thing, and columns that count no sides."""
-    found: dict[str, int] = {}
-    for i, name in enumerate(head):
-        key = key_of(name)
-        if key == "edge":
-            accepted = "none, and flips without those on the edge, which cointoss shares --vary counts"
-            raise ObservationError(f"column {name}: accepted: {accepted}")
-        if key in found:
-            raise ObservationError(f"columns {head[found[key]]} and {name}; accepted: one of them")
-        if key is not None:
-            found[key] = i
-    return found
+    keys = [key_of(name) for name in head]
+    if "edge" in keys:
+        accepted = "none, and flips without those on the edge, which cointoss shares --vary counts"
+        raise ObservationError(f"column {head[keys.index('edge')]}: accepted: {accepted}")
+    return columns_of(keys, head)
 
 
 def _way_of_counting(columns: Mapping[str, int], head: Sequence[str]) -> tuple[str, ...]:
