@@ -32,8 +32,6 @@ def distance_to_doubt(outcomes: ArrayLike) -> Array:
     from scipy.ndimage import distance_transform_edt
 
     codes = np.pad(measured(outcome_map(outcomes)), 1, constant_values=Outcome.UNDECIDED)
-    distance = np.zeros(codes.shape)
-    for outcome in Outcome:
-        if outcome is not Outcome.UNDECIDED:
-            distance += np.asarray(distance_transform_edt(codes == outcome))
+    known = [outcome for outcome in Outcome if outcome is not Outcome.UNDECIDED]
+    distance: Array = np.sum([distance_transform_edt(codes == outcome) for outcome in known], axis=0)
     return distance[1:-1, 1:-1]

@@ -106,8 +106,9 @@ def draw_map(
         margins: of its pixels.
         untrusted: the pixels that the horizon of trust does not cover, (y, x), which are hatched.
     """
-    size = PANEL_SIZE if margins is None else MARGINS_SIZE
-    figure = Figure(figsize=style.size or size, layout="constrained")
+    figure = Figure(
+        figsize=style.size or (PANEL_SIZE if margins is None else MARGINS_SIZE), layout="constrained"
+    )
     panels = figure.subplots(1, 1 if margins is None else 2, sharex=True, sharey=True, squeeze=False)[0]
     patches = draw_panel(panels[0], outcomes, x=x, y=y, style=style, untrusted=untrusted)
     if margins is not None:
@@ -288,6 +289,5 @@ def _patch(color: str, label: str) -> Patch:
 
 
 def _legend(figure: Figure, patches: list[Patch]) -> None:
-    room = max(1, int(figure.get_figwidth() / _ENTRY_WIDTH))
-    rows = -(-len(patches) // room)
+    rows = -(-len(patches) // max(1, int(figure.get_figwidth() / _ENTRY_WIDTH)))
     figure.legend(handles=patches, loc="outside lower center", ncols=-(-len(patches) // rows), frameon=False)

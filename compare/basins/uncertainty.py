@@ -153,8 +153,7 @@ def _jackknife_error(
     )
     if not u.all():
         return np.inf
-    slopes = _slope(distances, u / k)
-    return float(np.sqrt((BANDS - 1) * np.var(slopes)))
+    return float(np.sqrt((BANDS - 1) * np.var(_slope(distances, u / k))))
 
 
 def _slope(distances: NDArray[np.int64], f: Array) -> Array:

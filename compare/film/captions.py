@@ -81,8 +81,7 @@ def caption_of(play: Play, i: int) -> Caption:
         size = np.linalg.norm(shown[-1].impulse)
         lines.append(Line(f"impulse {1000 * size:#.3g} mN s", to_hex(IMPULSE_COLOR)))
     if play.forces[i].any():
-        weight = toss.scenario.coin.mass * toss.scenario.gravity
-        weights = np.linalg.norm(play.forces[i]) / weight
+        weights = np.linalg.norm(play.forces[i]) / (toss.scenario.coin.mass * toss.scenario.gravity)
         lines.append(Line(f"floor's force {weights:.2f} m g", to_hex(FORCE_COLOR)))
     title = Line(label_of(toss.engine), TITLES.get(toss.engine, INK))
     return Caption(title, label.upper(), *LABELS.get(outcome, (GREY, "white")), lines)

@@ -133,15 +133,11 @@ class Drawer(ExitStack):
             eye.frustum_top, eye.frustum_bottom = eye.frustum_top + up, eye.frustum_bottom + up
         add_shadow(self._renderer.scene, self._data, self._play.toss.scenario.coin)
         if not self._follows:
-            self._add_trail(i)
+            for start, end in itertools.pairwise(self._play.states.position[: i + 1]):
+                self._add(mujoco.mjtGeom.mjGEOM_LINE, TRAIL_WIDTH, start, end, TRAIL_COLOR, 0.6)
         self._add_hand(i)
         self._add_arrows(i)
         return self._renderer.render()
-
-    def _add_trail(self, i: int) -> None:
-        """Add the path up to one of the times."""
-        for start, end in itertools.pairwise(self._play.states.position[: i + 1]):
-            self._add(mujoco.mjtGeom.mjGEOM_LINE, TRAIL_WIDTH, start, end, TRAIL_COLOR, 0.6)
 
     def _add_hand(self, i: int) -> None:
         """Add the hand to which a caught coin comes down, under the coin as it is caught."""
@@ -192,8 +188,9 @@ class Drawer(ExitStack):
     def _add(
         self, kind: mujoco.mjtGeom, thickness: float, start: Array, end: Array, color: Color, alpha: float
     ) -> None:
-        geom = add_geom(self._renderer.scene, kind, (*color, alpha))
-        mujoco.mjv_connector(geom, kind, thickness, start, end)
+        mujoco.mjv_connector(
+            add_geom(self._renderer.scene, kind, (*color, alpha)), kind, thickness, start, end
+        )
 
 
 def _aimed(camera: Camera, box: Box, r: float, aspect: float) -> tuple[mujoco.MjvCamera, float]:

@@ -158,8 +158,14 @@ def _material(name: str) -> dict[str, Any]:
     """Return a material, whose colour glTF has in linear parts."""
     parts = [int(COLORS[name][i : i + 2], 16) / 255 for i in (1, 3, 5)]
     linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
-    look = {"baseColorFactor": [*linear, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.5}
-    return {"name": name, "pbrMetallicRoughness": look}
+    return {
+        "name": name,
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [*linear, 1.0],
+            "metallicFactor": 0.0,
+            "roughnessFactor": 0.5,
+        },
+    }
 
 
 def _binary(document: dict[str, Any], motion: list[Array], shape: list[Array]) -> bytes:

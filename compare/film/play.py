@@ -60,19 +60,16 @@ class Play:
         if _is_still(self.toss, time):
             return []
         first, last = np.searchsorted(impacts.time, (time - SHOWN_FOR, time), side="right")
-        size = np.linalg.norm(impacts.impulse[first:last], axis=1)
+        size, center = np.linalg.norm(impacts.impulse[first:last], axis=1), self.toss.scenario.body.center
         return [
             Shown(
-                point=self._in_space(impacts.position[k], impacts.quaternion[k], impacts.point[k]),
+                point=impacts.position[k]
+                + np.array(rotation_matrix(impacts.quaternion[k])) @ (impacts.point[k] - center),
                 impulse=impacts.impulse[k],
                 freshness=1 - (time - impacts.time[k]) / SHOWN_FOR,
             )
             for k in first + np.flatnonzero(size > WEAKEST * self.largest_impulse)
         ]
-
-    def _in_space(self, position: Array, quaternion: Array, point: Array) -> Array:
-        """Return where a point of the coin, from B in the body frame, is in space."""
-        return position + np.array(rotation_matrix(quaternion)) @ (point - self.toss.scenario.body.center)
 
 
 def _is_still(motion: Toss, times: Array) -> NDArray[np.bool_]:

@@ -131,8 +131,7 @@ def poster_number(shown: Sequence[Filmed], form: Format) -> int:
     first, last = np.searchsorted(times, (until / 2, until))
     flight = times[first : last + 1]
     paths = (each.motion.sample(np.minimum(flight, each.motion.end_time)) for each in shown)
-    flat = [np.abs(path.normal[:, 2]) for path in paths]
-    return 1 + int(first + np.argmax(np.sum(flat, axis=0)))
+    return 1 + int(first + np.argmax(np.sum([np.abs(path.normal[:, 2]) for path in paths], axis=0)))
 
 
 def _width(shown: Sequence[Filmed], form: Format) -> int:

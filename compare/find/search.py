@@ -191,8 +191,7 @@ def _centred(window: Window, target: Target, hit: Hit) -> Hit:
     """
     best = _scanned(window, target, hit.point)
     for _ in range(ROUNDS if best.margin > LEAST else 0):
-        room = np.column_stack([best.point, 1 - best.point])
-        down, up = np.minimum(best.margins, room).T
+        down, up = np.minimum(best.margins, np.column_stack([best.point, 1 - best.point])).T
         tried = best.point + np.outer(STEPS, (up - down) / 2)
         tried = tried[target.shown(window, tried) == target.steps]
         moved = _scanned(window, target, tried[0]) if len(tried) else best

@@ -74,6 +74,5 @@ class Target:
             shown[left] = np.logical_and.accumulate(agree, axis=1).sum(axis=1)
             left = left[shown[left] == touches]
         if steps > len(self.sequence) and len(left):
-            tossed = analytic.toss_rows(rows[left], device=self.processor)
-            shown[left] += tossed.outcome == self.outcome
+            shown[left] += analytic.toss_rows(rows[left], device=self.processor).outcome == self.outcome
         return shown

@@ -53,8 +53,10 @@ def _end_of(each: Fitted) -> str:
 def _seen(fit: Fit) -> str:
     touches = len(fit.observed.touch_times)
     numbers = {name: int(of.sum()) for name, of in fit.observed.measured.items()}
-    parts = [counted(touches, "touch").replace("touchs", "touches")] if touches else []
-    parts += [f"{n} {name}" for name, n in numbers.items() if n]
+    parts = [
+        *([counted(touches, "touch").replace("touchs", "touches")] if touches else []),
+        *(f"{n} {name}" for name, n in numbers.items() if n),
+    ]
     return f"{', '.join(parts)}; {counted(len(fit.values), 'value')} fitted"
 
 

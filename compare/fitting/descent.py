@@ -35,8 +35,7 @@ class Descent:
 
     def residuals(self, points: Array, rows: NDArray[np.intp]) -> Array:
         """Return what was seen less what the tosses show, in standard deviations, (p, n)."""
-        until = float(self.misfit.times[rows].max())
-        return self.misfit.residuals(self.values(points), until)[:, rows]
+        return self.misfit.residuals(self.values(points), float(self.misfit.times[rows].max()))[:, rows]
 
     def slopes(
         self,

@@ -94,8 +94,7 @@ def region_of(
         left = np.flatnonzero(np.where(is_tried, is_far, beyond != near))
         if not len(left):
             break
-        share = np.where(is_tried[left], NEARER, 1.0)
-        target = near[left] + share * (beyond[left] - near[left])
+        target = near[left] + np.where(is_tried[left], NEARER, 1.0) * (beyond[left] - near[left])
         moved, missed = _least_at(descent, rows, [*known[:-1], met], fields[left], target, rng)
         square = squares(missed)
         if square.min() < found[1]:
@@ -153,8 +152,7 @@ def _drawn_at(known: Known, field: int, value: float, count: int, rng: np.random
     which it is least far; the first of each as far along its valley."""
     k = known.points.shape[1]
     ridge = 1e-12 * np.einsum("pii->p", known.information) + np.finfo(float).tiny
-    whole = known.information + ridge[:, None, None] * np.eye(k)
-    variance = np.linalg.inv(whole)[:, field, field]
+    variance = np.linalg.inv(known.information + ridge[:, None, None] * np.eye(k))[:, field, field]
     away = (value - known.points[:, field]) ** 2 / variance
     nearest = np.argsort(away, kind="stable")[: max(count // 4, 1)]
     chosen = np.resize(nearest, count)
@@ -191,8 +189,7 @@ def drawn_near(
         spread: in standard deviations, of all or of each, (n,).
     """
     free = ~held
-    kept = information * (free[:, :, None] & free[:, None, :])
-    squares, axes = np.linalg.eigh(kept)
+    squares, axes = np.linalg.eigh(information * (free[:, :, None] & free[:, None, :]))
     sizes, axes = np.sqrt(np.maximum(squares, 0.0)), axes.transpose(0, 2, 1)
     spread = np.broadcast_to(spread, len(points)).astype(float)[:, None]
     drawn = spread * rng.normal(size=points.shape) / np.maximum(sizes, 1.0)

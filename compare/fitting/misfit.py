@@ -59,8 +59,9 @@ class Misfit:
     def times(self) -> Array:
         """When each residual was seen: touches, faces, heights, tilts, three for an attitude, (n,) [s]."""
         seen = self.observed
-        frames = [seen.times[rows] for rows in self._frames]
-        return np.concatenate([seen.touch_times, seen.touch_times[self._faces], *frames])
+        return np.concatenate(
+            [seen.touch_times, seen.touch_times[self._faces], *[seen.times[rows] for rows in self._frames]]
+        )
 
     @cached_property
     def is_measured(self) -> NDArray[np.bool_]:

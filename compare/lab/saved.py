@@ -51,8 +51,7 @@ def saved_map(found: "xr.Dataset", name: str) -> dict[str, Any]:
         ValueError: for an outcome's code that is none.
     """
     about, fields = found.attrs, [field_along(found, dim) for dim in ("x", "y")]
-    outcome = found["outcome"].dims, outcomes_in(found)
-    coded = in_codes(found).assign(outcome=outcome).sortby(fields)
+    coded = in_codes(found).assign(outcome=(found["outcome"].dims, outcomes_in(found))).sortby(fields)
     return {
         "name": name,
         "title": title_of_toss(scenario_of(found), about["name"], varied=fields),
@@ -71,6 +70,5 @@ def saved_map(found: "xr.Dataset", name: str) -> dict[str, Any]:
 
 def _axis(coordinate: "xr.DataArray") -> dict[str, Any]:
     word, unit = coordinate.attrs["long_name"], printed_unit(coordinate.attrs["units"])
-    is_whole = coordinate.name == "ending.max_impacts"
-    values = coordinate.values.astype(int if is_whole else float).tolist()
+    values = coordinate.values.astype(int if coordinate.name == "ending.max_impacts" else float).tolist()
     return {"field": coordinate.name, "word": word, "unit": unit, "values": values}

@@ -51,8 +51,7 @@ def explore(found: "xr.Dataset") -> Frame:
         UnusableEngineError: where the engine for a browser was not built.
     """
     shown, name = thinned(found, MOST_PIXELS), name_of(found)
-    title = f"map of {saved_map(shown, name)['title']}"
-    return Frame(title, _page(shown, name, TOSSED_IN_FRAME))
+    return Frame(f"map of {saved_map(shown, name)['title']}", _page(shown, name, TOSSED_IN_FRAME))
 
 
 def _page(found: "xr.Dataset", name: str, most: tuple[int, int]) -> str:
@@ -62,13 +61,21 @@ def _page(found: "xr.Dataset", name: str, most: tuple[int, int]) -> str:
     x, y = saved["axes"]
     grid = [_spread(axis["values"], count) for axis, count in zip((x, y), most, strict=True)]
     lab_page(scenario)  # an engine that is missing is told before all tosses
-    tosses = []
-    for place in counted("tossing by MuJoCo", "pixels", [(u, v) for v in grid[1] for u in grid[0]]):
-        case = scenario.replace(x["field"], place[0], y["field"], place[1])
-        toss = toss_by_mujoco(case, contact, samples=SAMPLES, most_symbols=SAMPLES // 4)
-        tosses.append({"place": place, "toss": toss})
-    page = lab_page(scenario, saved=saved, tosses=tosses)
-    return page.replace(TITLE, f"<title>{escape(saved['title'])}: the coin lab", 1)
+    tosses = [
+        {
+            "place": (u, v),
+            "toss": toss_by_mujoco(
+                scenario.replace(x["field"], u, y["field"], v),
+                contact,
+                samples=SAMPLES,
+                most_symbols=SAMPLES // 4,
+            ),
+        }
+        for u, v in counted("tossing by MuJoCo", "pixels", [(u, v) for v in grid[1] for u in grid[0]])
+    ]
+    return lab_page(scenario, saved=saved, tosses=tosses).replace(
+        TITLE, f"<title>{escape(saved['title'])}: the coin lab", 1
+    )
 
 
 def _spread(values: list[float], most: int) -> list[float]:

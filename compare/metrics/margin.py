@@ -82,10 +82,9 @@ class Margin:
     @property
     def line(self) -> str:
         """The margin for a person; rounded up, what was found stays an upper bound."""
-        unit = self.quantity.unit
-        found = f"none found up to {self.quantity.factor:g} {unit}"
-        if self.finite is not None:
-            found = f"{_rounded(self.change, 3, ROUND_UP):+.3g} {unit}"
+        unit, change = self.quantity.unit, self.finite
+        none = f"none found up to {self.quantity.factor:g} {unit}"
+        found = none if change is None else f"{_rounded(change, 3, ROUND_UP):+.3g} {unit}"
         if self.proved:
             found += f", proved to be above {self.proved:.2g} {unit}"
         return f"margin    {self.quantity.name:18}  {found}"
@@ -209,11 +208,9 @@ def margins(
         return analytic.toss_rows(rows, settings=settings).outcome
 
     def margin_along(quantity: ReleaseQuantity) -> Margin:
-        found = smallest_changes(start, quantity, outcomes=outcomes, search=FINE)
-        change = float(found[0])
+        change = float(smallest_changes(start, quantity, outcomes=outcomes, search=FINE)[0])
         proved = proofs.proved_change(scenario, quantity, change) if proofs else 0.0
-        proved = _rounded(proved * quantity.factor, 2, ROUND_DOWN)
-        return Margin(quantity, change * quantity.factor, proved)
+        return Margin(quantity, change * quantity.factor, _rounded(proved * quantity.factor, 2, ROUND_DOWN))
 
     return tuple(map(margin_along, counted("margins", "quantities", QUANTITIES)))
 

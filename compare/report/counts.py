@@ -1,5 +1,6 @@
 """Why the engines of a comparison count different numbers of impacts."""
 
+import math
 from collections.abc import Sequence
 
 from cointoss.compare.output.language import listed
@@ -36,6 +37,4 @@ def counts_sentence(tosses: Sequence[Toss]) -> str:
 
 def _before_contact(toss: Toss) -> int:
     """Return how many impacts come before the first sustained contact."""
-    if not len(toss.contacts):
-        return len(toss.impacts)
-    return int((toss.impacts.time <= toss.contacts[0, 0]).sum())
+    return int((toss.impacts.time <= toss.contacts[:1, 0].min(initial=math.inf)).sum())

@@ -78,9 +78,7 @@ def _verdict(pair: Against, *, many: bool) -> Verdict:
 
 def _doubt(toss: Toss) -> str:
     other = toss.other_outcome
-    if other is None:
-        return ""
-    return f" {_sentence(f'{_told(toss.outcome)} or {_told(other.outcome)}: {other.told}')}"
+    return f" {_sentence(f'{_told(toss.outcome)} or {_told(other.outcome)}: {other.told}')}" if other else ""
 
 
 def horizon_sentence(pair: Against) -> str:
@@ -91,10 +89,9 @@ def horizon_sentence(pair: Against) -> str:
         return f"{before} an impact nothing amplifies small errors."
     whose = f"{label_of(pair.toss.engine)}’s" if pair.measure.is_sure else "the engines’ own"
     errors = f"errors as small as {whose}"
-    if horizon >= count and caught:
-        return f"All faces must agree: the coin is caught before {errors} change one."
     if horizon >= count:
-        return f"All faces must agree: {errors} change none."
+        change = f"the coin is caught before {errors} change one" if caught else f"{errors} change none"
+        return f"All faces must agree: {change}."
     off_the_law = _off_the_law(pair)
     if horizon == 0:
         return f"Not even the first face must agree: {off_the_law or f'{errors} can change it'}."
@@ -194,20 +191,16 @@ def _without_impact(a: Toss, b: Toss, in_contact: bool) -> str:
 
 
 def _outcome(toss: Toss) -> str:
-    if toss.ending == Ending.CAUGHT:
-        return f"{toss.outcome} in the hand"
-    if toss.ending == Ending.NOT_CAUGHT:
-        return "not caught"
-    return _told(toss.outcome)
+    of_a_hand = {Ending.CAUGHT: f"{toss.outcome} in the hand", Ending.NOT_CAUGHT: "not caught"}
+    return of_a_hand.get(toss.ending) or _told(toss.outcome)
 
 
 def _told(outcome: Outcome) -> str:
-    told = {
+    return {
         Outcome.EDGE: "on its edge",
         Outcome.PERPETUAL: "moving for ever",
         Outcome.TRANSIENT: "moving still",
-    }
-    return told.get(outcome, str(outcome))
+    }.get(outcome, str(outcome))
 
 
 def _all(count: int) -> str:

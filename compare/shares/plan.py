@@ -115,8 +115,7 @@ class Plan:
         Args:
             counts: of all tosses, by code of `Outcome`, (..., 6).
         """
-        has_none = self.catches & (np.arange(len(Outcome)) == Outcome.UNDECIDED)
-        return np.where(has_none, 0, counts)
+        return np.where(self.catches & (np.arange(len(Outcome)) == Outcome.UNDECIDED), 0, counts)
 
     def setting(self, number: int) -> GridPoint:
         """Return a point of the grid by its number; the last field varies fastest.
@@ -160,14 +159,13 @@ def plan_of(
     """
     if not isinstance(vary, Mapping):
         raise SweepError(f'vary: {vary!r}, accepted: a dict such as {{"hand.height": "0.2:2:10"}}')
-    axes = []
-    for name, given in vary.items():
-        if str(name).startswith("release."):
-            raise SweepError(f"{name}: the hand releases the coin; accepted: {', '.join(HAND)}, and others")
-        axes.append(axis_given(name, given, scenario, FIELDS))
+    if of_the_release := [name for name in vary if str(name).startswith("release.")]:
+        accepted = f"{', '.join(HAND)}, and others"
+        raise SweepError(f"{of_the_release[0]}: the hand releases the coin; accepted: {accepted}")
+    axes = tuple(axis_given(name, given, scenario, FIELDS) for name, given in vary.items())
     if tosses is None:
         tosses = USUAL_TOSSES if to is None else MOST_TOSSES
-    return Plan(scenario=scenario, vary=tuple(axes), tosses=tosses, to=to, **others)
+    return Plan(scenario=scenario, vary=axes, tosses=tosses, to=to, **others)
 
 
 def rows_of_releases(setting: GridPoint, states: Array) -> Array:

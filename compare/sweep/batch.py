@@ -160,9 +160,15 @@ class Batch:
     def _tried_along(self, dim: str) -> NDArray[np.intp]:
         along = [one for one in self.varied if dim in one.dims]
         (one, *others), n = along or [None], self.sizes[dim]
-        if one is None or others or len(one.dims) > 1 or one.field in WORDED or n < 2:
-            return np.arange(n)
-        if not one.field.startswith(_ENDS_SUFFICE) or not np.isfinite(one.values).all():
+        if (
+            one is None
+            or others
+            or len(one.dims) > 1
+            or one.field in WORDED
+            or n < 2
+            or not one.field.startswith(_ENDS_SUFFICE)
+            or not np.isfinite(one.values).all()
+        ):
             return np.arange(n)
         return np.unique([np.argmin(one.values), np.argmax(one.values)])
 
@@ -299,9 +305,8 @@ def _require_once(field: str, given: Mapping[str, Any]) -> None:
 
 def _is_one(field: str, value: Any) -> bool:
     """Return whether a value is the same for all tosses."""
-    if isinstance(value, Part) or field in _PARTS or field in COMPONENTS:
-        return True
-    return not _is_range(field, value) and not hasattr(value, "dims") and not _shape(value)
+    is_whole = isinstance(value, Part) or field in _PARTS or field in COMPONENTS
+    return is_whole or not (_is_range(field, value) or hasattr(value, "dims") or _shape(value))
 
 
 def _shape(value: Any) -> tuple[int, ...]:
