@@ -38,8 +38,7 @@ def on_machines(
         softer: the part by which the contacts are softened, see `MujocoSettings.softened`.
     """
     # NaN, for a field that is left out, counts as equal to itself here.
-    machines = np.nan_to_num(rows[:, :_OF_MACHINE], nan=np.inf)
-    _, coins = np.unique(machines, axis=0, return_inverse=True)
+    _, coins = np.unique(np.nan_to_num(rows[:, :_OF_MACHINE], nan=np.inf), axis=0, return_inverse=True)
     order, of_thread = np.argsort(coins, kind="stable"), threading.local()
 
     def machine(row: int) -> Machine:

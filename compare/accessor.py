@@ -84,8 +84,11 @@ class Tosses:
         counts = xr.concat([(codes == one).sum(over) for one in Outcome], "outcome").transpose(
             *along, "outcome"
         )
-        kept = {name: one for name, one in self._dataset.coords.items() if set(one.dims) <= set(along)}
-        kept |= {"engine": self._dataset.attrs["engine"], "outcome": list(Outcome.by_value().values())}
+        kept = {
+            **{name: one for name, one in self._dataset.coords.items() if set(one.dims) <= set(along)},
+            "engine": self._dataset.attrs["engine"],
+            "outcome": list(Outcome.by_value().values()),
+        }
         return shares_of(counts.values, (*along, "outcome"), kept, self._dataset.attrs)
 
     @property

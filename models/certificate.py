@@ -134,8 +134,11 @@ def _of_contacts(scenario: Scenario, in_contact: InContact) -> Iterator[Setting]
         gained = float((end - start).max()) / (body.mass * body.gravity * body.radius)
         yield Setting(name=CONTACT_ENERGY, value=max(gained, 0.0), unit="m g r")
         if is_smooth(rules.law) and in_vacuum(body) and body.downhill == 0 and not resists(rules):
-            changed = momenta(body, stretches.after) - momenta(body, _at_release(scenario))
-            yield Setting(name=KEPT, value=_largest(changed), unit="m r √(g r)")
+            yield Setting(
+                name=KEPT,
+                value=_largest(momenta(body, stretches.after) - momenta(body, _at_release(scenario))),
+                unit="m r √(g r)",
+            )
     if count := len(landings.before.time):
         yield Setting(name=LANDINGS, value=count)
         yield Setting(name=LANDING, value=_largest(landing_residuals(body, rules, landings)))
@@ -351,8 +354,7 @@ def _flights(
     counts = np.full_like(needed, VACUUM_SAMPLES) if vacuum else np.minimum(needed, MOST_SAMPLES)
     # On [0, 1]: nodes of Gauss's rule, and their weights.
     rules = [(0.5 + x / 2, weights / 2) for x, weights in map(_gauss, counts)]
-    begin = starts[sampled]
-    times = [t + x * length for t, (x, _), length in zip(begin, rules, durations, strict=True)]
+    times = [t + x * length for t, (x, _), length in zip(starts[sampled], rules, durations, strict=True)]
     states = path.sample(np.concatenate([np.empty(0), *times]))
     if vacuum:
         return states, change[free]
@@ -380,9 +382,7 @@ def _at_release(scenario: Scenario) -> States:
     )
 
 
-@cache
-def _gauss(count: int) -> tuple[Array, Array]:
-    return np.polynomial.legendre.leggauss(count)
+_gauss = cache(np.polynomial.legendre.leggauss)
 
 
 def _lands_flat(body: Body, impacts: Impacts) -> NDArray[np.bool_]:

@@ -44,7 +44,11 @@ def build(scenario: Scenario, rebound: Rebound, friction: float, thickness: floa
         thickness: of the coin's shape [m].
     """
     spec = described(scenario, thickness)
-    _undress(spec)
+    # What is only drawn goes; textures take most of the time in which a model is compiled.
+    for geom in spec.geoms:
+        geom.material = ""
+    for drawn in (*spec.textures, *spec.materials, *spec.lights):
+        spec.delete(drawn)
     spec.geom("floor").pos = (0.0, 0.0, floor_height(scenario, thickness))
     coin = spec.geom("coin")
     coin.solref = (-rebound.stiffness, -rebound.damping)
@@ -60,14 +64,6 @@ def build(scenario: Scenario, rebound: Rebound, friction: float, thickness: floa
             solimp=coin.solimp,
         )
     return compile_coin(spec, scenario)
-
-
-def _undress(spec: mujoco.MjSpec) -> None:
-    """Take away what is only drawn; textures take most of the time in which a model is compiled."""
-    for geom in spec.geoms:
-        geom.material = ""
-    for drawn in (*spec.textures, *spec.materials, *spec.lights):
-        spec.delete(drawn)
 
 
 def compile_coin(spec: mujoco.MjSpec, scenario: Scenario) -> mujoco.MjModel:
@@ -104,14 +100,10 @@ def described(scenario: Scenario, thickness: float) -> mujoco.MjSpec:
     body.fullinertia = (J[0, 0], J[1, 1], J[2, 2], J[0, 1], J[0, 2], J[1, 2])
     spec.geom("coin").size = (coin.radius, thickness / 2, 0.0)
     if scenario.body.air.exponent is None:
-        _set_linear_drag(spec, scenario)
+        # The rest of the force of linear air, which is larger along the normal, is damping: see `_damp`.
+        drag = scenario.body.drag
+        spec.actuator("drag").biasprm[2] = drag.force_tangential - drag.force_normal
     return spec
-
-
-def _set_linear_drag(spec: mujoco.MjSpec, scenario: Scenario) -> None:
-    """Set what the force of linear air along the normal has more than that along the faces."""
-    drag = scenario.body.drag
-    spec.actuator("drag").biasprm[2] = drag.force_tangential - drag.force_normal
 
 
 def _damp(model: mujoco.MjModel, scenario: Scenario) -> None:

@@ -8,7 +8,7 @@ import click
 from cointoss.compare.commands.common import SCENARIO_HELP, say
 from cointoss.compare.commands.names import axes, scenario_argument
 from cointoss.compare.commands.options import one_of, only_with, options_of, without, words_of
-from cointoss.compare.commands.settings import set_option, settings_words, with_scenario
+from cointoss.compare.commands.settings import set_option, with_scenario
 from cointoss.compare.sweep.asked import Job, Source
 from cointoss.models.devices import Device
 
@@ -47,6 +47,7 @@ def basin(source: Source, asked: Job) -> None:
         from cointoss.compare.sweep.job import make
 
     again = replace(asked, resume=True, overwrite=False, png=None, device=Device.CPU, scheduler=None)
-    words = ["cointoss", "basin", source.name, *settings_words(source.settings), *words_of(again)]
+    settings = (word for setting in source.settings for word in ("--set", setting))
+    words = ["cointoss", "basin", source.name, *settings, *words_of(again)]
     for result in make(asked, source, shlex.join(words), say):
         click.echo(result)

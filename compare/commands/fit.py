@@ -84,8 +84,9 @@ def fit(observed: Path, source: Source | None, asked: SoughtValues) -> None:
     context = click.get_current_context()
     for name, value in (("scenario", source), ("vary", asked.vary)):
         if not value:
-            param = next(one for one in context.command.params if one.name == name)
-            raise click.MissingParameter(ctx=context, param=param)
+            raise click.MissingParameter(
+                ctx=context, param=next(one for one in context.command.params if one.name == name)
+            )
     assert source is not None
     with stage("getting ready"):  # what is imported takes long on a busy machine
         spans_given(varied(asked.vary), source.scenario)

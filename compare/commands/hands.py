@@ -16,7 +16,6 @@ from cointoss.compare.sweep.asked import Source
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from cointoss.compare.output.hand_lines import HandLines
     from cointoss.compare.shares.plan import Plan
 
 BLOCK = {"analytic": 5000, "mujoco": 100}
@@ -113,8 +112,10 @@ def first_sides(plan: "Plan") -> "Iterator[tuple[int, Counts]]":
             progress(first + len(block), plan.tosses)
 
 
-def _answer(counted: int, counts: Counts, told: dict[str, Any], lines: "HandLines | None") -> None:
-    """Print what is counted; as JSON where there are no lines for a person."""
+def _answer(
+    counted: int, counts: Counts, told: dict[str, Any], lines: tuple[str, tuple[str, ...]] | None
+) -> None:
+    """Print what is counted; as JSON where there are no lines for a person, above the counts and below."""
     from cointoss.compare.metrics.estimates import share_of
     from cointoss.compare.output.hand_lines import uncaught
 
@@ -133,4 +134,4 @@ def _answer(counted: int, counts: Counts, told: dict[str, Any], lines: "HandLine
     left_out = [f"left out  {uncaught(not_caught)}"] if not_caught else []
     if not_flat:
         left_out.append(f"left out  at rest: {not_flat:,d} coin{'s' * (not_flat != 1)} that ended on no face")
-    click.echo("\n".join([lines.above, *told_shares, *left_out, "", *lines.below]))
+    click.echo("\n".join([lines[0], *told_shares, *left_out, "", *lines[1]]))

@@ -44,9 +44,7 @@ def one_of(*names: str) -> Rule:
 
     def rule(given: Typed) -> str | None:
         found = [name for name in names if name in given]
-        if len(found) > 1:
-            return f"{' and '.join(map(option_of, found))}: accepted: one of them"
-        return None
+        return f"{' and '.join(map(option_of, found))}: accepted: one of them" if len(found) > 1 else None
 
     return rule
 
@@ -175,8 +173,9 @@ def _option(one: _Field, names: Callable[[], Iterable[str]] | None) -> Callable[
     elif not one.is_many:
         default = str(one.default) if isinstance(one.default, StrEnum) else one.default
         more |= {"default": default, "show_default": one.default not in (None, False, "")}
-    help_ = " ".join(meanings(one.record)[one.name].split())
-    return click.option(option_of(one.name), one.name, help=help_, **more)
+    return click.option(
+        option_of(one.name), one.name, help=" ".join(meanings(one.record)[one.name].split()), **more
+    )
 
 
 def _is_worded(kind: Any) -> bool:
@@ -195,8 +194,6 @@ def _type(one: _Field) -> click.ParamType:
                 return WrittenPlace(mark)
             case Form(shown, read) if read is not None:
                 return TextType(shown, read)
-            case _:
-                pass
     if get_origin(one.kind) is Literal:
         return ChoiceType(get_args(one.kind))
     if _is_worded(one.kind):

@@ -34,8 +34,7 @@ def scenarios(name: str | None, copied: Path | None) -> None:
         if copied is not None:
             raise click.UsageError(f"--copy {copied}: accepted: only with a NAME")
         width = max(map(len, names)) + 2
-        for each in names:
-            click.echo(f"{each:{width}}{title_of(each)}")
+        click.echo("\n".join(f"{each:{width}}{title_of(each)}" for each in names))
         return
     if name not in names:
         refuse(

@@ -93,9 +93,11 @@ def with_scenario(command: Callable[..., None]) -> Callable[..., None]:
             raise click.UsageError(f"--set {settings[0]}: accepted: only with a SCENARIO")
         text = None if scenario is None else _text_of(scenario)
         with plain_errors("cointoss" if scenario is None else scenario):
-            is_none = scenario is None
-            source = None if is_none else Source(scenario, *described(scenario, settings, text), settings)
-            command(*arguments, source=source, **asked)
+            command(
+                *arguments,
+                source=scenario and Source(scenario, *described(scenario, settings, text), settings),
+                **asked,
+            )
 
     return called
 
@@ -109,11 +111,6 @@ def _text_of(source: str) -> str:
         return scenario_text(source)
     except ScenarioError as error:
         refuse(str(error))
-
-
-def settings_words(settings: Sequence[str]) -> list[str]:
-    """Return the words of the command line that make these settings."""
-    return [word for setting in settings for word in ("--set", setting)]
 
 
 def _value(text: str) -> Any:

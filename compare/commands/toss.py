@@ -78,9 +78,8 @@ def toss(source: Source, asked: Answer, verbose: bool) -> None:
 
         require_mujoco(asked.engine)
         package = Engine(asked.engine).package
-    coin = source.scenario
-    if asked.max_impacts is not None:
-        coin = coin.replace("ending.max_impacts", asked.max_impacts)
+    coin, most = source.scenario, asked.max_impacts
+    coin = coin if most is None else coin.replace("ending.max_impacts", most)
     chosen = {
         name: value
         for name in ("contact", "contact_steps", "flight_steps")
@@ -89,8 +88,7 @@ def toss(source: Source, asked: Answer, verbose: bool) -> None:
     fine = replace(package.FINE, **chosen)
     result = toss_by(coin, asked.engine, settings=fine, rest=asked.rest)
     if asked.trajectory is not None:
-        times = answer.path_times(result)
-        write_text(asked.trajectory, answer.path_csv(result.sample(times), coin))
+        write_text(asked.trajectory, answer.path_csv(result.sample(answer.path_times(result)), coin))
     if asked.gltf is not None:
         from cointoss.compare.film.gltf import write_gltf
 
@@ -105,9 +103,8 @@ def toss(source: Source, asked: Answer, verbose: bool) -> None:
 
         proofs = offered_proofs() if is_planar(coin) else None
         if proofs is not None:
-            unproved = proofs.refusal(coin)
-            if asked.contact_steps is not None:
-                unproved = f"--contact-steps: {asked.contact_steps}, accepted: none"
+            steps = asked.contact_steps
+            unproved = proofs.refusal(coin) if steps is None else f"--contact-steps: {steps}, accepted: none"
         elif is_planar(coin):
             unproved = "want of a package with an entry point cointoss.proofs"
         extra = margins(coin, None if unproved else proofs, settings=fine)

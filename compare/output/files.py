@@ -53,8 +53,7 @@ def require_file(path: Path, suffixes: tuple[str, ...], source: str | None, *rea
         target = Path(os.path.realpath(path))
         if target.exists():
             require_replaceable(target, source, *read)
-        with tempfile.TemporaryFile(dir=target.parent):
-            pass
+        tempfile.TemporaryFile(dir=target.parent).close()
 
 
 def require_folder(folder: Path, names: tuple[str, ...], source: str | None = None) -> list[Path]:
@@ -75,8 +74,7 @@ def require_folder(folder: Path, names: tuple[str, ...], source: str | None = No
         if os.path.lexists(folder) and not folder.is_dir():
             raise UnwritableError(f"{folder}: is no folder; accepted: a folder")
         there = next(part for part in (folder, *folder.parents) if os.path.lexists(part))
-        with tempfile.TemporaryFile(dir=there):
-            pass
+        tempfile.TemporaryFile(dir=there).close()
         in_the_way = [folder / name for name in names if os.path.lexists(folder / name)]
         for path in in_the_way:
             require_replaceable(path, source)
@@ -200,8 +198,10 @@ def aside_in(folder: Path) -> Iterator[Path]:
     for left in folder.glob(f"{PREFIX}*/{LOCK}"):
         with suppress(OSError, NotImplementedError), FileLock(left).acquire(blocking=False):
             shutil.rmtree(left.parent)
-    aside = tempfile.TemporaryDirectory(prefix=PREFIX, dir=folder, ignore_cleanup_errors=True)
-    with aside as name, ExitStack() as held:
+    with (
+        tempfile.TemporaryDirectory(prefix=PREFIX, dir=folder, ignore_cleanup_errors=True) as name,
+        ExitStack() as held,
+    ):
         with suppress(NotImplementedError):  # a disk without locks, where nobody else gets one either
             # Another process that finds the folder before it is locked has the lock for a moment.
             held.enter_context(FileLock(Path(name) / LOCK).acquire(timeout=1))

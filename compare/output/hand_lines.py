@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import replace
-from typing import NamedTuple
 
 from cointoss.models.hand import Hand
 from cointoss.models.laws import ContactLaw
@@ -17,15 +16,8 @@ WHY = (
 """Why a coin rests on its first side far more often than it shows this side at a touch."""
 
 
-class HandLines(NamedTuple):
-    """The lines around the counts."""
-
-    above: str
-    below: tuple[str, ...]
-
-
-def hand_lines(hand: Hand, scenario: Scenario, engine: str, seed: int) -> HandLines:
-    """Return what is counted, and of which tosses."""
+def hand_lines(hand: Hand, scenario: Scenario, engine: str, seed: int) -> tuple[str, tuple[str, ...]]:
+    """Return what is counted, in the line above the counts, and of which tosses, in those below."""
     caught = scenario.ending.caught
     below = (
         f"hand       {replace(hand, caught=caught).in_words}",
@@ -33,13 +25,13 @@ def hand_lines(hand: Hand, scenario: Scenario, engine: str, seed: int) -> HandLi
         f"engine     {engine}, seed {seed}; in brackets 99 % intervals",
     )
     if hand.spun:
-        return HandLines("How often the spun coin ends with each outcome:", below)
+        return "How often the spun coin ends with each outcome:", below
     side = "heads" if hand.up == "heads" else "heads or tails, as drawn"
     where = "at a touch and at rest" if caught is None else "in the hand that catches the coin"
     above = f"How often the side that is up at the release ({side}) is up {where}:"
     wobbles = hand.psi < math.pi / 2 or hand.psi_scatter > 0
     why = WHY if caught is None and wobbles and keeps_momenta(scenario) else ()
-    return HandLines(above, (*why, *below))
+    return above, (*why, *below)
 
 
 def uncaught(count: int) -> str:

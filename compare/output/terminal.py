@@ -30,8 +30,7 @@ def laid_out(markdown: str, width: int) -> str:
 def _table(markdown: str, width: int) -> str:
     head, ruled, *rows = [[_plain(cell) for cell in cells(line)] for line in markdown.splitlines()]
     numbers = [mark.endswith(":") for mark in ruled]
-    columns = list(zip(head, *rows, strict=True))
-    widths = _widths(columns, width)
+    widths = _widths(list(zip(head, *rows, strict=True)), width)
     tall = [_lines(row, widths) for row in (head, *rows)]
     spaced = any(len(lines) > 1 for lines in tall[1:])
 

@@ -3,6 +3,7 @@
 import json
 import re
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
 
 from cointoss.compare.output import files
@@ -55,10 +56,8 @@ def require_folder(folder: Path, source: str, engines: Iterable[str] = ()) -> No
 
 def _earlier(folder: Path) -> tuple[str, ...]:
     """Return the names of an earlier report's files: its numbers.json names its versions and engines."""
-    try:
+    with suppress(OSError, ValueError, RecursionError, LookupError, TypeError, AttributeError):
         numbers = json.loads((folder / "numbers.json").read_bytes())
         if "cointoss" in numbers["versions"]:
             return (*FILES, *(path_name(toss["engine"]) for toss in numbers["tosses"]))
-    except (OSError, ValueError, RecursionError, LookupError, TypeError, AttributeError):
-        pass
     return ()

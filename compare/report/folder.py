@@ -48,8 +48,7 @@ def write_report(
         numbers = _numbers(comparison) | ({"map": maps.numbers} if maps else {})
         (aside / "numbers.json").write_text(json_text(numbers), encoding="utf-8")
         for toss in comparison.tosses:
-            states = toss.sample(answer.path_times(toss))
-            path = answer.path_csv(states, toss.scenario)
+            path = answer.path_csv(toss.sample(answer.path_times(toss)), toss.scenario)
             (aside / path_name(toss.engine)).write_text(path, encoding="utf-8")
 
         being_drawn = BEING_DRAWN.format(engines="both" if "mujoco" in engines else "analytic")

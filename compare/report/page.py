@@ -57,8 +57,10 @@ def render(
     folder = resources.files("cointoss.compare.report")
     template = (folder / "report.html.j2").read_text(encoding="utf-8")
     shared = {name: content.decode("utf-8") for name, content in shared_files().items()}
-    modules = {name: text for name, text in shared.items() if name.endswith(".js")}
-    modules |= {name: (folder / name).read_text(encoding="utf-8") for name in ("report.js", "present.js")}
+    modules = {
+        **{name: text for name, text in shared.items() if name.endswith(".js")},
+        **{name: (folder / name).read_text(encoding="utf-8") for name in ("report.js", "present.js")},
+    }
     engines = [toss.engine for toss in comparison.tosses]
     horizons = _horizons(comparison)
     asked = len(engines) + len(comparison.absent)

@@ -104,8 +104,7 @@ def _panels(figure: Figure, shares: "xr.Dataset") -> Any:
     values, unit = shares[second].values, printed_unit(shares[second].attrs["units"])
     columns = min(len(values), IN_A_ROW)
     rows = math.ceil(len(values) / columns)
-    grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
-    each = grid.ravel()
+    each = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
     for axes in each[len(values) :]:
         axes.remove()
     for i, (axes, value) in enumerate(zip(each, values, strict=False)):

@@ -115,9 +115,11 @@ def dataset_of(plan: Plan, counts: Counts, *, is_complete: bool = True) -> "xr.D
     coordinates: dict[str, Any] = {
         "engine": [engine.value for engine in plan.engines],
         "outcome": list(Outcome.by_value().values()),
+        **{
+            axis.field: (axis.field, axis.values, {"long_name": axis.word, "units": axis.unit})
+            for axis in plan.vary
+        },
     }
-    for axis in plan.vary:
-        coordinates[axis.field] = (axis.field, axis.values, {"long_name": axis.word, "units": axis.unit})
     about = {
         "scenario": plan.scenario.to_toml(),
         "name": plan.name,

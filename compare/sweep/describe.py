@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.compare.basins.agreement import Agreement, Share, agreement
+from cointoss.compare.basins.agreement import Agreement, Share
 from cointoss.compare.sweep.layout import Layout, is_untrusted, trust_layer
 from cointoss.compare.sweep.store import Store
 from cointoss.models.records import Array, Outcome
@@ -93,11 +93,6 @@ def describe_agreement(measured: Agreement) -> str:
             f"           {measured.undecided} pixels are undecided in one or both",
         ]
     )
-
-
-def measure(analytic: NDArray[np.int8], mujoco: NDArray[np.int8]) -> Agreement:
-    """Compare the maps of both engines; the boundaries are those of the analytic map."""
-    return agreement(analytic, mujoco, distance=AWAY)
 
 
 def percent(share: Share) -> str:

@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from cointoss.compare.basins.agreement import agreement
 from cointoss.compare.engines import Engine
 from cointoss.compare.film.back_end import drawing_problem, require_mujoco
 from cointoss.compare.output.files import UnwritableError, write_bytes
@@ -125,7 +126,7 @@ def _shown(job: Job, source: Source, made: "list[xr.Dataset]", command: str) -> 
     from cointoss.compare.sweep import show
 
     if len(made) > 1:
-        yield describe.describe_agreement(describe.measure(*map(outcomes_in, made)))
+        yield describe.describe_agreement(agreement(*map(outcomes_in, made), distance=describe.AWAY))
     if job.png is not None:
         with stage("drawing the picture"):
             write_bytes(job.png, show.png_of(made, job))

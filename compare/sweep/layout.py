@@ -159,8 +159,7 @@ def tiles(shape: tuple[int, ...], tile: tuple[int, ...]) -> Iterator[tuple[slice
         shape: of the grid.
         tile: of a tile, along the same dimensions.
     """
-    sides = (range(0, size, length) for size, length in zip(shape, tile, strict=True))
-    for corner in product(*sides):
+    for corner in product(*(range(0, size, length) for size, length in zip(shape, tile, strict=True))):
         yield tuple(
             slice(first, min(first + length, size))
             for first, length, size in zip(corner, tile, shape, strict=True)
@@ -169,5 +168,4 @@ def tiles(shape: tuple[int, ...], tile: tuple[int, ...]) -> Iterator[tuple[slice
 
 def numbers_in(part: tuple[slice, ...], shape: tuple[int, ...]) -> NDArray[np.intp]:
     """Return the numbers, in the order of a C array, of what lies in a part of a grid, over that part."""
-    sides = (np.arange(one.start, one.stop) for one in part)
-    return np.ravel_multi_index(np.ix_(*sides), shape)
+    return np.ravel_multi_index(np.ix_(*(np.arange(one.start, one.stop) for one in part)), shape)

@@ -137,9 +137,8 @@ def as_map(dataset: "xr.Dataset") -> "xr.Dataset":
         SweepError: for another dataset.
     """
     batch, how = asked_of(dataset)
-    if "stride" in dataset.attrs:
-        return dataset
-    return map_of(batch, how, layers_in(dataset), dataset.attrs.get("name", ""))
+    is_map, name = "stride" in dataset.attrs, dataset.attrs.get("name", "")
+    return dataset if is_map else map_of(batch, how, layers_in(dataset), name)
 
 
 def layers_in(dataset: "xr.Dataset") -> Columns:

@@ -129,8 +129,7 @@ def require_supported(batch: Batch, how: How) -> None:
     """
     for tosses in batch.tried():
         rows = batch.rows(tosses)
-        if how.keeps:
-            rows = rows[~refused(rows, batch.fields)]
+        rows = rows[~refused(rows, batch.fields)] if how.keeps else rows
         how.engine.package.require_rows(
             rows, settings=how.settings, law=how.law, trust=how.trust, device=how.processor
         )
@@ -240,8 +239,7 @@ def _margins(how: How, rows: Array) -> Array:
     from cointoss.compare.metrics.margin import MANY, smallest_changes
 
     def outcomes(changed: Array) -> NDArray[np.int8]:
-        toss_rows = how.engine.package.toss_rows
-        return _shown(how, toss_rows(changed, settings=how.settings, device=how.processor))
+        return _shown(how, how.engine.package.toss_rows(changed, settings=how.settings, device=how.processor))
 
     return how.quantity.factor * smallest_changes(rows, how.quantity, outcomes=outcomes, search=MANY)
 
@@ -258,9 +256,8 @@ def _rows(batch: Batch, how: How, numbers: NDArray[np.intp]) -> Array:
 def _tossed(batch: Batch, how: How, piece: NDArray[np.intp]) -> Iterator[Answers]:
     """Yield the answers of a piece; and where Ctrl-C came meanwhile, raise it after them."""
     rows = _rows(batch, how, piece)
-    table, kept = np.full((len(rows), len(ANSWER)), float(REFUSED)), np.ones(len(rows), dtype=bool)
-    if how.keeps:
-        kept = ~refused(rows, batch.fields)
+    table = np.full((len(rows), len(ANSWER)), float(REFUSED))
+    kept = ~refused(rows, batch.fields) if how.keeps else np.ones(len(rows), dtype=bool)
     made = np.empty((int(kept.sum()), len(ANSWER)))
     interruption = None
     try:

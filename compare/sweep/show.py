@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.font_manager import FontProperties, findfont, get_font
 
 from cointoss.compare.basins import picture
+from cointoss.compare.basins.agreement import agreement
 from cointoss.compare.basins.fractions import fractions
 from cointoss.compare.basins.picture_style import Palette, PictureStyle
 from cointoss.compare.metrics.margin import quantity_of
@@ -17,7 +18,7 @@ from cointoss.compare.output.plots import axes_or_new, picture_bytes
 from cointoss.compare.output.style import GREY
 from cointoss.compare.report.map_section import MapSection
 from cointoss.compare.sweep.axes import Axis
-from cointoss.compare.sweep.describe import AWAY, measure, percent
+from cointoss.compare.sweep.describe import AWAY, percent
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.maps import after_of, axes_of, name_of, outcomes_in, title_of, untrusted_in
 from cointoss.models.answers import NOT_TOSSED
@@ -38,7 +39,7 @@ def png_of(made: Sequence[xr.Dataset], style: PictureStyle) -> bytes:
     first, maps = made[0], [outcomes_in(each) for each in made]
     untrusted, (y, x) = untrusted_in(first), map(_drawn, axes_of(first))
     if len(maps) > 1:
-        measured = measure(*maps)
+        measured = agreement(*maps, distance=AWAY)
         note = f"agree: {percent(measured.away)} away from boundaries,\n{percent(measured.near)} near them"
         figure = picture.draw_comparison(*maps, x=x, y=y, style=style, note=note, untrusted=untrusted)
     else:
@@ -66,7 +67,7 @@ def section(made: Sequence[xr.Dataset], style: PictureStyle, command: str) -> Ma
             "axes": {"x": asdict(x), "y": asdict(y)},
             "after": after_of(made[0]),
             "fractions": dict(zip(engines, shares, strict=True)),
-            "agreement": {"distance": AWAY, **asdict(measure(*maps))},
+            "agreement": {"distance": AWAY, **asdict(agreement(*maps, distance=AWAY))},
             "untrusted": None if untrusted is None else float(untrusted.mean()),
             "settings": dict(zip(engines, settings, strict=True)),
             "command": command,

@@ -273,7 +273,8 @@ def opened(path: Path, layout: Layout, *, overwrite: bool) -> Iterator[Store]:
         with naming(path):
             kept.enter_context(_locked(path, target))
             if overwrite and is_map(target):
-                _remove(target)
+                with aside_in(target.parent) as aside:  # so that no half of it is left under its name
+                    target.rename(aside / target.name)
             if not is_map(target):
                 with written_whole(target) as aside:
                     _write_empty(aside, layout)
@@ -411,9 +412,3 @@ def _unlink(lock: Path) -> None:
     """Remove a lock's file while the lock is held; Windows removes it when the lock is released."""
     with suppress(OSError):
         lock.unlink()
-
-
-def _remove(target: Path) -> None:
-    """Remove a map; renamed first, so that no half of it is left under its name."""
-    with aside_in(target.parent) as aside:
-        target.rename(aside / target.name)

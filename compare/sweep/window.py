@@ -31,8 +31,11 @@ class Window:
         Raises:
             ScenarioError: for values that make no valid scenario.
         """
-        given = zip(self.spans, values.tolist(), strict=True)
-        pairs = [part for span, value in given for part in (span.field, value)]
+        pairs = [
+            part
+            for span, value in zip(self.spans, values.tolist(), strict=True)
+            for part in (span.field, value)
+        ]
         return self.scenario.replace(*pairs[:2], *pairs[2:]) if pairs else self.scenario
 
     def rows(self, values: Array) -> tuple[Array, NDArray[np.bool_]]:

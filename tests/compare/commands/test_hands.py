@@ -21,7 +21,7 @@ from cointoss.models.reading import load
 )
 def test_a_smooth_floor_explains_the_side_at_rest_only_where_it_keeps_the_momenta(hand, changes):
     coin = load("fig29")
-    assert hand_lines(Hand.people(), coin, "analytic", 0).below[: len(WHY)] == WHY
+    assert hand_lines(Hand.people(), coin, "analytic", 0)[1][: len(WHY)] == WHY
     for field, value in changes.items():
         coin = coin.replace(field, value)
-    assert WHY[0] not in hand_lines(hand, coin, "analytic", 0).below
+    assert WHY[0] not in hand_lines(hand, coin, "analytic", 0)[1]

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from cointoss.compare.basins.agreement import Share
+from cointoss.compare.basins.agreement import Share, agreement
 from cointoss.compare.metrics.margin import quantity_of
 from cointoss.compare.sweep import describe, room
 from cointoss.compare.sweep.errors import SweepError
@@ -61,7 +61,7 @@ def test_two_maps_agree_away_from_the_boundaries_beyond_two_pixels():
     first = np.full((9, 9), 1, np.int8)
     first[:, 0], second = 2, np.full((9, 9), 1, np.int8)
     second[4, 2:4] = 2  # within two pixels of the column of tails, and farther
-    found = describe.measure(first, second)
+    found = agreement(first, second, distance=describe.AWAY)
     # Farther than two pixels from the column and from what is outside: five rows of four.
     assert (found.away.agreeing, found.away.compared) == (19, 20)
 
