@@ -116,9 +116,7 @@ def __getattr__(name: str) -> Any:
         return import_module("cointoss.models.distribution").versions_of(["cointoss"])["cointoss"]
     if name in ("basin", "read_map", "shares", "toss_many"):  # whose datasets have `.cointoss`
         from cointoss.compare import accessor as accessor
-    if name in _PACKAGES:
-        return import_module(f"cointoss.{name}")
-    return brought(_HOMES, name, __name__)
+    return import_module(f"cointoss.{name}") if name in _PACKAGES else brought(_HOMES, name, __name__)
 
 
 def __dir__() -> list[str]:

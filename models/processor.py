@@ -60,8 +60,7 @@ class Processor:
     def in_words(self) -> str:
         """The processor, in words."""
         if self.card:
-            handed = f"{self.handed_over:,d} of {self.tossed:,d} tosses handed over to the CPU"
-            return f"{self.card}, {handed}"
+            return f"{self.card}, {self.handed_over:,d} of {self.tossed:,d} tosses handed over to the CPU"
         return f"{Device.CPU} ({self.failure})" if self.failure else str(Device.CPU)
 
     @property

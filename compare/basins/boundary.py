@@ -33,5 +33,5 @@ def distance_to_doubt(outcomes: ArrayLike) -> Array:
 
     codes = np.pad(measured(outcome_map(outcomes)), 1, constant_values=Outcome.UNDECIDED)
     known = [outcome for outcome in Outcome if outcome is not Outcome.UNDECIDED]
-    distance: Array = np.sum([distance_transform_edt(codes == outcome) for outcome in known], axis=0)
-    return distance[1:-1, 1:-1]
+    distance = sum(np.asarray(distance_transform_edt(codes == outcome)) for outcome in known)
+    return np.asarray(distance)[1:-1, 1:-1]

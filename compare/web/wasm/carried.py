@@ -59,5 +59,7 @@ def engine_data(scenario: Scenario) -> dict[str, Any] | None:
     content = engine_bytes()
     if content is None:
         return None
-    packed = gzip.compress(content, mtime=0)
-    return {"wasm": b64encode(packed).decode("ascii"), "scenario": fields_of(scenario)}
+    return {
+        "wasm": b64encode(gzip.compress(content, mtime=0)).decode("ascii"),
+        "scenario": fields_of(scenario),
+    }
