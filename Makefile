@@ -58,7 +58,7 @@ installed: $(TESTED)
 	@WHOLE=$(WHOLE) .ci/installed $(BIN)/python
 
 # The tests there run the same tosses once; only here are they timed. KEEP=1 keeps the processor times of a commit
-# in docs/benchmarks.csv, of which `make pages` draws a picture.
+# in docs/benchmarks.csv.
 bench: $(VENV)/.ready-slow engines $(if $(KEEP),,chromium)
 	$(BIN)/pytest tests/benchmarks $(if $(KEEP),$(KEPT),tests/site/test_speed.py) \
 	  --benchmark-enable --benchmark-columns=min,median,rounds

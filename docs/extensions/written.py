@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from pathlib import Path
 
-import benchmarks
 import engines
 import nbformat
 import others
@@ -75,7 +74,6 @@ def write(docs: Path) -> None:
     blocks = {"figures": figures()} | engines.blocks(docs) | others.blocks(docs)
     write_blocks(docs / "made", blocks)
     others.draw(docs)
-    benchmarks.draw(docs)
     (docs / "automaton.svg").write_text(pictures.automaton(), encoding="utf-8")
     for page in (docs / "examples").glob("*.md"):
         nbformat.write(notebook_of(page), page.with_suffix(".ipynb"))
