@@ -42,9 +42,12 @@ class SoughtHand:
 def _counted_once(given: Typed) -> str | None:
     """Return what is wrong where counts are neither in a file nor typed, or both."""
     counts = click.get_current_context().params["counts"]
-    accepted = "a CSV file with counts of flips, or --heads and --tails"
-    is_once = (counts is None) == ("heads" in given)
-    return None if is_once else f"COUNTS.csv: {counts or 'missing'}; accepted: {accepted}"
+    if (counts is None) == ("heads" in given):
+        return None
+    return (
+        f"COUNTS.csv: {counts or 'missing'}; accepted: "
+        "a CSV file with counts of flips, or --heads and --tails"
+    )
 
 
 @click.command(

@@ -28,8 +28,13 @@ def add_shadow(scene: mujoco.MjvScene, data: mujoco.MjData, coin: Coin) -> None:
     level = math.hypot(n_x, n_y)
     along = coin.radius * abs(n_z) + coin.thickness / 2 * level
     c, s = (n_x / level, n_y / level) if level > 0 else (1.0, 0.0)
-    axes = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
-    geom = add_geom(scene, mujoco.mjtGeom.mjGEOM_CYLINDER, (0, 0, 0, DARKNESS), at=(x, y, 0), axes=axes)
+    geom = add_geom(
+        scene,
+        mujoco.mjtGeom.mjGEOM_CYLINDER,
+        (0, 0, 0, DARKNESS),
+        at=(x, y, 0),
+        axes=((c, -s, 0), (s, c, 0), (0, 0, 1)),
+    )
     geom.size[:] = along, coin.radius, THICKNESS * coin.radius
 
 

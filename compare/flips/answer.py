@@ -19,11 +19,16 @@ def as_lines(found: HandFit | Estimate) -> str:
         words = "each offset explains these counts" if math.isnan(found.value) else words
         return f"mass centre towards heads [mm], 99 %  {words}"
     shares = (in_words(one.share, ".1f", 100) if one.share.count else "none" for one in found.people)
-    psi = (_in_degrees(one.psi) for one in found.people)
     flips, same = found.flips.flips.sum(), found.flips.same.sum()
     rows = [
         ["person", "flips", "same side [%]", "psi [deg], 99 %"],
-        *zip(found.flips.people, map(str, found.flips.flips), shares, psi, strict=True),
+        *zip(
+            found.flips.people,
+            map(str, found.flips.flips),
+            shares,
+            (_in_degrees(one.psi) for one in found.people),
+            strict=True,
+        ),
     ]
     if found.scatter:
         rows.append(["all", str(flips), f"{100 * same / flips:.2f}", _around(found.scatter)])

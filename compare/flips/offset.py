@@ -64,10 +64,15 @@ def offset(
     described = scenario_of(scenario)
     if not (largest := LARGEST * described.coin.thickness):
         raise SweepError("coin.thickness = 0: accepted: more, for an offset along the normal")
-    field, values = "coin.center_of_mass.zeta", (largest / SIMULATED, largest, SIMULATED)
     own = Hand() if hand is None else hand if isinstance(hand, Hand) else load_hand(hand)
     offsets, p, behind = heads_along(
-        described, field, values, replace(own, up="either"), tosses, seed, device
+        described,
+        "coin.center_of_mass.zeta",
+        (largest / SIMULATED, largest, SIMULATED),
+        replace(own, up="either"),
+        tosses,
+        seed,
+        device,
     )
     places = np.concatenate([-offsets[::-1], [0.0], offsets]) / largest
     heads = SameSide(partial(np.interp, xp=places, fp=np.concatenate([1 - p[::-1], [0.5], p])), behind)
