@@ -62,8 +62,13 @@ def test_a_toss_is_interrupted(tmp_path, engine, number):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("engine", Engine)
-def test_a_map_is_interrupted_in_a_tile_and_resumed_to_the_same_pixels(tmp_path, monkeypatch, engine):
+@pytest.mark.parametrize(
+    ("engine", "tossing"),
+    [(Engine.ANALYTIC, "analytic.many"), (Engine.MUJOCO, "coin_mj.on_machines")],
+)
+def test_a_map_is_interrupted_in_a_tile_and_resumed_to_the_same_pixels(
+    tmp_path, monkeypatch, engine, tossing
+):
     monkeypatch.setitem(layout.TILE_TOSSES, engine, SMALL)
     (tmp_path / "coin.toml").write_text(SCENARIO + "[ending]\nmax_impacts = 1\n")
     asked = ("coin.toml", "--x", f"{AXES[1][:-2]}20", "--y", f"{AXES[3][:-2]}20", "--engine", engine)
@@ -71,7 +76,7 @@ def test_a_map_is_interrupted_in_a_tile_and_resumed_to_the_same_pixels(tmp_path,
         f"{ENDLESS}\nfrom cointoss.compare.cli import main; from cointoss.compare.engines import Engine\n"
         "from cointoss.compare.sweep import layout\n"
         f"layout.TILE_TOSSES[Engine('{engine}')] = {SMALL}\n"
-        f"import {engine.package.__name__}.many as of_many\n"
+        f"import cointoss.{tossing} as of_many\n"
         "in_tiles, left = of_many.in_tiles, [5]\n"
         "def some(n, most, work, workers):\n"
         "    left[0] -= 1\n"
