@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.coin_mj import MujocoSettings, Realisation, impacts_of, toss
+from cointoss.coin_mj import Friction, MujocoSettings, Realisation, impacts_of, toss
 from cointoss.coin_mj.steps.coulomb import coulomb_force
 from cointoss.compare.metrics.impulses import match
 from cointoss.models.records import ApproximationWarning, Ending
@@ -39,8 +39,9 @@ FORCES = {
 @pytest.mark.parametrize("name", FORCES)
 def test_the_force_of_a_step_under_10_n_is_its_closed_form(name):
     K, mu, slip, free, force = FORCES[name]
-    near = 1e-3 if name == "is driven back" else 1e-9
-    assert coulomb_force(K, mu, 10.0, slip, free, 1e-3) == pytest.approx(force, rel=near, abs=1e-12)
+    assert coulomb_force(K, mu, 10.0, slip, free, 1e-3) == pytest.approx(
+        force, rel=1e-3 if name == "is driven back" else 1e-9, abs=1e-12
+    )
 
 
 @pytest.mark.parametrize("slip", [0.0, 2e-3, 0.1])
@@ -79,8 +80,13 @@ def errors_and_kinds(rng, count, **settings):
         case, law = draw_single_impact(rng, "coulomb")
         errors.append(match(law, impacts_of(case, settings=MujocoSettings(**settings))).impulse[0])
         before, after = law.contact_velocity_before[0, :2], law.contact_velocity_after[0, :2]
-        sticks = np.hypot(*after) < 1e-9 * np.hypot(*before)
-        kinds.append("sticks" if sticks else "slides" if before @ after > 0 else "turns")
+        kinds.append(
+            "sticks"
+            if np.hypot(*after) < 1e-9 * np.hypot(*before)
+            else "slides"
+            if before @ after > 0
+            else "turns"
+        )
     return np.array(errors), np.array(kinds)
 
 
@@ -97,6 +103,13 @@ def test_first_impacts_meet_rouths_law(realisation, median, worst):
         assert len(chosen) > 10, kind
         assert 1e-7 < np.median(chosen) < median, kind
         assert chosen.max() < worst, kind
+
+
+def test_mujocos_own_friction_is_far_from_coulombs():
+    """Its convex cone pushes a sliding contact apart."""
+    assert (
+        5e-3 < np.median(errors_and_kinds(np.random.default_rng(61), 40, friction=Friction.NATIVE)[0]) < 0.1
+    )
 
 
 def test_a_perfectly_rough_floor_is_one_of_large_friction():
