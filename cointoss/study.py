@@ -66,7 +66,6 @@ if TYPE_CHECKING:
     from cointoss.compare.metrics.margin import QUANTITIES as QUANTITIES
     from cointoss.compare.metrics.margin import Codes as Codes
     from cointoss.compare.metrics.margin import ReleaseQuantity as ReleaseQuantity
-    from cointoss.compare.metrics.margin import is_planar as is_planar
     from cointoss.compare.metrics.margin import smallest_changes as smallest_changes
     from cointoss.compare.metrics.sequences import agreement_horizon as agreement_horizon
     from cointoss.compare.metrics.sequences import common_prefix as common_prefix

@@ -97,22 +97,13 @@ def toss(source: Source, asked: Answer, verbose: bool) -> None:
         from cointoss.compare.output.plots import picture_of_toss
 
         write_bytes(asked.png, picture_of_toss(result, source.stem))
-    extra, unproved = [], ""
+    extra = []
     if asked.margin:
-        from cointoss.compare.metrics.margin import is_planar, margins, offered_proofs
+        from cointoss.compare.metrics.margin import margins
 
-        proofs = offered_proofs() if is_planar(coin) else None
-        if proofs is not None:
-            steps = asked.contact_steps
-            unproved = proofs.refusal(coin) if steps is None else f"--contact-steps: {steps}, accepted: none"
-        elif is_planar(coin):
-            unproved = "want of a package with an entry point cointoss.proofs"
-        extra = margins(coin, None if unproved else proofs, settings=fine)
+        extra = margins(coin, settings=fine)
     if asked.json:
-        told = {
-            item.quantity.name: {"change": item.finite, "proved": item.proved, "unit": item.quantity.unit}
-            for item in extra
-        }
+        told = {item.quantity.name: {"change": item.finite, "unit": item.quantity.unit} for item in extra}
         print_json(
             {
                 **answer.as_json(result),
@@ -123,9 +114,8 @@ def toss(source: Source, asked: Answer, verbose: bool) -> None:
             asked.engine,
         )
     else:
-        why = [f"proved    none, for {unproved}"] if unproved else []
         lines = [answer.as_lines(result, whole=asked.all, checked=verbose), *([MARGINS] if extra else [])]
-        click.echo("\n".join([*lines, *(one.line for one in extra), *why]))
+        click.echo("\n".join([*lines, *(one.line for one in extra)]))
     if asked.play:
         from cointoss.compare.lab.lab import lab_page
 

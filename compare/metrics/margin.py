@@ -3,8 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from decimal import ROUND_DOWN, ROUND_UP, Context, Decimal
-from typing import Protocol
+from decimal import ROUND_UP, Context, Decimal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,9 +69,6 @@ class Margin:
     quantity: ReleaseQuantity
     change: float
     """The change with its sign, in the quantity's unit; infinite where none up to 1 SI unit does."""
-    proved: float = 0.0
-    """It is proved that no smaller change to either side changes the outcome, in the quantity's unit, rounded
-    down to two digits; 0 where nothing is proved."""
 
     @property
     def finite(self) -> float | None:
@@ -83,48 +79,14 @@ class Margin:
     def line(self) -> str:
         """The margin for a person; rounded up, what was found stays an upper bound."""
         unit, change = self.quantity.unit, self.finite
-        none = f"none found up to {self.quantity.factor:g} {unit}"
-        found = none if change is None else f"{_rounded(change, 3, ROUND_UP):+.3g} {unit}"
-        if self.proved:
-            found += f", proved to be above {self.proved:.2g} {unit}"
+        found = f"none found up to {self.quantity.factor:g} {unit}"
+        if change is not None:
+            found = f"{float(Context(prec=3, rounding=ROUND_UP).create_decimal(change)):+.3g} {unit}"
         return f"margin    {self.quantity.name:18}  {found}"
-
-
-def _rounded(number: float, digits: int, rounding: str) -> float:
-    return float(Context(prec=digits, rounding=rounding).create_decimal(number))
 
 
 Differ = Callable[[NDArray[np.intp], Array], tuple[NDArray[np.bool_], NDArray[np.bool_]]]
 """Returns which changes, (rows, rungs), of some rows make a difference, and which are accepted."""
-
-
-class Proofs(Protocol):
-    """Proofs that an outcome stays; an entry point of the group `cointoss.proofs` offers them."""
-
-    def refusal(self, scenario: Scenario) -> str:
-        """Return in a line why no outcome of a scenario can be proved; empty where one can be."""
-        ...
-
-    def proved_change(self, scenario: Scenario, quantity: ReleaseQuantity, change: float) -> float:
-        """Return how far a release may change along a quantity with a proof that the outcome stays.
-
-        Args:
-            scenario: whose coin is tossed.
-            quantity: what changes.
-            change: one that changes the outcome [SI].
-
-        Returns:
-            The change to both sides [SI]; 0 where none is proved.
-        """
-        ...
-
-
-def offered_proofs() -> Proofs | None:
-    """Return the proofs that an installed package offers, None where none does."""
-    from importlib.metadata import entry_points
-
-    return next((point.load() for point in entry_points(group="cointoss.proofs")), None)
-
 
 _ATTITUDE = tuple(field for field in PLACE if field.startswith(("release.angles.", "release.quaternion.")))
 _QUATERNION = _ATTITUDE[3:]
@@ -179,19 +141,7 @@ def quantity_of(name: str) -> ReleaseQuantity:
     return dict(zip(NAMES, QUANTITIES, strict=True))[latin_name(name)]
 
 
-def is_planar(scenario: Scenario) -> bool:
-    """Return whether a thin coin is released flat in vacuum, at rest but for its spin about ξ."""
-    release = scenario.release
-    others = (*release.velocity, *release.attitude[1:], *release.angular_velocity[1:])
-    return not (scenario.coin.thickness or any(others) or any(scenario.body.drag))
-
-
-def margins(
-    scenario: Scenario,
-    proofs: Proofs | None = None,
-    *,
-    settings: analytic.AnalyticSettings = analytic.MANY,
-) -> tuple[Margin, ...]:
+def margins(scenario: Scenario, *, settings: analytic.AnalyticSettings = analytic.MANY) -> tuple[Margin, ...]:
     """Return the margin of a scenario's toss along each of `QUANTITIES`.
 
     Changes are tried on a ladder, up and down; the first that changes the outcome is cut down by bisection.
@@ -199,7 +149,6 @@ def margins(
 
     Args:
         scenario: whose coin is tossed.
-        proofs: give a lower bound too; none is given without.
         settings: of the engine.
     """
     start = rows_of(scenario, 1)
@@ -209,8 +158,7 @@ def margins(
 
     def margin_along(quantity: ReleaseQuantity) -> Margin:
         change = float(smallest_changes(start, quantity, outcomes=outcomes, search=FINE)[0])
-        proved = proofs.proved_change(scenario, quantity, change) if proofs else 0.0
-        return Margin(quantity, change * quantity.factor, _rounded(proved * quantity.factor, 2, ROUND_DOWN))
+        return Margin(quantity, change * quantity.factor)
 
     return tuple(map(margin_along, counted("margins", "quantities", QUANTITIES)))
 

@@ -1,13 +1,12 @@
 """The gap between a planar coin's rim point and the floor in a flight, and its first zero, enclosed."""
 
 import math
-from collections.abc import Callable, Sequence
-from functools import reduce
+from collections.abc import Sequence
 from typing import Any
 
 from flint import arb, arb_poly, ctx
 
-from cointoss_reproduction.precision.taylor_models import UndecidedError
+from cointoss_reproduction.precision.planar_state import UndecidedError
 
 MOST_STEPS = 20_000
 """The most steps of the search for a touch."""
@@ -22,9 +21,7 @@ _DOUBLINGS = 100
 
 def polynomial(coefficients: Sequence[Any], s: Any) -> Any:
     """Return a polynomial's value, lowest coefficient first."""
-    if isinstance(s, arb):
-        return arb_poly(coefficients)(s)
-    return reduce(lambda total, c: total * s + c, reversed(coefficients), arb(0))
+    return arb_poly(coefficients)(s)
 
 
 def slopes(coefficients: Sequence[Any]) -> list[Any]:
@@ -44,7 +41,6 @@ class Gap:
         corners: tuple[int, ...],
         start: Any,
         side: int,
-        part: Callable[[Any], Any],
     ) -> None:
         """Take a flight, the rim points that it starts from, and one of them.
 
@@ -56,11 +52,9 @@ class Gap:
             corners: the rim points that are on the floor there.
             start: the clock before which none of these touches again; None where that is not known.
             side: 1 or -1, the rim point.
-            part: what is taken of each number that varies with the release.
         """
-        heights = [part(c) for c in heights]
-        sine, cosine = part(tilt).sin_cos()
-        self.sn, self.cs, self.w = side * sine, side * cosine, part(w)
+        sine, cosine = tilt.sin_cos()
+        self.sn, self.cs, self.w = side * sine, side * cosine, w
         self.f0 = arb(0) if side in corners else heights[0] + self.sn
         self.f1 = heights[1] + self.cs * self.w
         self.start = 0.0

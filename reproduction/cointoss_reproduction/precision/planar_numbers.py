@@ -16,9 +16,15 @@ from flint import arb, arb_poly, arb_series, ctx
 
 from cointoss import Outcome
 from cointoss_reproduction.precision.planar_coin import PlanarCoin, PlanarRelease, Units
-from cointoss_reproduction.precision.planar_state import Impact, State, in_own_units, precision, released
+from cointoss_reproduction.precision.planar_state import (
+    Impact,
+    State,
+    UndecidedError,
+    in_own_units,
+    precision,
+    released,
+)
 from cointoss_reproduction.precision.planar_toss import PlanarToss
-from cointoss_reproduction.precision.taylor_models import UndecidedError
 
 BITS = 128
 ORDER = 24

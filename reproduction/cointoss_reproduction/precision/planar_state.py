@@ -2,16 +2,19 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, NamedTuple
 
 from flint import arb, ctx, fmpq
 
 from cointoss_reproduction.precision.planar_coin import PlanarRelease, Units, square_root
-from cointoss_reproduction.precision.taylor_models import UndecidedError
 
 _NAMES = ("z", "v", "tilt", "w", "u")
+
+
+class UndecidedError(Exception):
+    """An enclosure is too wide."""
 
 
 class Impact(NamedTuple):
@@ -31,7 +34,7 @@ class Impact(NamedTuple):
 
 @dataclass
 class State:
-    """The state of the coin in its own units, numbers that are enclosed or vary with the release."""
+    """The state of the coin in its own units, enclosures of numbers."""
 
     z: Any
     v: Any
@@ -39,8 +42,6 @@ class State:
     w: Any
     u: Any
     heads: bool = True
-    time: Any = field(default_factory=arb)
-    """An upper bound of the time since the release, for a coin in vacuum."""
 
     def let(self, change: Callable[[Any], Any]) -> None:
         """Change each number."""
@@ -54,7 +55,7 @@ def ball(number: Fraction) -> Any:
 
 
 @contextmanager
-def precision(bits: int, order: int) -> Iterator[None]:
+def precision(bits: int, order: int = 1) -> Iterator[None]:
     """Compute with these numbers of bits, and of coefficients of series."""
     before = ctx.prec, ctx.cap
     ctx.prec, ctx.cap = bits, order

@@ -6,44 +6,36 @@ an enclosure holds both signs of what decides.
 """
 
 import math
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Sequence
 from typing import Any
 
 from flint import acb, arb, ctx
 
 from cointoss import Outcome
 from cointoss_reproduction.precision.planar_coin import PlanarCoin
-from cointoss_reproduction.precision.planar_ending import PlanarEnding
 from cointoss_reproduction.precision.planar_gap import Gap, polynomial, slopes
-from cointoss_reproduction.precision.planar_state import Impact, State, ball, sign
-from cointoss_reproduction.precision.taylor_models import TaylorModel, UndecidedError, middle, whole, zero
+from cointoss_reproduction.precision.planar_state import Impact, State, UndecidedError, ball, sign
 
 MOST_IMPACTS = 5000
 MOST_TURNED = 5000
 """The largest turn in a flight [rad]."""
 SLAPS = 1000
 """The most impacts of a flat coin on its two rim points in turn."""
-IN_HAND = 0
-"""No rim point: the coin is caught."""
 TURN = 4.0
 """The largest turn on one series in air [rad]."""
 TERMS = 8
 """After each group of this many terms of a series the toss checks whether they suffice."""
-UNTIL_SETTLED = PlanarEnding()
 
 
 class PlanarToss:
     """The coin's numbers as enclosures, its motion, and what is proved of its course."""
 
-    def __init__(self, coin: PlanarCoin, ending: PlanarEnding = UNTIL_SETTLED) -> None:
-        """Enclose the numbers of a coin, and of what ends its toss."""
-        self.coin, self.bits, self.ending = coin, ctx.prec, ending
+    def __init__(self, coin: PlanarCoin) -> None:
+        """Enclose the numbers of a coin."""
+        self.coin, self.bits = coin, ctx.prec
         numbers = coin.inertia, coin.restitution, coin.slowing, coin.drag_mean, coin.drag_difference
         self.J, self.chi, self.k, self.a, self.b = map(ball, numbers)
-        drifts = 1.0 if coin.rough else (coin.sliding_share if coin.in_air else 0.0)
-        self.share = arb(drifts if ending.counts_drift else 0.0)
-        self.hand, self.max_time = (None if x is None else ball(x) for x in (ending.caught, ending.max_time))
+        self.share = arb(1.0 if coin.rough else (coin.sliding_share if coin.in_air else 0.0))
         self.impacts: list[Impact] = []
         self.contacts: list[tuple[int, ...]] = []
         """The contacts that lasted: how many impacts came before, and the rim points that leave the floor."""
@@ -58,12 +50,10 @@ class PlanarToss:
         """
         corners: tuple[int, ...] = ()
         start = None
-        while len(self.impacts) < (self.ending.max_impacts or MOST_IMPACTS):
+        while len(self.impacts) < MOST_IMPACTS:
             corner = self.fly(state, corners, start)
             start = None
             corner = corner * self.turn_within(state)
-            if corner == IN_HAND:
-                break
             self.touched(state)
             impulse = self.hit(state, corner)
             e = self.energy(state)
@@ -85,8 +75,8 @@ class PlanarToss:
         return Outcome.HEADS if state.heads else Outcome.TAILS
 
     def kept(self, x: Any) -> Any:
-        """Return a number of the state; one that varies forgets what is no longer true of its enclosure."""
-        return x.tightened() if isinstance(x, TaylorModel) else x
+        """Return what is kept of the enclosure of a number of the state: all of it."""
+        return x
 
     def touched(self, state: State) -> None:
         """Take note of a touch."""
@@ -100,8 +90,6 @@ class PlanarToss:
 
     def is_over(self, e: Any) -> bool:
         """Return whether a coin in flight whose energy is proved to be below the barrier needs no more."""
-        if e < 1 and self.hand is not None:
-            raise UndecidedError
         return e < 1
 
     def turn_within(self, state: State) -> int:
@@ -187,63 +175,25 @@ class PlanarToss:
         raise UndecidedError
 
     def fly(self, state: State, corners: tuple[int, ...], start: Any) -> int:
-        """Fly to the first touch, or into the hand; return the rim point that touches, or `IN_HAND`."""
-        caught = self.catch(state)
+        """Fly to the first touch; return the rim point that touches."""
         while True:
             v, z, w = (float(x.mid()) for x in (state.v, state.z, state.w))
             length = v + math.sqrt(v * v + 2 * max(z, 0.0)) + 1e-3
             if self.coin.in_air:
                 length = min(1.1 * length, TURN / abs(w) if w else 10.0, 10.0)
-            if caught is not None:
-                length = float(caught.upper()) * (1 + 1e-15)
             heights, drifts, tail = self.series(state, length)
-            at, who = None, IN_HAND
-            gap_of = partial(Gap, heights, tail, state.tilt, state.w, corners, start)
+            at, who = None, None
             for side in (-1, 1):
                 limit = length if at is None else float(at.upper()) * (1 + 1e-15)
-                root = gap_of(side, whole).first_zero(limit)
+                root = Gap(heights, tail, state.tilt, state.w, corners, start, side).first_zero(limit)
                 if root is not None and (at is None or sign(at - root) > 0):
                     at, who = root, side
-            if at is not None:
-                if caught is not None and not caught > at:
-                    raise UndecidedError
-                at = self.touch(partial(gap_of, who), at)
-            elif caught is None and not self.coin.in_air:
+            if at is None and not self.coin.in_air:
                 raise UndecidedError
-            elif caught is None:
-                at = arb(length)
-            else:
-                at = caught
-            self.move(state, heights, drifts, tail, at)
-            if who != IN_HAND or caught is not None:
+            self.move(state, heights, drifts, tail, arb(length) if at is None else at)
+            if who is not None:
                 return who
             corners, start = (), None
-
-    def catch(self, state: State) -> Any:
-        """Return the clock at which C comes down to the hand; None where it does not rise above it."""
-        if self.hand is None:
-            return None
-        above = state.z - self.hand
-        rises = not (isinstance(state.v, arb) and state.v == 0) and sign(state.v) > 0
-        if sign(above + state.v**2 / 2 if rises else above) < 0:
-            return None
-        return state.v + (state.v**2 + 2 * above).sqrt()
-
-    def pass_time(self, state: State, lasting: Any) -> None:
-        """Let time pass, which is not to be up."""
-        state.time = state.time + lasting.upper()
-        if self.max_time is not None and not state.time < self.max_time:
-            raise UndecidedError
-
-    def touch(self, gap_of: Callable[[Callable[[Any], Any]], Gap], root: Any) -> Any:
-        """Return the clock of a touch that is enclosed for all releases; where they vary, as they do."""
-        gap = gap_of(lambda x: x)
-        if not isinstance(gap.w, TaylorModel):
-            return root
-        of_middle = gap_of(middle).enclosed(root.lower())
-        if of_middle is None:
-            raise UndecidedError
-        return zero(gap.at, of_middle, root)
 
     def move(self, state: State, heights: Sequence[Any], drifts: Sequence[Any], tail: Any, s: Any) -> None:
         """Let the coin fly up to a clock, by the series of its flight."""
@@ -253,7 +203,6 @@ class PlanarToss:
         state.u = polynomial(drifts, s) + tail
         state.tilt, state.w = state.tilt + state.w * s, left * state.w
         state.let(self.kept)
-        self.pass_time(state, s)
 
     def chatter(self, state: State, corner: int) -> Any:
         """Bound the energy that the bounces still to come lose from above, once they are proved to end.
@@ -290,7 +239,6 @@ class PlanarToss:
         near = loss < arb(2) ** (-self.bits // 2)
         if not (near or (e - loss > 1 and e < 1 + self.J / 2)):
             return None
-        self.pass_time(state, lasting)
         return loss
 
     def lift_off(self, state: State) -> Any:
@@ -309,13 +257,9 @@ class PlanarToss:
         4 √((J + 1)/(2 |e - 1|)): so long it takes at most from where it turns back, 1 - s² being more than
         1 - e, or over the rim.
         """
-        if self.hand is not None or self.ending.max_impacts is not None:
-            raise UndecidedError
         e = self.energy(state)
         e = e - loss / 2 + (loss / 2) * arb(0, 1)
         self.last_energy = e
-        if self.max_time is not None:
-            self.pass_time(state, 4 * ((self.J + 1) / (2 * abs(e - 1))).sqrt())
         # The rates change by no more than the speed that is lost, over the least moment.
         slack = 10 * self.rim_velocity(state, corner) * arb(0, 1)
         rises = sign(state.v + slack) > 0 and not e < 1

@@ -24,14 +24,12 @@ from cointoss.study import (
     in_words,
     paragraphs,
     rows_from_states,
-    scenario_of_row,
     share,
     smallest_changes,
     table,
 )
 from cointoss_reproduction.frame.cells import Cells, column
 from cointoss_reproduction.frame.study import study
-from cointoss_reproduction.precision.proved_change import proved_change
 from cointoss_reproduction.setups.estimates import quantile
 from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case, planar_rows
@@ -41,8 +39,6 @@ COUNT = 120
 """The number of tosses of the general coin."""
 PLANAR = 1000
 """The number of tosses of the planar coin."""
-PROOFS = 200
-"""The first of them whose margin is proved from below too."""
 FAMILY = CoinClass(thick=True, imperfect=True, air=True, coulomb=False)
 """The class of coins whose releases the general coin has."""
 HEIGHT = QUANTITIES[0]
@@ -73,25 +69,18 @@ def general(quantity: ReleaseQuantity, count: int = COUNT) -> pd.DataFrame:
     )
 
 
-def of_planar(quantity: ReleaseQuantity, planar: int = PLANAR, proofs: int = PROOFS) -> pd.DataFrame:
+def of_planar(quantity: ReleaseQuantity, planar: int = PLANAR) -> pd.DataFrame:
     """Return the margins of random tosses of the planar coin, in the quantity's unit.
 
-    Beside them are their proved lower bounds, 0 where none is, and at each of `ACCURACIES` whether the toss
-    is uncertain.
+    Beside them is at each of `ACCURACIES` whether the toss is uncertain.
 
     Args:
         quantity: of the release.
         planar: the number of tosses.
-        proofs: the number of the first of them whose bounds are looked for.
     """
     rows = draw_planar(planar)
-    margins = found_margins(rows, quantity)
-    proved = [
-        proved_change(scenario_of_row(row), quantity, margin / quantity.factor) * quantity.factor
-        for row, margin in zip(rows[:proofs], margins.tolist(), strict=False)
-    ]
     uncertain = {_uncertain(one): uncertain_within(rows, quantity, one) for one in ACCURACIES}
-    return pd.DataFrame({"margin": margins, "proved": pd.Series(proved).reindex(range(planar)), **uncertain})
+    return pd.DataFrame({"margin": found_margins(rows, quantity), **uncertain})
 
 
 def draw_planar(count: int) -> Array:
@@ -134,19 +123,12 @@ def sizes_of(cells: pd.DataFrame, quantity: str) -> Array:
     return cells.loc[cells["quantity"] == quantity, "margin"].fillna(np.inf).to_numpy()
 
 
-def shares_within(cells: pd.DataFrame, accuracy: float) -> tuple[Estimate, Estimate, Estimate]:
-    """Return what P(margin ≤ ε) of the planar coin is at least, and at most, as proved; and f(ε)."""
+def shares_within(cells: pd.DataFrame, accuracy: float) -> tuple[Estimate, Estimate]:
+    """Return what P(margin ≤ ε) of the planar coin is at least, and f(ε)."""
     return (
         share(sizes_of(cells, PLANAR_HEIGHT) <= accuracy),
-        share(column(cells, "proved") < accuracy),
         share(column(cells, _uncertain(accuracy))),
     )
-
-
-def parts_proved(cells: pd.DataFrame) -> Array:
-    """Return the parts of the margins found that are proved, (n,)."""
-    proved = column(cells, "proved")
-    return proved / sizes_of(cells, PLANAR_HEIGHT)[: len(proved)]
 
 
 def found(cells: pd.DataFrame) -> dict[str, Any]:
@@ -157,22 +139,18 @@ def found(cells: pd.DataFrame) -> dict[str, Any]:
         [name, *(_words(quantile(found, part)) for part in PARTS), f"{np.mean(np.isinf(found)):.1%}"]
         for name, found in sizes.items()
     ]
-    proved = parts_proved(cells)
-    half, tenth = 1 / np.median(proved), 1 / np.quantile(proved, 0.1)
     tables = paragraphs(
         f"The margins of {len(sizes_of(cells, HEIGHT.name))} random tosses of the paper's zloty in air, "
         "χ = 0.8: this part of all tosses has a smaller one than",
         table(["what varies", *(f"{part:.0%}" for part in PARTS), "none found"], rows),
         f"{len(sizes_of(cells, PLANAR_HEIGHT))} random planar tosses in vacuum, χ = 0.6, along height:",
         table(
-            "ε [mm] | P(margin ≤ ε), at least | at most, as proved | f(ε)",
+            "ε [mm] | P(margin ≤ ε), at least | f(ε)",
             [
                 [f"{one:g}", *(in_words(part, ".3f") for part in shares_within(cells, one))]
                 for one in ACCURACIES
             ],
         ),
-        f"The margin of {len(proved)} of them is proved from below, half of them to a part of "
-        f"1/{half:.0f} of what was found or better, a tenth only to 1/{tenth:.0f} or worse.",
     )
     return {"coins": small, "tables": tables}
 
@@ -193,7 +171,6 @@ def draw(cells: pd.DataFrame) -> Figure:
         _steps(right, sizes, color=KINDS[kind], linestyle=STYLES[number], label=quantity.name)
     si = 1 / HEIGHT.factor
     _steps(left, sizes_of(cells, PLANAR_HEIGHT) * si, color=INK, label="P(margin < ε)")
-    _steps(left, column(cells, "proved") * si, color=GREY, label="at most, as proved")
     points = [shares_within(cells, one)[-1] for one in ACCURACIES]
     left.errorbar(
         [one * si for one in ACCURACIES],
