@@ -10,7 +10,11 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from cointoss.coin_mj.model.settings import (
+    FINE,
+    HARDEST,
+    LARGE,
     LEAST_LOSS,
+    LEAST_SPRING,
     LOSS,
     MANY,
     MujocoSettings,
@@ -103,6 +107,28 @@ def test_the_less_energy_an_impact_takes_the_less_its_steps_may_change(restituti
     share = max(1 - restitution**2, LEAST_LOSS) / LOSS
     steps = resolved(MANY, restitution, 20.0).steps
     assert (3 / steps) ** 5 <= share**2 < (3 / (steps - 1)) ** 5
+
+
+@pytest.mark.parametrize(
+    ("asked", "restitution", "rate", "stiffness"),
+    [
+        (MANY, 0.5, LARGE / 2, MANY.stiffness),
+        (MANY, 0.5, 3 * LARGE, 9 * MANY.stiffness),
+        (MANY, 0.98, LARGE, MANY.stiffness * (LOSS / (1 - 0.98**2)) ** 2),
+        (MANY, 1.0, LARGE, HARDEST),
+        (MANY, 1.0, 2 * LARGE, 4 * HARDEST),
+        (FINE.softened(1e-3), 1.0, LARGE, 1e3 * FINE.stiffness),
+    ],
+)
+def test_a_small_coin_and_a_small_loss_ask_for_a_stiffer_spring(asked, restitution, rate, stiffness):
+    """As g/r, and as 1/loss² up to the hardest; a spring asked for that is harder stays."""
+    assert resolved(asked, restitution, rate).stiffness == pytest.approx(stiffness, rel=1e-12)
+
+
+def test_a_restitution_below_that_of_any_spring_is_one_step_as_long_as_the_springs():
+    one = resolved(MANY, LEAST_SPRING / 2, 2 * LARGE)
+    step = rebound_of(LEAST_SPRING, resolved(MANY, LEAST_SPRING, 2 * LARGE)).step
+    assert (one.contact, one.step) == (Realisation.ONE_STEP, pytest.approx(step, rel=1e-12))
 
 
 @pytest.mark.parametrize("zeta", [0.0, 0.05, 0.3, 0.99, 1.0, 1.01, 5.0])
