@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from cointoss.compare.basins.picture import draw_panel as draw_panel
     from cointoss.compare.commands.common import ChoiceType as ChoiceType
     from cointoss.compare.commands.common import WrittenPlace as WrittenPlace
-    from cointoss.compare.commands.common import device_option as device_option
     from cointoss.compare.commands.common import plain_errors as plain_errors
     from cointoss.compare.commands.common import print_json as print_json
     from cointoss.compare.commands.common import refuse as refuse
@@ -91,12 +90,9 @@ if TYPE_CHECKING:
     from cointoss.compare.output.style import SKY as SKY
     from cointoss.compare.output.style import STYLE as STYLE
     from cointoss.compare.output.style import VERMILION as VERMILION
-    from cointoss.compare.output.tables import folded as folded
-    from cointoss.compare.output.tables import paragraphs as paragraphs
+    from cointoss.compare.output.tables import cells as cells
     from cointoss.compare.output.tables import sheet as sheet
-    from cointoss.compare.output.tables import sheets as sheets
     from cointoss.compare.output.tables import table as table
-    from cointoss.compare.output.tables import unfolding as unfolding
     from cointoss.compare.output.terminal import laid_out as laid_out
     from cointoss.compare.report.compared_tosses import Against as Against
     from cointoss.homes import brought as brought
@@ -120,6 +116,7 @@ if TYPE_CHECKING:
     from cointoss.models.certificate import momentum_residuals as momentum_residuals
     from cointoss.models.certificate import turned as turned
     from cointoss.models.cores import cores_used as cores_used
+    from cointoss.models.devices import Device as Device
     from cointoss.models.distribution import versions_of as versions_of
     from cointoss.models.errors import meant as meant
     from cointoss.models.fields import COMPONENTS as COMPONENTS

@@ -14,7 +14,7 @@ import click
 from cointoss.compare.output.accepted import Written
 from cointoss.compare.output.language import in_options
 from cointoss.compare.output.plain import json_text
-from cointoss.models.devices import Device, DeviceError, DeviceWarning
+from cointoss.models.devices import DeviceError, DeviceWarning
 from cointoss.models.errors import meant
 
 SCENARIO_HELP = (
@@ -259,12 +259,3 @@ def say(message: str) -> None:
     clear_line()
     shown = "".join(char if char.isprintable() else repr(char)[1:-1] for char in in_options(message))
     click.echo(f"cointoss: {shown}", err=True)
-
-
-device_option = click.option(
-    "--device",
-    type=ChoiceType([str(one) for one in Device]),
-    default=str(Device.CPU),
-    show_default=True,
-    help="Device that computes the tosses: the CPU, an NVIDIA card, or the card where it is faster.",
-)

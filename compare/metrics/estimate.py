@@ -1,10 +1,6 @@
 """A quantity estimated from a random sample, with its confidence interval."""
 
-import math
 from dataclasses import dataclass, replace
-
-_MOST = 1e12
-"""The largest sample that `needed` returns."""
 
 
 @dataclass(frozen=True)
@@ -35,18 +31,3 @@ class Estimate:
     def __truediv__(self, divisor: float) -> "Estimate":
         """Return the estimate of the quantity over a positive number."""
         return replace(self, value=self.value / divisor, low=self.low / divisor, high=self.high / divisor)
-
-    def needed(self, threshold: float) -> int | None:
-        """Return the size of sample whose interval would leave out a threshold; None where none would.
-
-        An interval shrinks as 1/√count; the value is taken to stay as found, so that an empty sample has
-        none.
-        """
-        side = self.low if threshold < self.value else self.high
-        if self.value == threshold or not (self.count and math.isfinite(side)):
-            return None
-        exact = self.count * ((self.value - side) / (self.value - threshold)) ** 2
-        if exact > _MOST:
-            return None
-        unit = 10 ** max(math.floor(math.log10(exact)) - 1, 0)
-        return unit * math.ceil(exact / unit)

@@ -12,7 +12,8 @@ import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 
-from cointoss.study import GREY, PALE, STYLE, table, unfolding
+from cointoss.study import GREY, PALE, STYLE, table
+from cointoss_reproduction.frame.tables import unfolding
 from cointoss_yardstick.suite.case import cases
 
 PICTURE = "other_engines.png"

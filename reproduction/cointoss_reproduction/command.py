@@ -11,10 +11,11 @@ from typing import Any
 import click
 
 from cointoss.study import (
+    ChoiceType,
+    Device,
     Written,
     WrittenPlace,
     completing,
-    device_option,
     drawing_problem,
     meant,
     plain_errors,
@@ -62,7 +63,13 @@ _Sizes = Mapping[str, Mapping[str, Any]]
     help="List what DIR, else docs, holds that was made by other engines than those here; after the names.",
 )
 @click.option("--list", "as_list", is_flag=True, help="Print the names and their titles; compute nothing.")
-@device_option
+@click.option(
+    "--device",
+    type=ChoiceType([str(one) for one in Device]),
+    default=str(Device.CPU),
+    show_default=True,
+    help="Device that computes the tosses: the CPU, an NVIDIA card, or the card where it is faster.",
+)
 @click.pass_context
 def reproduce(
     ctx: click.Context,

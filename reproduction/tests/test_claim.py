@@ -15,6 +15,7 @@ from cointoss_reproduction.frame.claim import (
     Criterion,
     Estimate,
     criteria_of,
+    needed_of,
     read_claims,
     to_json,
     unexpected,
@@ -171,3 +172,20 @@ def test_the_papers_claims_are_those_saved_and_come_out_as_known(name, tmp_path)
     saved = read_claims(runner.folder_of(name, DOCS) / "claims.json")
     assert [claim.claim for claim in result.claims] == [claim.claim for claim in saved]
     assert [claim.expected for claim in result.claims] == [claim.expected for claim in saved]
+
+
+@pytest.mark.parametrize(
+    ("threshold", "needed"),
+    [
+        (0.45, 400),  # 100 (0.1 / 0.05)²
+        (0.6, 400),  # 100 (0.2 / 0.1)²
+        (0.53, 4500),  # 100 (0.2 / 0.03)², to two digits upwards
+        (0.7, 100),
+        (0.9, 25),
+        (0.5, None),
+        (0.5 + 1e-6, None),
+    ],
+)
+def test_as_many_are_needed_as_shrink_the_interval_to_the_threshold(threshold, needed):
+    assert needed_of(Estimate(0.5, 0.4, 0.7, 100), threshold) == needed
+    assert needed_of(share_of(0, 0), threshold) is None

@@ -2,10 +2,11 @@
 
 import pytest
 
-from cointoss.compare.output.tables import OPEN, table
+from cointoss.study import table
 from cointoss_reproduction.frame import pages, runner
 from cointoss_reproduction.frame.claim import Claim, Criterion, unexpected
 from cointoss_reproduction.frame.result import Result
+from cointoss_reproduction.frame.tables import OPEN
 from saved import DOCS, saved
 
 KEPT = [name for name in runner.names() if runner.is_whole(name, DOCS)]

@@ -14,6 +14,8 @@ from pydantic import TypeAdapter, ValidationError
 from cointoss.study import Estimate, read_bounded
 from cointoss_reproduction.frame.files import MOST_BYTES
 
+_MOST = 1e12
+"""The largest sample that `needed_of` returns."""
 Relation = Literal["<", "≤", "=", "≥", ">", "within ±"]
 _COMPARE: dict[Relation, Callable[[float, float], bool]] = {
     "<": operator.lt,
@@ -91,10 +93,25 @@ class Criterion:
         if not sample.count:
             return f"there were no {sample.counted}"
         nearest = min(self._limits, key=lambda limit: abs(limit - sample.value))
-        needed = sample.needed(nearest)
+        needed = needed_of(sample, nearest)
         if needed is None:
             return f"no number of {sample.counted} would decide it"
         return f"about {needed:,d} {sample.counted} would decide it (there were {sample.count:,d})"
+
+
+def needed_of(sample: Estimate, threshold: float) -> int | None:
+    """Return the size of sample whose interval would leave out a threshold; None where none would.
+
+    An interval shrinks as 1/√count; the value is taken to stay as found, so that an empty sample has none.
+    """
+    side = sample.low if threshold < sample.value else sample.high
+    if sample.value == threshold or not (sample.count and math.isfinite(side)):
+        return None
+    exact = sample.count * ((sample.value - side) / (sample.value - threshold)) ** 2
+    if exact > _MOST:
+        return None
+    unit = 10 ** max(math.floor(math.log10(exact)) - 1, 0)
+    return unit * math.ceil(exact / unit)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,10 +6,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from pathlib import Path
 
-from cointoss.study import folded, sheets, table, unfolding
+from cointoss.study import table
 from cointoss_reproduction.frame.claim import VERDICTS, Claim
 from cointoss_reproduction.frame.files import PAGE
 from cointoss_reproduction.frame.result import Reproduction, Result
+from cointoss_reproduction.frame.tables import folded, sheets, unfolding
 
 MOST_IN_TITLE = 100
 """The most letters of a claim that a title holds."""

@@ -21,12 +21,12 @@ from cointoss.study import (
     Estimate,
     chance_alike,
     in_words,
-    paragraphs,
     percent,
     share_of,
     table,
 )
 from cointoss_reproduction.frame.cells import ENDS, estimate
+from cointoss_reproduction.frame.tables import paragraphs
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -6,10 +6,11 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from cointoss.study import Progress, paragraphs
+from cointoss.study import Progress
 from cointoss_reproduction.frame.declared import Findings, declared, result
 from cointoss_reproduction.frame.files import TABLE, said_by
 from cointoss_reproduction.frame.result import Reproduction, Result
+from cointoss_reproduction.frame.tables import paragraphs
 
 if TYPE_CHECKING:  # names are listed without it
     import pandas as pd

@@ -26,25 +26,8 @@ def test_a_share_of_all_reaches_1_and_one_of_no_trials_may_be_anything():
     assert (wilson(counts, counts)[2] == 1).all()
     none = share_of(0, 0)
     assert none.ends == pytest.approx((math.nan, 0, 1), nan_ok=True)
-    assert none.needed(0.5) is none.needed(2.0) is None
     with pytest.raises(ValueError, match="accepted: a number from 0 to the count"):
         share_of(1, 0)
-
-
-@pytest.mark.parametrize(
-    ("threshold", "needed"),
-    [
-        (0.45, 400),  # 100 (0.1 / 0.05)²
-        (0.6, 400),  # 100 (0.2 / 0.1)²
-        (0.53, 4500),  # 100 (0.2 / 0.03)², to two digits upwards
-        (0.7, 100),
-        (0.9, 25),
-        (0.5, None),
-        (0.5 + 1e-6, None),
-    ],
-)
-def test_as_many_are_needed_as_shrink_the_interval_to_the_threshold(threshold, needed):
-    assert Estimate(0.5, 0.4, 0.7, 100).needed(threshold) == needed
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,6 @@ from cointoss.study import (
     Array,
     Estimate,
     in_words,
-    paragraphs,
     rows_from_states,
     scenario_of_row,
     table,
@@ -26,6 +25,7 @@ from cointoss.study import (
 from cointoss.study import OUTCOMES as COLORS
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.frame.tables import paragraphs
 from cointoss_reproduction.setups.ends import OUTCOMES, tally
 from cointoss_reproduction.setups.general_coins import AIR, cent, paper_coin
 

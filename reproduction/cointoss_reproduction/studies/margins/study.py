@@ -22,7 +22,6 @@ from cointoss.study import (
     Estimate,
     ReleaseQuantity,
     in_words,
-    paragraphs,
     rows_from_states,
     share,
     smallest_changes,
@@ -30,6 +29,7 @@ from cointoss.study import (
 )
 from cointoss_reproduction.frame.cells import Cells, column
 from cointoss_reproduction.frame.study import study
+from cointoss_reproduction.frame.tables import paragraphs
 from cointoss_reproduction.setups.estimates import quantile
 from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case, planar_rows

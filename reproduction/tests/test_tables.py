@@ -1,6 +1,7 @@
 """Long tables of a page as files of comma-separated values."""
 
-from cointoss.compare.output.tables import OPEN, sheets, table
+from cointoss.study import table
+from cointoss_reproduction.frame.tables import OPEN, sheets
 
 ROWS = [(f"a|{i}", f"{i}.5 % [{i}, 1{i}]", f"1,00{i}") for i in range(OPEN + 1)]
 
