@@ -86,27 +86,12 @@ if not (Path(__file__).parent / "models").is_dir():
         )
 
 
-def _plot_toss(*given: Any, **named: Any) -> Any:
-    from cointoss.compare.output.plots import plot_toss
-
-    return plot_toss(*given, **named)
-
-
-def _play_toss(*given: Any, **named: Any) -> Any:
-    from cointoss.compare.web.play.frame import play
-
-    return play(*given, **named)
-
-
-def _gltf_of_toss(*given: Any) -> Any:
-    from cointoss.compare.film.gltf import gltf
-
-    return gltf(*given)
-
-
 # Here and not in `__getattr__`, so that a toss has its views whichever module of the package made it.
-_views = import_module("cointoss.models.views").views
-_views.plot_toss, _views.play_toss, _views.gltf_of_toss = _plot_toss, _play_toss, _gltf_of_toss
+import_module("cointoss.models.views").HOMES.update(
+    plot_toss="cointoss.compare.output.plots",
+    play="cointoss.compare.web.play.frame",
+    gltf="cointoss.compare.film.gltf",
+)
 
 
 def __getattr__(name: str) -> Any:

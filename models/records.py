@@ -17,7 +17,7 @@ from cointoss.models.kernel.arrays import Array
 from cointoss.models.labelled import EqualByValue, column, dataset, freeze, table
 from cointoss.models.resting_place import Rest, RestReason
 from cointoss.models.scenario import Scenario
-from cointoss.models.views import views
+from cointoss.models.views import view
 from cointoss.models.words import Word
 
 if TYPE_CHECKING:
@@ -580,7 +580,7 @@ class Toss(EqualByValue):
         Returns:
             The axes.
         """
-        return views.plot_toss(self, ax, **line)
+        return view("plot_toss")(self, ax, **line)
 
     def play(self, other: "Toss | None" = None) -> notebook.Frame:
         """Return what a notebook shows as the coin in 3D with its clock, its sequence and its energy.
@@ -594,7 +594,7 @@ class Toss(EqualByValue):
         Raises:
             TypeError: for another that is no toss.
         """
-        return views.play_toss(self, other)
+        return view("play")(self, other)
 
     def to_gltf(self) -> bytes:
         """Return the coin and its path as an animation: a .glb file of glTF 2.0, in metres, y up.
@@ -607,7 +607,7 @@ class Toss(EqualByValue):
         Raises:
             UnsupportedError: for a path that takes over a million poses.
         """
-        return views.gltf_of_toss(self)
+        return view("gltf")(self)
 
     def sample(self, times: ArrayLike) -> States:
         """Return the coin's states at `times`.
