@@ -1,7 +1,7 @@
 """Records of columns, checked, and labelled for xarray and pandas; both are imported where asked for."""
 
 from collections.abc import Mapping
-from dataclasses import Field, field, fields
+from dataclasses import field, fields
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
@@ -46,7 +46,6 @@ def column(
     kind: type = np.float64,
     long_name: str = "",
     labels: Mapping[int, str] | None = None,
-    optional: bool = False,
 ) -> Any:
     """Return a field of a record of columns.
 
@@ -56,19 +55,13 @@ def column(
         kind: of its numbers.
         long_name: by default the field's name.
         labels: what its numbers mean.
-        optional: whether a record may have None for it, as it has by default.
     """
     shape = (len(AXES[axes][1]),) if axes else ()
     attributes = {"long_name": long_name} if long_name else {}
     attributes |= {} if unit is None else {"units": unit}
     attributes |= {} if labels is None else meanings_of(labels)
     metadata = {"shape": shape, "kind": kind, "axes": axes, "attributes": attributes}
-    return field(default=None, metadata=metadata) if optional else field(metadata=metadata)
-
-
-def columns_of(record: Any) -> "list[Field[Any]]":
-    """Return the fields of a record of columns that it has."""
-    return [item for item in fields(record) if getattr(record, item.name) is not None]
+    return field(metadata=metadata)
 
 
 def freeze(record: Any) -> None:
@@ -78,7 +71,7 @@ def freeze(record: Any) -> None:
         ValueError: naming the record, the column, its shape and what is expected.
     """
     n = len(getattr(record, fields(record)[0].name))
-    for item in columns_of(record):
+    for item in fields(record):
         array, expected = getattr(record, item.name), (n, *item.metadata["shape"])
         if array.shape != expected:
             raise ValueError(f"{type(record).__name__}.{item.name}: shape {array.shape}, expected {expected}")
@@ -104,7 +97,7 @@ def dataset(record: Any, row: str, *, first: int | None = None) -> "xr.Dataset":
     coordinates: dict[str, Any] = {}
     if first is not None:
         coordinates[row] = (row, first + np.arange(len(record)), {"long_name": row})
-    for item in columns_of(record):
+    for item in fields(record):
         name, dimensions = item.name, [row]
         if item.metadata["axes"]:
             dimension, components = AXES[item.metadata["axes"]]

@@ -64,7 +64,8 @@ def unlikely_units(
         found["coin.inertia"] = larger
     if min(numbers[_MASS], numbers[_RADIUS]) <= 0:
         return found
-    (density, unit), (low, high) = _density(numbers), _usual(numbers)
+    density, unit = _density(numbers)
+    low, high = DENSITIES if numbers[_THICKNESS] > 0 else SURFACE_DENSITIES
     lengths = [name for name in (_RADIUS, _THICKNESS) if density < low and numbers[name] >= LARGE]
     why = f"; as given, the coin's density is {density:.3g} {unit}"
     for meant, part in (("mm", 1e-3), ("cm", 1e-2)):
@@ -107,10 +108,6 @@ def _density(numbers: Mapping[str, float]) -> tuple[float, str]:
     per_area = numbers[_MASS] / pi / numbers[_RADIUS] / numbers[_RADIUS]
     thickness = numbers[_THICKNESS]
     return (per_area / thickness, "kg/m³") if thickness > 0 else (per_area, "kg/m²")
-
-
-def _usual(numbers: Mapping[str, float]) -> tuple[float, float]:
-    return DENSITIES if numbers[_THICKNESS] > 0 else SURFACE_DENSITIES
 
 
 def warn_of_unlikely_units(

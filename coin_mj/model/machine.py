@@ -4,6 +4,7 @@
 # pyright: reportAttributeAccessIssue=false
 
 import math
+from dataclasses import replace
 from typing import NamedTuple
 
 import mujoco
@@ -17,7 +18,6 @@ from cointoss.coin_mj.model.settings import (
     MujocoSettings,
     Realisation,
     friction_of,
-    plastic_rebound,
     rebound_of,
     resolved,
 )
@@ -111,7 +111,8 @@ def machine_of(
         has_one_step=settings.contact == Realisation.ONE_STEP,
         flight_angle=settings.flight_angle if is_ideal(body) else min(settings.flight_angle, UNSYMMETRIC),
     )
-    plastic = coin._replace(rebound=plastic_rebound(rebound, settings), has_one_step=True)
+    one_step = replace(settings, contact=Realisation.ONE_STEP, step=rebound.step)
+    plastic = coin._replace(rebound=rebound_of(0.0, one_step), has_one_step=True)
     return Machine(model, data, settings, unit, coin, plastic)
 
 

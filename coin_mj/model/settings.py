@@ -198,11 +198,6 @@ def rebound_of(restitution: float, settings: MujocoSettings) -> Rebound:
     return Rebound(stiffness, damping, slip_damping, step, duration)
 
 
-def plastic_rebound(rebound: Rebound, settings: MujocoSettings) -> Rebound:
-    """Return the rebound with χ = 0: one step, as long as those of `rebound` are."""
-    return rebound_of(0.0, replace(settings, contact=Realisation.ONE_STEP, step=rebound.step))
-
-
 def friction_of(floor: Floor) -> float:
     """Return the coefficient of friction μ with which MuJoCo stands for a floor."""
     if is_rough(floor.contact):
