@@ -18,7 +18,8 @@ def counts_sentence(tosses: Sequence[Toss]) -> str:
     counts = [len(toss.impacts) for toss in tosses]
     if len(set(counts)) == 1 or not any(len(toss.contacts) for toss in tosses):
         return ""
-    before = [_before_contact(toss) for toss in tosses]
+    starts = [toss.contacts[:1, 0].min(initial=math.inf) for toss in tosses]
+    before = [int((each.impacts.time <= start).sum()) for each, start in zip(tosses, starts, strict=True)]
     after = [count - first for count, first in zip(counts, before, strict=True)]
     said = []
     if len(set(before)) > 1:
@@ -33,8 +34,3 @@ def counts_sentence(tosses: Sequence[Toss]) -> str:
             f"{OF_A_SPRING if spring else ''}."
         )
     return " ".join(said)
-
-
-def _before_contact(toss: Toss) -> int:
-    """Return how many impacts come before the first sustained contact."""
-    return int((toss.impacts.time <= toss.contacts[:1, 0].min(initial=math.inf)).sum())

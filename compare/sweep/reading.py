@@ -38,15 +38,7 @@ _ACCEPTED = "accepted: a map that cointoss basin made"
 
 
 def read_map(path: str | Path, *, most: int = MOST_READ) -> "xr.Dataset":
-    """Return a map that `cointoss basin` made, as far as its tiles are tossed and whole.
-
-    The arguments and errors are those of `map_at`; what it returns is as of `cointoss.basin`.
-    """
-    return in_words(map_at(path, most=most))
-
-
-def map_at(path: str | Path, *, most: int = MOST_READ) -> "xr.Dataset":
-    """Return a map that `cointoss basin` made, its words as codes, as far as its tiles are tossed and whole.
+    """Return a map that `cointoss basin` made, as `cointoss.basin` does, as far as it is tossed and whole.
 
     Args:
         path: of the map's folder.
@@ -69,7 +61,7 @@ def map_at(path: str | Path, *, most: int = MOST_READ) -> "xr.Dataset":
         store = Store.at(path, "r")
         _require_map(store.attributes)
         _require_size(path, store)
-        return thinned(map_in(store), most)
+        return in_words(thinned(map_in(store), most))
     except (MapError, BackEndError):
         raise
     except ScenarioError as error:

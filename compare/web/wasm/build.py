@@ -28,11 +28,11 @@ def build(out: Path, library: Path | None = None) -> None:
         build_once(MODULE, base_folder() / "engines", [SYSTEM, BROWSER])
         library = library_file(MODULE, BROWSER)
     # A build has no locks, by which other files are written aside; half a file is not of these sources.
-    out.write_bytes(library.read_bytes() + _section(_description()))
+    out.write_bytes(library.read_bytes() + _section())
 
 
-def _description() -> dict[str, object]:
-    """Return what engine.js has to know of the engine."""
+def _section() -> bytes:
+    """Return a custom section of WebAssembly: as JSON, what engine.js has to know of the engine."""
     from cointoss.analytic import by_rows
     from cointoss.compare.web.wasm.fields import described
     from cointoss.models import rows
@@ -40,7 +40,7 @@ def _description() -> dict[str, object]:
     from cointoss.models.faults import ACCEPTED
     from cointoss.models.records import Ending, Outcome
 
-    return {
+    about = {
         "version": version("cointoss-dynamics"),
         "sources": sources(),
         "fields": described(),
@@ -52,12 +52,8 @@ def _description() -> dict[str, object]:
         "outcomes": Outcome.by_value(),
         "endings": {ending.value: [str(ending), ending.sentence] for ending in Ending},
     }
-
-
-def _section(about: dict[str, object]) -> bytes:
-    """Return a custom section of WebAssembly that holds JSON."""
-    name, text = SECTION.encode(), json.dumps(about).encode()
-    content = _leb128(len(name)) + name + text
+    name = SECTION.encode()
+    content = _leb128(len(name)) + name + json.dumps(about).encode()
     return b"\0" + _leb128(len(content)) + content
 
 
