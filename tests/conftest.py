@@ -99,6 +99,13 @@ def loaded(chromium, tmp_path_factory):
 
 
 @pytest.fixture
+def here(tmp_path, monkeypatch):
+    """The folder of a test, which is the working directory meanwhile."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
 def coin(tmp_path):
     """The file of a scenario of which maps are made."""
     (tmp_path / "coin.toml").write_text(SCENARIO)

@@ -50,8 +50,8 @@ def test_a_field_that_nothing_uses_is_named_in_one_line_by_every_command(tmp_pat
         ("shares table --vary hand.height=1:300:2 --vary gravity=9:9:2", "hand.height = 300 m: is it mm?"),
     ],
 )
-def test_a_number_in_another_unit_is_questioned_once_before_any_toss(line, asked, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+@pytest.mark.usefixtures("here")
+def test_a_number_in_another_unit_is_questioned_once_before_any_toss(line, asked):
     answered = cointoss(*line.split())
     question, refusal = answered.stderr.splitlines()
     assert question.startswith(f"cointoss: {line.split()[1]}: {asked}")

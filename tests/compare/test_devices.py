@@ -55,12 +55,17 @@ def test_what_no_card_tosses_is_refused_before_the_first_toss(monkeypatch, tmp_p
 
 
 @pytest.mark.parametrize("call", [partial(cointoss.toss_many, CASE, FEW), partial(cointoss.shares, CASE)])
-def test_without_a_card_it_is_refused_and_so_is_another_device(monkeypatch, call):
+@pytest.mark.parametrize(
+    ("device", "kind", "says"),
+    [
+        ("cuda", DeviceError, "no NVIDIA driver was found"),
+        ("gpu", ValueError, r"^device: 'gpu', accepted: cpu, cuda, auto$"),
+    ],
+)
+def test_without_a_card_it_is_refused_and_so_is_another_device(monkeypatch, call, device, kind, says):
     without_card(monkeypatch)
-    with pytest.raises(DeviceError, match="no NVIDIA driver was found"):
-        call(device="cuda")
-    with pytest.raises(ValueError, match=r"^device: 'gpu', accepted: cpu, cuda, auto$"):
-        call(device="gpu")
+    with pytest.raises(kind, match=says):
+        call(device=device)
 
 
 @pytest.mark.parametrize("line", [("shares", "fig24a", "--tosses", 300), ("lab",)], ids=str)
@@ -161,8 +166,8 @@ def test_a_map_whose_card_is_lost_keeps_its_tiles_and_goes_on_by_the_cpu(monkeyp
     assert_same(out, due)
 
 
-def test_a_command_says_which_card_tossed_and_prints_the_same(monkeypatch, coin, tmp_path):
-    monkeypatch.chdir(tmp_path)
+@pytest.mark.usefixtures("here")
+def test_a_command_says_which_card_tossed_and_prints_the_same(monkeypatch, coin):
     card, asked = with_card(monkeypatch), (coin, "--x", "spin=20:60:100", "--y", "height=0.2:0.6:60")
     due = basin(*asked, "--out", "map.zarr")
     found = basin(*asked, "--out", "map.zarr", "--overwrite", "--device", "auto")

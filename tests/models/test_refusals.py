@@ -61,8 +61,8 @@ CASES = [
 
 
 @pytest.mark.parametrize(("make", "given", "line"), CASES, ids=[given[:40] for _, given, _ in CASES])
-def test_what_is_wrong_is_answered_in_one_line(tmp_path, monkeypatch, make, given, line):
-    monkeypatch.chdir(tmp_path)
+@pytest.mark.usefixtures("here")
+def test_what_is_wrong_is_answered_in_one_line(make, given, line):
     with pytest.raises(ValueError, match=r"^[^\n]*$") as refused:
         make(given)
     assert str(refused.value).removeprefix("given.toml: ") == line

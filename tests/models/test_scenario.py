@@ -127,8 +127,8 @@ def test_the_named_scenarios_are_there_and_fig_24_is_the_papers():
     ],
     ids=["none", "binary", "long", "endless", "folder", "unnamed", "long name"],
 )
-def test_what_is_no_file_of_a_scenario_is_answered_in_a_line(tmp_path, monkeypatch, name, content, says):
-    monkeypatch.chdir(tmp_path)
+@pytest.mark.usefixtures("here")
+def test_what_is_no_file_of_a_scenario_is_answered_in_a_line(name, content, says):
     if content:
         Path(name).write_bytes(content)
     with pytest.raises(ScenarioError, match=says):
@@ -148,12 +148,11 @@ def test_a_byte_order_mark_is_read_over(tmp_path):
     assert load(str(tmp_path / "coin.toml")) == parse(GOOD, "good.toml")
 
 
-def test_a_shipped_scenario_is_shadowed_by_a_file_of_its_name_but_by_no_folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def test_a_shipped_scenario_is_shadowed_by_a_file_of_its_name_but_by_no_folder(here):
     shipped = scenario_text("fig3_flat")
-    (tmp_path / "fig3_flat").mkdir()
+    (here / "fig3_flat").mkdir()
     assert scenario_text("fig3_flat") == shipped
-    (tmp_path / "fig21").write_text("mine")
+    (here / "fig21").write_text("mine")
     assert scenario_text("fig21") == "mine"
 
 
@@ -162,17 +161,30 @@ def test_a_file_may_say_its_format():
     assert "format" not in parse(GOOD, "mine.toml").as_tables()
 
 
-def test_a_scenario_made_in_python_is_refused_as_its_file_is():
-    tables = tomllib.loads(scenario_text("fig24a"))
-    assert Scenario(**tables) == load("fig24a")
+TABLES = tomllib.loads(scenario_text("fig24a"))
+
+
+def test_a_scenario_is_made_in_python():
+    assert Scenario(**TABLES) == load("fig24a")
     assert Scenario.model_validate(load("zloty").as_tables()) == load("zloty")
-    tables["floor"]["restitution"] = 2
-    with pytest.raises(ScenarioError, match=r"^floor\.restitution = 2: accepted: a number >= 0 and <= 1$"):
-        Scenario(**tables)
-    with pytest.raises(ScenarioError, match=r'^radius = "-1 cm": accepted: a number >= 1e-09'):
-        Coin(**tables["coin"] | {"radius": "-1 cm"})
-    with pytest.raises(ScenarioError, match="did you mean angles"):
-        Release(**tables["release"] | {"angels": (0, 0, 0)})
+
+
+@pytest.mark.parametrize(
+    ("kind", "good", "wrong", "says"),
+    [
+        (
+            Scenario,
+            TABLES,
+            {"floor": TABLES["floor"] | {"restitution": 2}},
+            r"^floor\.restitution = 2: accepted: a number >= 0 and <= 1$",
+        ),
+        (Coin, TABLES["coin"], {"radius": "-1 cm"}, r'^radius = "-1 cm": accepted: a number >= 1e-09'),
+        (Release, TABLES["release"], {"angels": (0, 0, 0)}, "did you mean angles"),
+    ],
+)
+def test_a_scenario_made_in_python_is_refused_as_its_file_is(kind, good, wrong, says):
+    with pytest.raises(ScenarioError, match=says):
+        kind(**good | wrong)
 
 
 @pytest.mark.parametrize("name", named_scenarios())

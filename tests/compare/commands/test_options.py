@@ -146,8 +146,8 @@ VARY = "--vary height=0.2:0.6"
         ("toss table --margin --contact-steps 5", "metrics.margin.margins", {"settings": CONTACT_STEPS}),
     ],
 )
-def test_an_option_is_handed_to_its_argument(line, function, arguments, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+@pytest.mark.usefixtures("here")
+def test_an_option_is_handed_to_its_argument(line, function, arguments):
     Path("a.csv").write_text("t (s)\n1.2\n1.5\n")
     Path("b.csv").write_text("same,flips\n1,2\n")
     with patch(f"cointoss.compare.{function}", side_effect=ScenarioError("enough")) as called:

@@ -55,7 +55,7 @@ def test_the_side_that_was_up_is_counted_whichever_it_was(coin):
     ids=["shares", "hands"],
 )
 def test_an_interruption_prints_and_writes_what_is_counted(
-    coin, tmp_path, monkeypatch, words, home, name, counted, shown, rows
+    coin, here, monkeypatch, words, home, name, counted, shown, rows
 ):
     own = getattr(home, name)
 
@@ -65,12 +65,11 @@ def test_an_interruption_prints_and_writes_what_is_counted(
 
     monkeypatch.setattr(home, name, interrupted)
     monkeypatch.setitem(hands.BLOCK, "analytic", 40)
-    monkeypatch.chdir(tmp_path)
     answered = cointoss(words[0], coin, *words[1:])
     assert isinstance(answered.exception, Interruption)
     assert answered.exception.message == f"interrupted by SIGINT: {counted} tosses are counted"
     assert shown in answered.stdout
-    tables = [path.read_text().splitlines() for path in tmp_path.glob("a.*")]
+    tables = [path.read_text().splitlines() for path in here.glob("a.*")]
     assert [row["tosses"] for table in tables for row in csv.DictReader(table)] == rows
 
 

@@ -28,9 +28,8 @@ def test_a_back_end_that_is_chosen_already_is_said_to_be_too_late(monkeypatch):
 
 
 @pytest.mark.usefixtures("fresh_back_end")
-def test_a_missing_back_end_is_found_in_a_child_process_that_runs_nothing_foreign(tmp_path, monkeypatch):
-    (tmp_path / "random.py").write_text("raise RuntimeError('foreign')")
-    monkeypatch.chdir(tmp_path)
+def test_a_missing_back_end_is_found_in_a_child_process_that_runs_nothing_foreign(here, monkeypatch):
+    (here / "random.py").write_text("raise RuntimeError('foreign')")
     monkeypatch.setenv("MUJOCO_GL", "egl")
     monkeypatch.setenv("PYOPENGL_PLATFORM", "osmesa")
     problem = drawing_problem() or ""

@@ -144,9 +144,8 @@ def test_on_a_smooth_floor_all_same_is_more_likely_with_less_wobble():
 
 
 @pytest.fixture
-def counts(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "counts.csv").write_text("person,same,flips\nAnna,560,1000\nBen,9,20\n", encoding="utf-8")
+def counts(here):
+    (here / "counts.csv").write_text("person,same,flips\nAnna,560,1000\nBen,9,20\n", encoding="utf-8")
     return "counts.csv"
 
 

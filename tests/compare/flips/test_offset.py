@@ -56,13 +56,12 @@ def test_counts_that_no_offset_or_every_one_explains_determine_none(heads, tails
 
 
 @pytest.fixture
-def coin(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "coin.toml").write_text(COIN, encoding="utf-8")
-    (tmp_path / "hand.toml").write_text(
+def coin(here):
+    (here / "coin.toml").write_text(COIN, encoding="utf-8")
+    (here / "hand.toml").write_text(
         "spun = true\nspin = 0\npsi_scatter = '1 deg'\nup = 'heads'\n", encoding="utf-8"
     )
-    (tmp_path / "counts.csv").write_text("HH,HT,TT,TH\n5,20,20,5\n", encoding="utf-8")
+    (here / "counts.csv").write_text("HH,HT,TT,TH\n5,20,20,5\n", encoding="utf-8")
     return "coin.toml"
 
 

@@ -24,12 +24,11 @@ J. Larwood, 40,000 coin tosses yield ambiguous evidence for dynamical bias (2009
 
 
 @pytest.fixture
-def counts(tmp_path, monkeypatch):
+def counts(here):
     """Write a table of counts."""
-    monkeypatch.chdir(tmp_path)
 
     def write(text: str) -> str:
-        (tmp_path / "counts.csv").write_text(text, encoding="utf-8")
+        (here / "counts.csv").write_text(text, encoding="utf-8")
         return "counts.csv"
 
     return write

@@ -66,11 +66,9 @@ def test_a_toss_is_interrupted(tmp_path, engine, number):
     ("engine", "tossing"),
     [(Engine.ANALYTIC, "analytic.many"), (Engine.MUJOCO, "coin_mj.on_machines")],
 )
-def test_a_map_is_interrupted_in_a_tile_and_resumed_to_the_same_pixels(
-    tmp_path, monkeypatch, engine, tossing
-):
+def test_a_map_is_interrupted_in_a_tile_and_resumed_to_the_same_pixels(here, monkeypatch, engine, tossing):
     monkeypatch.setitem(layout.TILE_TOSSES, engine, SMALL)
-    (tmp_path / "coin.toml").write_text(SCENARIO + "[ending]\nmax_impacts = 1\n")
+    (here / "coin.toml").write_text(SCENARIO + "[ending]\nmax_impacts = 1\n")
     asked = ("coin.toml", "--x", f"{AXES[1][:-2]}20", "--y", f"{AXES[3][:-2]}20", "--engine", engine)
     script = (
         f"{ENDLESS}\nfrom cointoss.compare.cli import main; from cointoss.compare.engines import Engine\n"
@@ -84,18 +82,17 @@ def test_a_map_is_interrupted_in_a_tile_and_resumed_to_the_same_pixels(
         "of_many.in_tiles = some\n"
         "main()"
     )
-    status, said = ended(tmp_path, signal.SIGTERM, script, "basin", *asked, "--out", "map.zarr")
-    kept = np.sum(pixels(tmp_path / "map.zarr")["impacts"] >= 0)
+    status, said = ended(here, signal.SIGTERM, script, "basin", *asked, "--out", "map.zarr")
+    kept = np.sum(pixels(here / "map.zarr")["impacts"] >= 0)
     assert 0 < kept < 400
     assert (status, said) == (
         143,
         f"cointoss: map.zarr: {kept} of 400 tosses are saved; --resume continues\n",
     )
-    assert {path.name for path in tmp_path.iterdir()} == {"begun", "coin.toml", "map.zarr"}
-    monkeypatch.chdir(tmp_path)
+    assert {path.name for path in here.iterdir()} == {"begun", "coin.toml", "map.zarr"}
     assert basin(*asked, "--out", "map.zarr", "--resume").exit_code == 0
     assert basin(*asked, "--out", "undisturbed.zarr").exit_code == 0
-    assert_same(tmp_path / "map.zarr", pixels(tmp_path / "undisturbed.zarr"))
+    assert_same(here / "map.zarr", pixels(here / "undisturbed.zarr"))
 
 
 def test_in_python_ctrl_c_raises_out_of_a_toss_and_of_many(tmp_path):
