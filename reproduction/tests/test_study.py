@@ -79,11 +79,16 @@ def test_a_row_without_a_value_is_not_selected_but_an_estimate_of_nothing_is():
     assert np.isnan(measured(both, {"value": "whole"}).value)
 
 
-def test_a_measure_that_selects_nothing_or_too_much_is_refused():
-    with pytest.raises(ValueError, match="selects no row"):
-        measured(CELLS, {"where": "chi > 1", "value": "width"})
-    with pytest.raises(ValueError, match="selects 3 rows, and has no key"):
-        measured(CELLS, {"value": "width"})
+@pytest.mark.parametrize(
+    ("said", "refusal"),
+    [
+        ({"where": "chi > 1", "value": "width"}, "selects no row"),
+        ({"value": "width"}, "selects 3 rows, and has no key"),
+    ],
+)
+def test_a_measure_that_selects_nothing_or_too_much_is_refused(said, refusal):
+    with pytest.raises(ValueError, match=refusal):
+        measured(CELLS, said)
 
 
 @pytest.mark.parametrize(

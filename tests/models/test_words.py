@@ -45,13 +45,16 @@ def test_in_sets_and_as_keys_a_member_is_its_integer():
     assert {str(Outcome.HEADS): "gold"}["heads"] == "gold"
 
 
-def test_another_word_is_answered_with_those_there_are():
-    with pytest.raises(
-        ValueError, match=r"^Outcome: 'head', did you mean heads\? accepted: undecided, heads"
-    ):
-        Outcome("head")
-    with pytest.raises(ValueError, match=r"^Face: 3, accepted: heads, tails$"):
-        Face(3)
+@pytest.mark.parametrize(
+    ("kind", "word", "says"),
+    [
+        (Outcome, "head", r"^Outcome: 'head', did you mean heads\? accepted: undecided, heads"),
+        (Face, 3, r"^Face: 3, accepted: heads, tails$"),
+    ],
+)
+def test_another_word_is_answered_with_those_there_are(kind, word, says):
+    with pytest.raises(ValueError, match=says):
+        kind(word)
 
 
 def test_a_text_that_is_nearly_a_word_is_questioned_where_it_is_compared():
