@@ -4,14 +4,13 @@ import json
 import shutil
 import socket
 import subprocess
-import time
 from base64 import b64decode
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from tests.helpers.processes import HANGS
+from tests.helpers.processes import HANGS, wait_until
 
 
 @contextmanager
@@ -25,11 +24,7 @@ def firefox(profile: Path) -> Iterator["Firefox"]:
     with subprocess.Popen([*words, "--width=1280", "--height=900"], **quiet) as process:
         try:
             port = profile / "MarionetteActivePort"
-            deadline = time.monotonic() + HANGS
-            while not port.is_file() or not port.read_text():
-                assert process.poll() is None, "Firefox has ended"
-                assert time.monotonic() < deadline, "no answer"
-                time.sleep(0.1)
+            wait_until(process, lambda: port.is_file() and port.read_text())
             with socket.create_connection(("127.0.0.1", int(port.read_text())), HANGS) as link:
                 yield Firefox(link)
         finally:

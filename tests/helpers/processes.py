@@ -36,7 +36,7 @@ def started(*words: object, **how: Any) -> Iterator["subprocess.Popen[str]"]:
             process.kill()
 
 
-def wait_until(process: "subprocess.Popen[str]", holds: Callable[[], object]) -> None:
+def wait_until(process: "subprocess.Popen[Any]", holds: Callable[[], object]) -> None:
     """Wait until something holds that a process, which still runs then, brings about."""
     deadline = time.monotonic() + HANGS
     while not holds() and process.poll() is None and time.monotonic() < deadline:
