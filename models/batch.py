@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cointoss.models.describing import ends_of
-from cointoss.models.entries import examine_each
+from cointoss.models.entries import examine_each, roll_each
+from cointoss.models.errors import ScenarioError
 from cointoss.models.fields import COMPONENTS, FIELDS, PLACES, WORDED
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.rows import FIRST, row_of
@@ -26,6 +27,8 @@ _ANGLES, _QUATERNION = (
     [PLACE[f"{path}.{name}"] for name in COMPONENTS[path]]
     for path in ("release.angles", "release.quaternion")
 )
+_FOLLOWING = ("release.position.z", *(f"release.velocity.{axis}" for axis in "xyz"))
+"""What follows of `release.rolls`."""
 _INERTIA = [PLACE[field] for field in FIELDS if field.startswith("coin.inertia.")]
 
 
@@ -38,6 +41,9 @@ def rows_of(scenario: Scenario, n: int, changed: Mapping[str, ArrayLike] | None 
         scenario: the scenario to copy.
         n: number of copies.
         changed: values by field, numbers in SI or the integers of words, (n,) each or one for all.
+
+    Raises:
+        ScenarioError: for a height or a velocity of a coin whose release rolls, but not for both as a whole.
     """
     changed = changed or {}
     base = row_of(scenario)
@@ -47,9 +53,14 @@ def rows_of(scenario: Scenario, n: int, changed: Mapping[str, ArrayLike] | None 
         base[_ANGLES], base[_QUATERNION] = math.nan, scenario.release.attitude
     if any(field.startswith("coin.inertia.") for field in changed):
         base[_INERTIA] = np.ravel(scenario.coin.moments)
+    given = [field for field in _FOLLOWING if field in changed] if scenario.release.rolls else []
+    if 0 < len(given) < len(_FOLLOWING):
+        raise ScenarioError(f"{given[0]}: accepted: no such field with release.rolls, of which it follows")
     rows = np.tile(base, (n, 1))
     for field, values in changed.items():
         rows[:, PLACE[field]] = values
+    if scenario.release.rolls and not given:
+        roll_each(rows)
     return rows
 
 

@@ -73,6 +73,8 @@ def _accepted(detail: ErrorDetails, model: type[BaseModel]) -> str:
             return accepted(loc, model, "finite")
         case "float_type" | "int_type":
             return accepted(loc, model, "type")
+        case "bool_type":
+            return "true or false"
         case _:
             return detail["msg"]
 

@@ -8,6 +8,7 @@ engine = Library(__name__)
 
 quaternion_from_angles = engine.entry(attitude.quaternion_from_angles)
 turn_each = engine.entry(attitude.turn_each)
+roll_each = engine.entry(rows.roll_each)
 write_attitudes = engine.entry(rows.write_attitudes)
 body_in_any_air = engine.entry(rows.body_in_any_air)
 rules_of = engine.entry(rows.rules_of)

@@ -87,9 +87,14 @@ WORDED: Mapping[str, type[Word]] = {
 """Fields that are a word, in a row its integer."""
 
 
+ROLLS = "release.rolls"
+
+
 def _places() -> Iterator[tuple[str, Place]]:
     for path in _DECLARED:
         place = tuple(path.split("."))
+        if path == ROLLS:
+            continue  # a row has what follows of it
         if path == "coin.inertia":
             for i, row in enumerate(BODY):
                 yield from ((f"{path}.{row}.{name}", (*place, i, k)) for k, name in enumerate(BODY))

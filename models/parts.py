@@ -318,6 +318,9 @@ class Release(Part):
     """Euler parameters e0, e1, e2, e3, body to space, in place of the angles; brought to norm 1."""
     angular_velocity: Annotated[Spins, each_of("spin about", xi="ξ", eta="η", zeta="ζ")] = _ZERO
     """ω, body frame (ξ, η, ζ) [rad/s]."""
+    rolls: bool | None = None
+    """Whether the coin starts on the floor, with its lowest point at rest. The height and the velocity of C
+    follow, and are given as 0."""
 
     @field_validator("quaternion")
     @classmethod

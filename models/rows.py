@@ -21,9 +21,10 @@ from cointoss.models.faults import (
     fault_of_toss,
 )
 from cointoss.models.fields import FIELDS, PLACES, TABLES, WORDED, Place
+from cointoss.models.geometry import contact_velocity, gap, lowest_point
 from cointoss.models.kernel.arrays import Array, Codes, Row, Table, copy_into, four, three
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import Matrix
+from cointoss.models.kernel.vectors import Matrix, scale
 from cointoss.models.making import MOST_LOSSLESS, Cylinder, make_body, most_impacts, moved_inertia
 from cointoss.models.scenario import Scenario
 from cointoss.models.state import State, state
@@ -206,6 +207,23 @@ def write_release(row: Array, y: Array) -> None:
     """Write the state at the release of a row as a state vector, (13,)."""
     release = release_of(row)
     copy_into(y, release.position + release.velocity + release.attitude + release.spin)
+
+
+@compiled
+def roll_each(rows: Table) -> None:
+    """Set the coin of each row on the floor, its lowest point at rest there: its height and its velocity.
+
+    Rows that are no scenario's for a number that is missing stay as they are.
+    """
+    for i in range(len(rows)):
+        row = rows[i]
+        if foreign_number(row) >= 0:
+            continue
+        body, release = body_in_any_air(row), release_of(row)
+        A, _ = lowest_point(body, release.R[2], release.spin)
+        row[AT.release_position_z] = -gap(body, 0.0, release.R[2])
+        v = contact_velocity(body, release.R, (0.0, 0.0, 0.0), release.spin, A)
+        copy_into(row[AT.release_velocity_x : AT.release_velocity_x + 3], scale(-1.0, v))
 
 
 @compiled

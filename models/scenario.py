@@ -34,6 +34,7 @@ from cointoss.models.writing import toml
 
 MOST_KEPT, KEPT_BYTES = MOST_LOSSLESS, 416
 """Impacts of a toss that keeps them all, and the memory that each takes, with the flight after it."""
+_STILL = (0.0, 0.0, 0.0)
 
 
 class Scenario(Part):
@@ -68,6 +69,8 @@ class Scenario(Part):
     def _together(self) -> Self:
         from cointoss.models.entries import examine
 
+        if self.release.rolls:
+            object.__setattr__(self, "release", self._rolling())
         found = np.empty(3)
         try:
             examine(self._row, found)
@@ -77,6 +80,25 @@ class Scenario(Part):
             asked = "".join(f"{line}; " for line in doubted)
             raise FieldError(error.field, error.value, error.accepted, asked) from None
         return self
+
+    def _rolling(self) -> Release:
+        """Return the release on the floor, with the height and the velocity of a coin that rolls.
+
+        Raises:
+            FieldError: for another height or velocity.
+        """
+        from cointoss.models.entries import roll_each
+        from cointoss.models.rows import AT
+
+        row, (x, y, height), velocity = self._row, self.release.position, self.release.velocity
+        roll_each(row[np.newaxis])
+        z, v = float(row[AT.release_position_z]), vector(row[AT.release_velocity_x :][:3])
+        if height not in (0, z):
+            raise FieldError("release.position.z", height, f"0 with rolls, which sets the coin at {z:.6g} m")
+        if velocity not in (_STILL, v):
+            raise FieldError("release.velocity", velocity, "no such field with rolls, of which it follows")
+        found: dict[str, Any] = dict(self.release) | {"position": (x, y, z), "velocity": v}
+        return Release.model_construct(**found)
 
     def replace(self, field: str, value: Any, /, *more: Any) -> "Scenario":
         """Return a scenario with other values of some fields, checked as a scenario file is.
@@ -100,6 +122,8 @@ class Scenario(Part):
                 f"Scenario.replace: {pairs[-1]} without a value; accepted: fields and values in turn"
             )
         data = self.model_dump()
+        if self.release.rolls:
+            data["release"] |= {"position": (*self.release.position[:2], 0.0), "velocity": _STILL}
         for name, new in zip(pairs[::2], pairs[1::2], strict=True):
             require_type("field", name, str, 'a dotted path, such as "floor.restitution"')
             put(data, name, new)

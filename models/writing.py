@@ -1,5 +1,6 @@
 """Write the tables of a scenario as TOML."""
 
+import json
 from typing import Any
 
 
@@ -22,6 +23,6 @@ def _lines(entries: dict[str, Any]) -> list[str]:
 def _value(value: Any) -> str:
     if isinstance(value, list):
         return f"[{', '.join(map(_value, value))}]"
-    if isinstance(value, str):
-        return f'"{value}"'
+    if isinstance(value, str | bool):
+        return json.dumps(value, ensure_ascii=False)
     return repr(float(value)) if isinstance(value, float) else str(value)

@@ -68,7 +68,7 @@ def each(exact: float, fine: float, many: float) -> dict[str, float]:
 
 def on_floor(height: float, *, coin: dict[str, Any] = ZLOTY, ending: Any = None, **more: Any) -> Scenario:
     """Return a coin released at a height; of `more`, names of a release go there, others to the floor."""
-    of_release = {"velocity", "angles", "quaternion", "angular_velocity"}
+    of_release = {"velocity", "angles", "quaternion", "angular_velocity", "rolls"}
     release = {"position": [0.0, 0.0, height]} | {key: more[key] for key in of_release & more.keys()}
     floor = {"restitution": 0.5, "contact": "smooth"} | {key: more[key] for key in more.keys() - of_release}
     return scenario(coin=coin, floor=floor, release=release, ending=ending or {})
@@ -344,6 +344,32 @@ def rolls_without_loss() -> Situation:
     return Situation(case, None, (Check(change, 0, both(1e-9, 5e-3), False),))
 
 
+def rolls_steadily(tilt: float = 0.6, turning: float = 40.0) -> Situation:
+    """A coin that `rolls` with dL/dt = A × F, A from C, about the vertical: C goes round, and the tilt stays.
+
+    With η up the slope of the coin, k = h/2 and V = k ω_η - r ω_ζ, that is
+    m V Ω (r s + k c) - m g (r c - k s) = Ω (J_ζ ω_ζ s - J_ξ ω_η c), ω_η = Ω s.
+    """
+    s, c, k, J = np.sin(tilt), np.cos(tilt), H / 2, R**2 / 4 + H**2 / 12
+    reach, across = R * s + k * c, k * turning * s
+    weight = across * turning * reach - G * (R * c - k * s) + J * turning**2 * s * c
+    about = weight / turning / (R * reach + R**2 / 2 * s)
+    spin, period = [0, turning * s, about], 2 * np.pi / turning
+    rough: Any = {"contact": "coulomb", "friction": 5.0, "ending": {"until": period}}
+    case = on_floor(0.0, angles=[0, tilt, 0], angular_velocity=spin, rolls=True, **rough)
+    place = np.array([0, 2 * (across - R * about) / turning, reach])
+    times = np.linspace(0, period, 40)
+    return Situation(
+        case,
+        None,
+        (
+            NO_TOUCH,
+            Check(lambda toss: tilts(toss, times), tilt, both(1e-8, 5e-3)),
+            Check(lambda toss: toss.sample([period / 2]).position[0] / R, place / R, both(1e-8, 5e-3), False),
+        ),
+    )
+
+
 def wobbles(power: float, loss: float, **floor: float) -> Situation:
     """Euler's disk: α^power falls steadily, by E = 3/2 m g r α and φ' = 2 √(g/(r α)); corrections of α²."""
     tilt, viscosity = 0.3, floor.pop("viscosity", 0.0)
@@ -389,12 +415,11 @@ def rocks_while_it_turns() -> Situation:
     n_z, turning, J = 0.02, 5.0, R**2 / 4 + H**2 / 12
     tilt = np.arccos(n_z)
     turn = np.array(rotation_matrix((np.cos(tilt / 2), np.sin(tilt / 2), 0.0, 0.0)))
-    point = np.array([0.0, -R * np.sign(turn[2, 1]), -H / 2])
     case = on_floor(
-        -float((turn @ point)[2]),
+        0.0,
         quaternion=[np.cos(tilt / 2), np.sin(tilt / 2), 0.0, 0.0],
         angular_velocity=(turning * turn[2]).tolist(),
-        velocity=(-np.cross(turn @ turn[2] * turning, turn @ point)).tolist(),
+        rolls=True,
         contact="coulomb",
         friction=0.3,
     )
@@ -491,6 +516,7 @@ SITUATIONS = {
     "keeps its momenta": keeps_its_momenta([0.0, 0.0, 0.0]),
     "keeps its momenta, unbalanced": keeps_its_momenta([*PAPER_OFFSET[:2], 0.0]),
     "rolls without loss": rolls_without_loss(),
+    "rolls steadily": rolls_steadily(),
     "wobbles with rolling friction": wobbles(0.5, 2 / 3 * 2e-4 / R, rolling_friction=2e-4),
     "wobbles with contour friction": wobbles(1.5, 2 * 1.6e-3, contour_friction=1.6e-3 * R),
     "wobbles with contour viscosity": wobbles(2, 16 / 3 * 3.4e-4, contour_viscosity=3.4e-4 * R / UNIT),

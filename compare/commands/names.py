@@ -27,8 +27,9 @@ def _scenarios() -> list[str]:
 def settable() -> list[str]:
     """Return what a setting of a field of a scenario begins with."""
     from cointoss.compare.sweep.batch import KNOWN
+    from cointoss.models.fields import ROLLS
 
-    return [f"{field}=" for field in KNOWN]
+    return [f"{field}=" for field in (*KNOWN, ROLLS)]
 
 
 def axes() -> list[str]:

@@ -74,10 +74,11 @@ def _pairs(settings: Sequence[str]) -> list[Any]:
     """Return the whole name of each field that is set, and after it its value."""
     from cointoss.compare.sweep.axes import named
     from cointoss.compare.sweep.batch import KNOWN
+    from cointoss.models.fields import ROLLS
     from cointoss.models.parts import Air
 
     typed = [setting.partition("=") for setting in settings]
-    known = (*KNOWN, *(f"air.{name}" for name in Air.instead))
+    known = (*KNOWN, ROLLS, *(f"air.{name}" for name in Air.instead))
     return [word for name, _, value in typed for word in (named(name.strip(), known), _value(value))]
 
 
