@@ -22,10 +22,13 @@ BLOCK = 1 << 12
 """Points of the window that are tossed together."""
 IN_A_BOX = 1 << 8
 """Points of a box that are tossed together."""
-ENOUGH = 64
-"""Hits among which the best is chosen."""
-BEST, BEAM = 2, 4
-"""How many hits are moved to where their margin is large, and how many boxes are searched."""
+ENOUGH, BEST = 64, 2
+"""Hits among which the best is chosen, and how many are moved to where their margin is large."""
+FIRST, FEW = 1 << 7, 8
+"""Points that are tossed at first, and hits that are enough, for an outcome: one of them is moved. A whole
+toss may take a thousand times as long as its first faces."""
+BEAM = 4
+"""How many boxes are searched."""
 TRIES = 4
 """How often boxes are searched, each time by twice as many points, before the search ends without a toss."""
 ROUNDS = 6
@@ -84,6 +87,7 @@ def search(
     sampler = qmc.Sobol(len(window.spans), rng=np.random.default_rng(seed))
     points, shown = np.empty((0, len(window.spans))), np.empty(0, dtype=np.int64)
     tried = refused = hits = 0
+    first, enough, centres = (BLOCK, ENOUGH, BEST) if target.outcome is None else (FIRST, FEW, 1)
 
     with (
         saying(lambda said: f"{said}: {hits or 'none'} of {tried - refused:,d} tosses show it"),
@@ -91,11 +95,11 @@ def search(
             "searching the window", "tosses", total=tosses, detail=lambda: f"{hits or 'none'} show it"
         ) as progress,
     ):
-        while tried < tosses and hits < ENOUGH:
-            block = sampler.random(BLOCK)[: tosses - tried]
+        while tried < tosses and hits < enough:
+            block = sampler.random(min(max(first, tried), BLOCK))[: tosses - tried]
             of_block = target.shown(window, block)
             points, shown = np.concatenate([points, block]), np.concatenate([shown, of_block])
-            best = np.argsort(-shown, kind="stable")[:ENOUGH]
+            best = np.argsort(-shown, kind="stable")[:enough]
             points, shown, tried = points[best], shown[best], tried + len(block)
             refused += int(np.sum(of_block < 0))
             hits += int(np.sum(of_block == target.steps))
@@ -112,7 +116,7 @@ def search(
     tell(f"{showing} {target.in_words}; now measuring how far each field may change")
     with stage("measuring margins"):
         wide = [Hit(*one) for one in zip(points, _margins(window, target, points, target.steps), strict=True)]
-        best, *others = sorted(wide, key=lambda hit: -hit.margin)[:BEST]
+        best, *others = sorted(wide, key=lambda hit: -hit.margin)[:centres]
         chosen = [best, *others] if best.margin > LEAST else [best]
         centred = [_centred(window, target, hit) for hit in chosen]
     return Searched(tuple(sorted(centred, key=lambda hit: -hit.margin)), made, refused, longest)

@@ -10,6 +10,7 @@ from cointoss.compare.find.search import Hit, _centred, _scanned, search
 from cointoss.compare.sweep.axes import Span
 from cointoss.compare.sweep.window import Window
 from cointoss.models.reading import load
+from cointoss.models.records import Outcome
 
 
 class Formula:
@@ -17,8 +18,8 @@ class Formula:
 
     in_words = "it"
 
-    def __init__(self, steps, formula) -> None:
-        self.steps, self.formula = steps, formula
+    def __init__(self, steps, formula, outcome=None) -> None:
+        self.steps, self.formula, self.outcome = steps, formula, outcome
 
     def shown(self, _window, points, steps=None):
         return np.minimum(self.formula(*points.T), self.steps if steps is None else steps)
@@ -32,6 +33,10 @@ def window(count, ends=(10.0, 20.0)):
 
 def searched(target: Any, fields, tosses, seed=0):
     return search(window(fields), target, tosses, seed)
+
+
+def common_half(x):
+    return np.where(x < 0.5, 1, 0)
 
 
 def rectangle(x, y):
@@ -124,9 +129,11 @@ def test_points_that_are_no_tosses_are_counted_as_such(formula, tosses, refused,
 
 
 def test_a_search_ends_where_enough_is_found_and_depends_on_its_seed():
-    common = [searched(Formula(1, lambda x: np.where(x < 0.5, 1, 0)), 1, 1 << 20, seed) for seed in (1, 1, 2)]
+    common = [searched(Formula(1, common_half), 1, 1 << 20, seed) for seed in (1, 1, 2)]
     assert [one.tosses for one in common] == [4096] * 3
     assert common[0].hits[0].point == common[1].hits[0].point != common[2].hits[0].point
+    whole = searched(Formula(1, common_half, outcome=Outcome.HEADS), 1, 1 << 20)
+    assert (whole.tosses, len(whole.hits)) == (128, 1)
 
 
 @pytest.mark.parametrize(
