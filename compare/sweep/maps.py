@@ -234,12 +234,13 @@ def field_along(dataset: "xr.Dataset", dim: str) -> str:
 def _axis(field: str, values: Array, unit: str, ends: list[float] | None, stride: int) -> Axis:
     if len(values) < 2:
         raise SweepError(f"{field}: one value, accepted: a map of two or more")
-    start, stop, count = ends or (float(values[0]), float(values[-1]), len(values))
-    axis = Axis(field=field, unit=unit, start=start, stop=stop, count=int(count))
-    there = axis.values[::stride]
-    if there.shape != values.shape or not np.allclose(there, values, rtol=1e-12):
-        raise SweepError(f"{field}: values that are not evenly spaced, accepted: those of a whole range")
-    return axis
+    own = float(values[0]), float(values[-1]), len(values)  # as a slice of a thinned map has them
+    for (start, stop, number), step in ((ends or own, stride), (own, 1)):
+        axis = Axis(field=field, unit=unit, start=start, stop=stop, count=int(number))
+        there = axis.values[::step]
+        if there.shape == values.shape and np.allclose(there, values, rtol=1e-12):
+            return axis
+    raise SweepError(f"{field}: values that are not evenly spaced, accepted: those of a whole range")
 
 
 def settings_of(engine: Engine, found: Mapping[str, Any]) -> EngineSettings:

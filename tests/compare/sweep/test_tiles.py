@@ -68,3 +68,5 @@ def test_a_map_is_thinned_to_at_most_so_many_pixels_of_the_same_axes(most, strid
     assert found.outcome.values.tolist() == codes[::stride, ::stride].tolist()
     if stride < 4:
         assert axes_of(found) == axes_of(whole) == axes_of(thinned(thinned(whole, 34), most))
+        part = found.isel(x=slice(1, 3))
+        assert axes_of(part)[1].values.tolist() == part["release.position.z"].values.tolist()
