@@ -80,7 +80,9 @@ class Store:
             DamagedError: naming a file or an array that is not as in a store of cointoss.
         """
         require_plain(path)
-        group = zarr.open_group(path, mode=mode, zarr_format=3, use_consolidated=True)
+        group = zarr.open_group(path, mode=mode, zarr_format=3)
+        if group.metadata.consolidated_metadata is None:
+            raise DamagedError(f"{DESCRIPTION}: no consolidated_metadata, as in a store of tosses of 0.1.0")
         arrays = {name: array for name, array in group.arrays() if name in _NAMES}
         if "outcome" not in arrays:
             raise DamagedError("array outcome missing")

@@ -139,7 +139,7 @@ STRANGE = {
     "no outcome": ("array outcome missing", lacking("consolidated_metadata", "metadata", "outcome")),
     "no margin": ("margin", lacking("consolidated_metadata", "metadata", "margin")),
     "no axis": (NO_MAP, lacking("consolidated_metadata", "metadata", X)),
-    "no consolidated": (NO_MAP, lacking("consolidated_metadata")),
+    "no consolidated": ("zarr.json: no consolidated_metadata, as", lacking("consolidated_metadata")),
     "format 9": (NO_MAP, lambda path: rewritten(path, lambda all_: all_.update(zarr_format=9))),
     "nothing": (NO_MAP, lambda path: (path / "zarr.json").write_text("{}")),
     "a broken description": (NO_MAP, lambda path: (path / "zarr.json").write_text("{")),
