@@ -35,6 +35,13 @@ WITHOUT = {
 }
 """Options of solref that are accepted only without others."""
 
+MISSING = {
+    "model": "MODEL.xml: missing; accepted: an XML file of MuJoCo",
+    **dict.fromkeys(("one", "two"), "GEOM: missing; accepted: the name or the number of a geom, twice"),
+    "timestep": "--dt: missing; accepted: --dt DT, the model's timestep, such as 0.002 or 2ms",
+}
+"""What is said where a parameter is missing, by its name."""
+
 
 class Refusal(click.ClickException):
     """Bad input, in one line."""
@@ -62,7 +69,9 @@ class _Commands(click.Group):
             status = super().main(*args, **{**extra, "standalone_mode": False})
         except click.UsageError as error:
             path = error.ctx.command_path if error.ctx else self.name
-            status = _refused(f"{error.format_message().rstrip('.')} (see {path} --help)", 2)
+            lacking = error.param if isinstance(error, click.MissingParameter) else None
+            said = MISSING[str(lacking.name)] if lacking else error.format_message().rstrip(".")
+            status = _refused(f"{said} (see {path} --help)", 2)
         except click.ClickException as error:
             status = _refused(error.format_message(), error.exit_code)
         except click.Abort:  # KeyboardInterrupt
