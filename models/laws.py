@@ -14,6 +14,10 @@ class ContactLaw(Word):
     SLIDING_FRICTION = 6
     COULOMB = 7
 
+    def __hash__(self) -> int:
+        """Return the hash of its word, by which an engine of one's own looks a law up."""
+        return hash(str(self))
+
 
 class EndingTest(Word):
     """The test by which the face that is up counts as final."""

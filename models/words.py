@@ -15,7 +15,8 @@ class Word(IntEnum):
     It prints as its word and equals it: `toss.outcome == "heads"`. Else it is its integer, as in compiled
     code and in arrays of codes; `array == Outcome.HEADS` holds of the word and of the code.
     `Outcome("heads")` and `Outcome(1)` make it of either.
-    As a key and in a set it stands for its integer, not for its word, which `str(toss.outcome)` is.
+    As a key and in a set it stands for its integer, not for its word, which `str(toss.outcome)` is; a contact
+    law stands for its word.
     A comparison with a text that is nearly a word of the list, such as "Heads", is False with a warning.
     """
 

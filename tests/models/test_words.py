@@ -43,6 +43,7 @@ def test_in_sets_and_as_keys_a_member_is_its_integer():
     assert {Outcome.HEADS: "gold"}[codes[0]] == "gold"
     assert Face.TAILS == Outcome.TAILS
     assert {str(Outcome.HEADS): "gold"}["heads"] == "gold"
+    assert {"smooth": "ice", ContactLaw.COULOMB: "wood"}[ContactLaw.SMOOTH] == "ice"
 
 
 @pytest.mark.parametrize(

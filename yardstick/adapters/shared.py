@@ -60,7 +60,7 @@ def friction_of(scenario: Any, refused: Iterable[str] = BEYOND, rough: float = 1
         if value := attrgetter(what)(scenario):
             raise NotImplementedError(f"{what}: {value}, accepted: 0")
     laws = {"smooth": 0.0, "coulomb": scenario.floor.friction, "perfectly_rough": rough}
-    law = str(scenario.floor.contact)  # a law of cointoss equals its word, but has another hash
+    law = scenario.floor.contact
     if law not in laws:
         raise NotImplementedError(f"floor.contact: {law}, accepted: {', '.join(laws)}")
     return laws[law]
