@@ -134,6 +134,10 @@ def zeno(case: Case) -> list[float]:
     return [begun + (up + (up * up - 2 * G * level) ** 0.5) / G]
 
 
+def ten_bounces(case: Case) -> list[float]:
+    return [case.scenario.floor.restitution**20]
+
+
 def shares(case: Case) -> list[float]:
     from cointoss_yardstick.suite.running import HAND
 
@@ -152,6 +156,8 @@ RIGHT = {
     "touch_spin": touch_spin,
     "critical_speed": critical_speed,
     "zeno": zeno,
+    "ten_bounces_1": ten_bounces,
+    "ten_bounces_80": ten_bounces,
     "shares": shares,
 }
 """Functions of a case that return its right value, where cases.toml has more than a plain number."""

@@ -80,6 +80,14 @@ def rebound_of_the_centre(seen: ObservedToss) -> Array:
     return -first.velocity_after[:, 2] / first.velocity_before[:, 2]
 
 
+def height_after_ten_touches(seen: ObservedToss) -> Array:
+    """Return the largest height of the lowest point between touches 10 and 11, over the first height."""
+    touches, _ = seen.stretches
+    if len(touches) < 11:
+        raise NothingSeenError(f"{len(touches)} touches were seen in {seen.states.time[-1]:.4g} s, not 11")
+    return seen.heights[touches[9][1] : touches[10][0] + 1].max(keepdims=True) / seen.heights[0]
+
+
 def first_impulse(seen: ObservedToss) -> Array:
     """Return the impulse of the first impact, space frame, (3,) [N s]."""
     return _first_impact(seen).impulse[0]
@@ -149,6 +157,7 @@ QUANTITIES: dict[str, Callable[[ObservedToss], Array]] = {
         period_of_lean,
         restitution,
         rebound_of_the_centre,
+        height_after_ten_touches,
         first_impulse,
         spin_after_the_first_impact,
         sideways_impulse,
