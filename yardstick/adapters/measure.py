@@ -2,7 +2,8 @@
 
     python yardstick/adapters/measure.py [--environments DIR] [NAME[:SETTINGS] ...]
 
-An environment is made where it is missing, of requirements.txt, and of alone.txt without what that requires.
+An environment is made where it is missing, of requirements.txt, of alone.txt without what that requires, and
+of the packages for node in node.txt.
 A card is what `cointoss conform --json` prints, without what cases.toml has too.
 """
 
@@ -31,6 +32,9 @@ def python_of(name: str, environments: Path) -> Path:
         subprocess.run([*install, HERE / name / "requirements.txt"], check=True)
         if (alone := HERE / name / "alone.txt").exists():
             subprocess.run([*install, alone, "--no-deps"], check=True)
+        if (of_node := HERE / name / "node.txt").exists():
+            packages = of_node.read_text(encoding="utf-8").split()
+            subprocess.run(["npm", "install", "--prefix", folder.parent, *packages], check=True)
     return python
 
 
