@@ -30,6 +30,8 @@ TIMED = "tilted"
 KNOWN = {case.name: case for case in cases()}
 SHEET = {
     "e = 1": ("flat_1", lambda case: case["found"][0]),
+    "height, 1": ("ten_bounces_1", lambda case: case["found"][0]),
+    "height, 0.8": ("ten_bounces_80", lambda case: case["found"][0] / KNOWN["ten_bounces_80"].right[0]),
     "ten touches": ("energy", lambda case: math.exp(10 * case["found"][0])),
     "rest": ("rest", lambda case: 1e3 * case["found"][0]),
     "slides": ("coulomb_slip", lambda case: case["found"][1] / case["found"][2] / 0.15),
