@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from cointoss.analytic.air.law import AirMotion
-from cointoss.analytic.air.quadrature import Nodes, gauss_rule
+from cointoss.analytic.air.quadrature import Nodes
 from cointoss.analytic.air.wall_strip import PhiSeries, phi_series, strip_change
 from cointoss.models.body import Body
 from cointoss.models.kernel.arrays import Array
@@ -23,13 +23,14 @@ from cointoss.models.kernel.vectors import Vector, norm, scale
 TURN = 96
 """Points of the full rectangle rule around; coarser ones take every second, third, fourth or sixth."""
 _TURN_COS, _TURN_SIN = on_circle(TURN, TURN)
-_SHORT_X, _SHORT_WEIGHTS = gauss_rule(16)
 # Where B = 0 while C + D z vanishes at a height, complex too, above so many h/2, the integral along z is
 # smooth: its path lies between the rims.
 _HIGHEST = 2.0
 _MOST_BREAKS = 6
 Sums = tuple[float, float, float, float, float, float]
 """Force and moment."""
+Pair = tuple[tuple[float, float], tuple[float, float]]
+"""Real part and size of the imaginary part of two solutions, infinite where there is none."""
 _NO_SUMS: Sums = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
@@ -46,17 +47,18 @@ def wall_friction_change(body: Body, motion: AirMotion, nodes: Nodes) -> tuple[V
         return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     # It is homogeneous of degree b in the motion.
     of_size_one = AirMotion(b, scale(1 / size, v), scale(1 / size, w), dv, dw)
-    total = _around(body, of_size_one, nodes)
+    f_0, f_1, f_2, m_0, m_1, m_2 = _around(body, of_size_one, nodes)
     k = -body.air.tangential * r * size**b
-    f_0, f_1, f_2, m_0, m_1, m_2 = total
     return (k * f_0, k * f_1, k * f_2), (k * m_0, k * m_1, k * m_2)
 
 
 @compiled
 def _around(body: Body, motion: AirMotion, nodes: Nodes) -> Sums:
     """Integrate over θ: by the rectangle rule, or by rules between the points at which it is not smooth."""
-    breaks, away = np.empty(_MOST_BREAKS), np.empty(_MOST_BREAKS)
-    number, nearest = _breaks(body, motion.v, motion.w, breaks, away)
+    breaks, away, nearest = np.empty(_MOST_BREAKS), np.empty(_MOST_BREAKS), np.inf
+    number = _breaks(body, motion.v, motion.w, breaks, away)
+    for i in range(number):
+        nearest = min(nearest, away[i])
     series, total = phi_series(motion.exponent), _NO_SUMS
     if nearest * TURN > nodes.digits:
         stride = 1
@@ -67,22 +69,37 @@ def _around(body: Body, motion: AirMotion, nodes: Nodes) -> Sums:
             strip = _strip(body, motion, series, _TURN_COS[i], _TURN_SIN[i])
             total = _add(total, 2 * math.pi * stride / TURN, strip)
         return total
+    number = _without_hidden(breaks, away, number)
     for i in range(number):
         # From each break half way to the next, and to the one before.
         ahead = breaks[i + 1] if i + 1 < number else breaks[0] + 2 * math.pi
         behind = breaks[i - 1] if i > 0 else breaks[number - 1] - 2 * math.pi
         for length in ((ahead - breaks[i]) / 2, (behind - breaks[i]) / 2):
-            if length == 0:
-                continue
-            x, weights = nodes.around_x, nodes.around_weights
-            if 2 * _distance(breaks, away, number, breaks[i]) > abs(length):
-                x, weights = _SHORT_X, _SHORT_WEIGHTS
-            for j in range(len(x)):
-                theta = breaks[i] + length * x[j]
-                cosine, sine = math.cos(theta), math.sin(theta)
-                strip = _strip(body, motion, series, cosine, sine)
-                total = _add(total, abs(length) * weights[j], strip)
+            for j in range(len(nodes.around_x)):
+                theta = breaks[i] + length * nodes.around_x[j]
+                strip = _strip(body, motion, series, math.cos(theta), math.sin(theta))
+                total = _add(total, abs(length) * nodes.around_weights[j], strip)
     return total
+
+
+@compiled
+def _without_hidden(breaks: Array, away: Array, number: int) -> int:
+    """Keep the breaks that no other one hides, and return how many there are.
+
+    From a break that hides it, which is nearer to the real axis, a hidden one is seen within 27° of the
+    perpendicular; where that one is hidden too, within 45° from the last. So the rule graded towards the last
+    converges for all.
+    """
+    kept, is_hidden = 0, np.zeros(_MOST_BREAKS, np.bool_)
+    for i in range(number):
+        for j in range(number):
+            apart = abs(breaks[i] - breaks[j])
+            is_nearer = away[j] < away[i] or (away[j] == away[i] and j < i)
+            is_hidden[i] |= is_nearer and 2 * min(apart, 2 * math.pi - apart) <= away[i]
+    for i in range(number):
+        if not is_hidden[i]:
+            breaks[kept], away[kept], kept = breaks[i], away[i], kept + 1
+    return kept
 
 
 @compiled
@@ -98,17 +115,7 @@ def _add(total: Sums, k: float, part: Sums) -> Sums:
 
 
 @compiled
-def _distance(breaks: Array, away: Array, number: int, theta: float) -> float:
-    """Return the distance of θ from the nearest point at which the integrand is not smooth."""
-    least = np.inf
-    for i in range(number):
-        apart = abs(breaks[i] - theta)
-        least = min(least, math.hypot(min(apart, 2 * math.pi - apart), away[i]))
-    return least
-
-
-@compiled
-def _breaks(body: Body, v: Vector, w: Vector, breaks: Array, away: Array) -> tuple[int, float]:
+def _breaks(body: Body, v: Vector, w: Vector, breaks: Array, away: Array) -> int:
     """Find where the integral along the wall is not smooth in θ.
 
     Args:
@@ -119,19 +126,14 @@ def _breaks(body: Body, v: Vector, w: Vector, breaks: Array, away: Array) -> tup
         away: where the sizes of the imaginary parts go, (6,).
 
     Returns:
-        Their number, and the smallest imaginary part.
+        Their number.
     """
-    half, number, nearest = body.thickness / 2, 0, np.inf
-    for z in (-half, half):
-        theta_1, away_1, theta_2, away_2 = _rest_on_rim(body, v, w, z)
-        number = _insert(breaks, away, number, theta_1, away_1)
-        number = _insert(breaks, away, number, theta_2, away_2)
-    theta_1, away_1, theta_2, away_2 = _rest_between_rims(body, v, w)
-    number = _insert(breaks, away, number, theta_1, away_1)
-    number = _insert(breaks, away, number, theta_2, away_2)
-    for i in range(number):
-        nearest = min(nearest, away[i])
-    return number, nearest
+    half, number = body.thickness / 2, 0
+    on_rims = _rest_on_rim(body, v, w, -half), _rest_on_rim(body, v, w, half)
+    for pair in (*on_rims, _rest_between_rims(body, v, w)):
+        for theta, distance in pair:
+            number = _insert(breaks, away, number, theta, distance)
+    return number
 
 
 @compiled
@@ -152,12 +154,8 @@ def _insert(breaks: Array, away: Array, number: int, theta: float, distance: flo
 
 
 @compiled
-def _rest_on_rim(body: Body, v: Vector, w: Vector, z: float) -> tuple[float, float, float, float]:
-    """Find where T_θ + i T_ζ = g_0 + g_c cos θ + g_s sin θ vanishes at the height z, for complex θ.
-
-    Returns:
-        Real part and size of the imaginary part of both solutions; infinite where there is none.
-    """
+def _rest_on_rim(body: Body, v: Vector, w: Vector, z: float) -> Pair:
+    """Find where T_θ + i T_ζ = g_0 + g_c cos θ + g_s sin θ vanishes at the height z, for complex θ."""
     r = body.radius
     g_0 = complex(r * w[2], v[2])
     g_c = complex(v[1] - w[0] * z, -r * w[1])
@@ -174,23 +172,20 @@ def _rest_on_rim(body: Body, v: Vector, w: Vector, z: float) -> tuple[float, flo
         if top != 0:
             smaller = -top / (g_0 + root)
             theta_2, away_2 = math.atan2(smaller.imag, smaller.real), abs(math.log(abs(smaller)))
-    return theta_1, away_1, theta_2, away_2
+    return (theta_1, away_1), (theta_2, away_2)
 
 
 @compiled
-def _rest_between_rims(body: Body, v: Vector, w: Vector) -> tuple[float, float, float, float]:
+def _rest_between_rims(body: Body, v: Vector, w: Vector) -> Pair:
     """Find where B vanishes and C + D z at a height of the wall, or near it, for complex θ.
 
     With α = θ - φ, φ the direction of ω's part across ζ and W its size: B = v_ζ + r W sin α, D = -W cos α and
     C = r ω_ζ + v_⊥ cos α - v_∥ sin α, v_∥ and v_⊥ being the parts of v along that direction and across it.
-
-    Returns:
-        As `_rest_on_rim`.
     """
     r, W = body.radius, math.hypot(w[0], w[1])
     theta_1, away_1, theta_2, away_2 = 0.0, np.inf, 0.0, np.inf
     if W == 0:
-        return theta_1, away_1, theta_2, away_2
+        return (theta_1, away_1), (theta_2, away_2)
     along, across = (v[0] * w[0] + v[1] * w[1]) / W, (v[1] * w[0] - v[0] * w[1]) / W
     sine, phi = -v[2] / (r * W), math.atan2(w[1], w[0])
     cosine = cmath.sqrt(complex(1 - sine * sine, 0.0))
@@ -201,7 +196,7 @@ def _rest_between_rims(body: Body, v: Vector, w: Vector) -> tuple[float, float, 
         theta_1, away_1 = phi + angle, distance
     if abs(r * w[2] - across * cosine - along * sine) <= highest * abs(cosine):
         theta_2, away_2 = phi + math.pi - angle, distance
-    return theta_1, away_1, theta_2, away_2
+    return (theta_1, away_1), (theta_2, away_2)
 
 
 @compiled

@@ -21,7 +21,7 @@ _X, _WEIGHTS = gauss_rule(6)
 _FAR_ZERO = 6.0
 # Φ is a series of (B/x)² beyond this x/|B|, below it one of x²/(x² + B²); so many terms reach rounding.
 _FAR = 4 / 3
-_FAR_TERMS, _NEAR_TERMS = 64, 80
+_FAR_TERMS, _NEAR_TERMS, _LEAST_TERM = 64, 80, 1e-17
 
 
 class PhiSeries(NamedTuple):
@@ -125,8 +125,8 @@ def phi_series(b: float) -> PhiSeries:
         far[k] = term / (b + 1 - 2 * k) if k != 1 else 0.0
         term *= (b / 2 - k) / (k + 1)
     square = _FAR * _FAR
-    meeting = _FAR * (square + 1) ** (b / 2) * _polynomial(near, square / (square + 1))
-    series = _FAR ** (b + 1) * _polynomial(far, 1 / square) + b / 2 * _logarithm(b, _FAR, 1.0)
+    meeting = _FAR * (square + 1) ** (b / 2) * _power_series(near, square / (square + 1))
+    series = _FAR ** (b + 1) * _power_series(far, 1 / square) + b / 2 * _logarithm(b, _FAR, 1.0)
     return PhiSeries(near, far, meeting - series)
 
 
@@ -145,25 +145,27 @@ def _phi(b: float, series: PhiSeries, x: float, B: float, speed_power: float) ->
     if size <= _FAR * B:
         if size == 0:
             return 0.0
-        return x * speed_power * _polynomial(series.near, x * x / (x * x + B * B))
+        return x * speed_power * _power_series(series.near, x * x / (x * x + B * B))
     inner = B ** (b + 1) * (b / 2 * _logarithm(b, size, B) + series.beyond) if B > 0 else 0.0
-    return math.copysign(size ** (b + 1) * _polynomial(series.far, (B / size) ** 2) + inner, x)
+    return math.copysign(size ** (b + 1) * _power_series(series.far, (B / size) ** 2) + inner, x)
 
 
 @compiled
-def _polynomial(coefficients: Array, x: float) -> float:
-    """Return the value of a polynomial whose coefficients are four times some number.
+def _power_series(coefficients: Array, x: float) -> float:
+    """Return the sum of a power series for 0 <= x < 1, as far as it matters.
 
-    Its four sums do not wait for each other.
+    Its coefficients are at most about 1, and their number is four times another. Its four sums do not wait
+    for each other.
     """
     a, b, c, d = 0.0, 0.0, 0.0, 0.0
-    square = x * x
-    fourth = square * square
-    for k in range(len(coefficients) - 4, -1, -4):
-        a = a * fourth + coefficients[k]
-        b = b * fourth + coefficients[k + 1]
-        c = c * fourth + coefficients[k + 2]
-        d = d * fourth + coefficients[k + 3]
+    square, weight, k = x * x, 1.0, 0
+    while k < len(coefficients) and weight > _LEAST_TERM:
+        a += weight * coefficients[k]
+        b += weight * coefficients[k + 1]
+        c += weight * coefficients[k + 2]
+        d += weight * coefficients[k + 3]
+        weight *= square * square
+        k += 4
     return a + x * b + square * (c + x * d)
 
 

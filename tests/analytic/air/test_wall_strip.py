@@ -35,9 +35,3 @@ def test_a_strip_that_moves_alike_everywhere_or_not_at_all(b):
     expected[2] = expected[0] * HALF**2 / 3
     assert strip(b, B, C, 0.0) == pytest.approx(expected, rel=1e-14, abs=1e-20)
     assert not strip(b, 0.0, 0.0, 0.0).any()
-
-
-@pytest.mark.parametrize("b", [0.3, 1.0])
-def test_both_series_of_the_potential_meet(b):
-    below, above = (strip(b, 1.0, part * 4 / 3, 1 / HALF) for part in (1 - 1e-9, 1 + 1e-9))
-    assert above == pytest.approx(below, rel=1e-8)
