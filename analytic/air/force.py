@@ -3,7 +3,7 @@
 from cointoss.analytic.air.face_friction import face_friction_change
 from cointoss.analytic.air.law import AirMotion
 from cointoss.analytic.air.pressure import pressure_change
-from cointoss.analytic.air.quadrature import CHANGE_NODES, FORCE_NODES, Nodes
+from cointoss.analytic.air.quadrature import CHANGE_NODES, CONTACT_NODES, FORCE_NODES, Nodes
 from cointoss.analytic.air.wall_friction import wall_friction_change
 from cointoss.models.body import Body
 from cointoss.models.kernel.arrays import Array, copy_into
@@ -31,14 +31,19 @@ def force_and_moment(body: Body, v: Vector, w: Vector) -> tuple[Vector, Vector]:
         f: force, body frame, (3,) [N].
         m_C: moment about C, body frame, (3,) [N m].
     """
-    return _force_and_moment(body.air.exponent, body, v, w)
+    return force_and_moment_by(body.air.exponent, body, v, w, False)
 
 
 @compiled
-def _force_and_moment(exponent: float | None, body: Body, v: Vector, w: Vector) -> tuple[Vector, Vector]:
-    """Return force and moment by the exponent: only for an argument that is None numba omits a branch."""
+def force_and_moment_by(
+    exponent: float | None, body: Body, v: Vector, w: Vector, in_contact: bool
+) -> tuple[Vector, Vector]:
+    """Return `force_and_moment` by the exponent; where it is not None, in sustained contact, to 2e-8 of it.
+
+    Only for an argument that is None numba omits a branch.
+    """
     if exponent is not None:
-        return _by_quadrature(body, exponent, v, w)
+        return _by_quadrature(body, exponent, v, w, CONTACT_NODES if in_contact else FORCE_NODES)
     drag = body.drag
     v_B = subtract(v, cross(w, body.center))
     f = (
@@ -106,10 +111,10 @@ def write_jacobian(body: Body, v: Vector, w: Vector, jacobian: Array) -> None:
 
 
 @compiled
-def _by_quadrature(body: Body, b: float, v: Vector, w: Vector) -> tuple[Vector, Vector]:
+def _by_quadrature(body: Body, b: float, v: Vector, w: Vector, nodes: Nodes) -> tuple[Vector, Vector]:
     """Return force and moment for b > 0."""
     v_B, share = subtract(v, cross(w, body.center)), 1 / (1 + b)
-    df, dm_B = change_about_B(body, AirMotion(b, v_B, w, v_B, w), FORCE_NODES)
+    df, dm_B = change_about_B(body, AirMotion(b, v_B, w, v_B, w), nodes)
     return scale(share, df), scale(share, subtract(dm_B, cross(body.center, df)))
 
 

@@ -81,3 +81,5 @@ def nodes_of(n: int, n_around: int, digits: float) -> Nodes:
 # The integrand of the change is rougher by a power than that of the force. The tests compare both with finer
 # rules over all kinds of motion.
 FORCE_NODES, CHANGE_NODES = nodes_of(32, 28, 28.0), nodes_of(48, 48, 28.0)
+CONTACT_NODES = nodes_of(24, 14, 20.0)
+"""Of a step of sustained contact, which may err by more."""

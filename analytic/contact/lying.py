@@ -10,7 +10,7 @@ import math
 
 from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.resistance import moment_per_force
-from cointoss.analytic.flight.equations_of_motion import derivative
+from cointoss.analytic.flight.equations_of_motion import flight_in, write_rate
 from cointoss.analytic.flight.state_vector import (
     attitude_of,
     normalise,
@@ -19,6 +19,7 @@ from cointoss.analytic.flight.state_vector import (
     set_spin,
     set_velocity,
     spin_of,
+    state_of,
     velocity_of,
 )
 from cointoss.analytic.numerics.elliptic import complete_elliptic
@@ -41,7 +42,7 @@ def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
     The mode ends when the coin is at rest, except on a slope too steep for friction.
     """
     body, friction = contact.body, contact.friction
-    derivative(body, y, dy)
+    write_rate(body, flight_in(body, state_of(y), True), dy)
     v, w, R, air = velocity_of(y), spin_of(y), rotation_matrix(attitude_of(y)), velocity_of(dy)
     side, N = math.copysign(1.0, R[2][2]), -body.mass * air[2]
     turn = side * w[2]

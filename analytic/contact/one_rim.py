@@ -13,18 +13,19 @@ from cointoss.analytic.contact.rim_contact import (
     rim_motion,
     spin_gained_at,
 )
-from cointoss.analytic.flight.equations_of_motion import flight_of, write_rate
+from cointoss.analytic.flight.equations_of_motion import Flight, write_rate
 from cointoss.analytic.flight.state_vector import (
     attitude_of,
     set_height,
     set_spin,
     set_velocity,
     spin_of,
+    state_of,
     velocity_of,
 )
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.kernel.compiled import compiled, inlined
-from cointoss.models.kernel.vectors import Vector, add, apply, dot
+from cointoss.models.kernel.vectors import Vector, add, apply, apply_transposed, dot
 from cointoss.models.records import Array
 
 
@@ -53,7 +54,10 @@ def contact_in_flight(contact: SustainedContact, y: Array) -> RimContact:
 @inlined
 def put_on_floor(contact: SustainedContact, y: Array) -> RimMotion:
     """Bring A to the floor, and return it without resistance, in the body frame; y: state, (13,)."""
-    A = rim_motion(contact.body, FRICTIONLESS, flight_of(contact.body, y), contact.rim)
+    # No force acts in no time: air would be computed for nothing.
+    state, none = state_of(y), (0.0, 0.0, 0.0)
+    moving = Flight(state, apply_transposed(state.R, state.velocity), none, none)
+    A = rim_motion(contact.body, FRICTIONLESS, moving, contact.rim)
     set_height(y, -dot(A.up, A.arm))
     return A
 

@@ -18,8 +18,15 @@ from cointoss.analytic.contact.resistance import (
     has_resistance,
     moment_per_force,
 )
-from cointoss.analytic.flight.equations_of_motion import Flight, flight_of, write_rate
-from cointoss.analytic.flight.state_vector import attitude_of, set_spin, set_velocity, spin_of, velocity_of
+from cointoss.analytic.flight.equations_of_motion import Flight, flight_in, write_rate
+from cointoss.analytic.flight.state_vector import (
+    attitude_of,
+    set_spin,
+    set_velocity,
+    spin_of,
+    state_of,
+    velocity_of,
+)
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import Body
 from cointoss.models.contour import has_contour
@@ -82,7 +89,7 @@ def rim_contact(body: Body, y: Array, rim: float) -> RimContact:
         y: state, (13,), not flat.
         rim: -1 for tails' rim, 1 for heads'; see `cointoss.models.geometry.lower_rim`.
     """
-    return rim_contact_in_flight(body, FRICTIONLESS, flight_of(body, y), rim)
+    return rim_contact_in_flight(body, FRICTIONLESS, flight_in(body, state_of(y), True), rim)
 
 
 @compiled
@@ -98,7 +105,7 @@ def both_rims(body: Body, friction: FloorFriction, y: Array) -> tuple[RimContact
 @inlined
 def flight_over_floor(body: Body, friction: FloorFriction, y: Array) -> Flight:
     """Return the `Flight` of a coin that is not flat, in the state y, (13,), with the air under it."""
-    flight = flight_of(body, y)
+    flight = flight_in(body, state_of(y), True)
     if friction.contour.air > 0:
         state = flight.state
         moment = air_moment(body, friction, state.R[2], state.spin)

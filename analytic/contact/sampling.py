@@ -5,8 +5,8 @@ import numpy as np
 from cointoss.analytic.contact.automaton import flow
 from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.integrator import END_ROW, accepted_step, contact_work, step_of_length
-from cointoss.analytic.flight.equations_of_motion import derivative
-from cointoss.analytic.flight.state_vector import STATE_SIZE, velocity_of
+from cointoss.analytic.flight.equations_of_motion import flight_in, write_rate
+from cointoss.analytic.flight.state_vector import STATE_SIZE, state_of, velocity_of
 from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, scale, subtract
@@ -51,6 +51,6 @@ def floor_force(contact: SustainedContact, y: Array) -> Vector:
         y: state, (13,).
     """
     free, held = np.empty(STATE_SIZE), np.empty(STATE_SIZE)
-    derivative(contact.body, y, free)
+    write_rate(contact.body, flight_in(contact.body, state_of(y), True), free)
     flow(contact, y, held)
     return scale(contact.body.mass, subtract(velocity_of(held), velocity_of(free)))

@@ -6,7 +6,7 @@ What `cointoss.analytic.contact.sliding` does without friction: nothing but A's 
 from cointoss.analytic.contact.contact import SustainedContact
 from cointoss.analytic.contact.resistance import FRICTIONLESS
 from cointoss.analytic.contact.rim_contact import contact_margin, rim_motion, rim_point
-from cointoss.analytic.flight.equations_of_motion import flight_of, write_rate
+from cointoss.analytic.flight.equations_of_motion import flight_in, write_rate
 from cointoss.analytic.flight.state_vector import (
     set_height,
     set_spin,
@@ -25,7 +25,7 @@ from cointoss.models.records import Array
 def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
     """Write the rate of change of the state y into dy, and return the margin; see `automaton.flow`."""
     body = contact.body
-    flight = flight_of(body, y)
+    flight = flight_in(body, state_of(y), True)
     write_rate(body, flight, dy)
     A = rim_motion(body, FRICTIONLESS, flight, contact.rim)
     b_z = dot(A.up, A.free_acceleration)

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from cointoss.analytic.air.force import force_and_moment
+from cointoss.analytic.air.force import force_and_moment_by
 from cointoss.analytic.flight.state_vector import set_attitude, set_position, set_spin, set_velocity, state_of
 from cointoss.analytic.numerics.rotation import quaternion_rate
 from cointoss.models.body import Body
@@ -27,17 +27,22 @@ class Flight(NamedTuple):
 @inlined
 def flight_of(body: Body, y: Array) -> Flight:
     """Return the `Flight` of a coin in the state y, (13,)."""
-    return flight_in(body, state_of(y))
+    return flight_in(body, state_of(y), False)
 
 
 @inlined
-def flight_in(body: Body, state: State) -> Flight:
+def flight_in(body: Body, state: State, in_contact: bool) -> Flight:
     """Return the `Flight` of a coin in a state.
 
     J_C ω̇ + ω × J_C ω = m_C; Strzalko et al. 2008, eq. (22).
+
+    Args:
+        body: the coin.
+        state: a `State`.
+        in_contact: whether the air's force need be no better than a step of sustained contact.
     """
     v, w = apply_transposed(state.R, state.velocity), state.spin
-    f, m_C = force_and_moment(body, v, w)
+    f, m_C = force_and_moment_by(body.air.exponent, body, v, w, in_contact)
     gyroscopic = cross(w, apply(body.inertia, w))
     return Flight(state, v, f, apply(body.inertia_inverse, subtract(m_C, gyroscopic)))
 

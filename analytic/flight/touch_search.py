@@ -111,7 +111,7 @@ def is_chattering(body: Body, chi: float, state: State) -> bool:
     least = 2 * speed * turning / (CHATTERING * sine * (1 - chi))
     if least >= least_flight.acceleration:
         return False
-    falling = -gap_acceleration(body, flight_in(body, state))
+    falling = -gap_acceleration(body, flight_in(body, state, False))
     return falling > 0 and least < falling
 
 
@@ -124,7 +124,7 @@ def expected_flight(body: Body, state: State) -> float:
     height, speed = evaluate_gap(body, state)
     if height > TOUCH * body.radius or tilt_sine_of(state.R[2]) <= FLAT_SINE:
         return np.inf
-    falling = -gap_acceleration(body, flight_in(body, state))
+    falling = -gap_acceleration(body, flight_in(body, state, False))
     return 2.5 * speed / falling if falling > 0 and speed > 0 else np.inf
 
 

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from cointoss.analytic.air import force
+from cointoss.analytic.air.quadrature import CONTACT_NODES
 from cointoss.analytic.contact import smooth
 from cointoss.analytic.contact.automaton import Event, Mode, flow, margin_event
 from cointoss.analytic.contact.floor_force import friction_holds, holding_force, starting_slip
@@ -177,3 +179,13 @@ def test_friction_does_not_press_down_a_point_that_free_flight_lifts():
             assert margin_event(contact, y) == Event.LIFTS_OFF
     assert lifted > 100
     assert pressed > 10
+
+
+@pytest.mark.parametrize("mode", [Mode.SLIDING, Mode.STICKING])
+def test_in_contact_air_is_integrated_once_a_rate_of_change_and_not_to_put_the_coin_down(mode, monkeypatch):
+    given, change_about_B = [], force.change_about_B
+    monkeypatch.setattr(force, "change_about_B", lambda *of: given.append(of[2]) or change_about_B(*of))
+    body = scenario(coin=ZLOTY, air={**AIR, "exponent": 0.5}).body
+    y = on_floor(body, mode, (0.3, 0.2, 0.1), (10.0, 5.0, 2.0), (0.2, 0.1))
+    flow(held(body, FloorFriction(0.2), mode, y), y, np.empty(13))
+    assert [nodes is CONTACT_NODES for nodes in given] == [True]
