@@ -14,14 +14,14 @@ def test_a_coin_that_pivots_upright_stops_as_the_closed_form_says(stop):
 
 
 def test_a_fall_by_another_power_law_is_seen():
-    fall = [(row["time"], row["tilt"]) for row in disk("rolling") if row.get("line") == "rolling"]
-    times, tilts = np.array(fall).T
+    _, _, fall, _ = disk("rolling")
+    times, tilts = (np.array(fall[name]) for name in ("time", "tilt"))
     assert abs(power_law(times, tilts)["exponent"] - 2) < 0.05
     assert abs(power_law(times, tilts**1.5)["exponent"] - 2) > 0.2
 
 
 def test_the_share_on_edge_counts_every_ending_there():
-    first, *endings = on_edge(NICKELS["0"], 60)
-    there = [row["number"] for row in endings if row["ending"].startswith("edge, ")]
-    assert sum(there) == first["edges"] > 0
-    assert sum(row["number"] for row in endings) == first["tosses"] == 60
+    first, endings = on_edge(NICKELS["0"], 60)
+    numbers, there = np.array(endings["number"]), [name.startswith("edge, ") for name in endings["ending"]]
+    assert numbers[there].sum() == first["edges"] > 0
+    assert numbers.sum() == first["tosses"] == 60

@@ -21,10 +21,10 @@ from cointoss_reproduction.frame.provenance import sources
 
 Row = dict[str, Any]
 """A row of a table, by the names of its columns."""
-Rows = Mapping[str, Any] | Iterable[Mapping[str, Any]] | pd.DataFrame | None
-"""A row of a table, several, or none."""
-Cell = Callable[..., Rows]
-"""Computes the row for one value of each axis, and for the sizes of the run that its arguments name."""
+Rows = Mapping[str, Any] | pd.DataFrame
+"""A row of a table, or several as a table."""
+Cell = Callable[..., Rows | Iterable[Rows] | None]
+"""Computes the rows for one value of each axis, and for the sizes of the run that its arguments name."""
 Axis = Sequence[Any] | Mapping[Any, Any]
 """The values of an axis, by names where they have some."""
 _WORDS = {"": None, "True": True, "False": False}
@@ -140,10 +140,11 @@ def _value(text: str) -> Any:
     return text
 
 
-def _rows(found: Rows) -> Sequence[Any]:
-    if isinstance(found, pd.DataFrame):
-        return found.to_dict("records")
-    return [found] if isinstance(found, Mapping) else list(found or ())
+def _rows(found: Rows | Iterable[Rows] | None) -> Iterator[Mapping[Any, Any]]:
+    if found is None:
+        return
+    for part in [found] if isinstance(found, Mapping | pd.DataFrame) else found:
+        yield from part.to_dict("records") if isinstance(part, pd.DataFrame) else [part]
 
 
 def _flat(row: Mapping[str, Any]) -> dict[str, Any]:

@@ -8,7 +8,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from cointoss.study import Array
-from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.cells import Cells, Rows
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.estimates import mean_share, ratio_of_medians
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, LANDINGS, SPINS, case, planar_rows
@@ -28,7 +28,7 @@ FEWEST = 5
 """The fewest tosses for which a ratio is given."""
 
 
-def released(centers: int = 200, count: int = 60) -> Iterator[dict[str, Any]]:
+def released(centers: int = 200, count: int = 60) -> Iterator[Rows]:
     """Measure the stripe of each random release, and toss within ε of it."""
     rng = np.random.default_rng(SEED)
     heights, spins = rng.uniform(*HEIGHTS, centers), rng.uniform(*SPINS, centers)
@@ -41,8 +41,8 @@ def released(centers: int = 200, count: int = 60) -> Iterator[dict[str, Any]]:
                 yield {"landing": landing, "ratio": ratio, "alike": mean_share(shares[within], "releases")}
         shares = _alike(landing, heights, spins, np.full(centers, HAND), count, rng)
         yield {"landing": landing, "at_hand": mean_share(shares, "releases")}
-        for below, one in enumerate(np.sort(width), start=1):
-            yield {"landing": landing, "width": one, "below": below / centers}
+        below = np.arange(1, centers + 1) / centers
+        yield pd.DataFrame({"landing": landing, "width": np.sort(width), "below": below})
     yield {"over_soft": ratio_of_medians(widths["bouncing"], widths["soft floor"], rng, "releases")}
 
 

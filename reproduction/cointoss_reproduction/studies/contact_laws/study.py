@@ -11,7 +11,7 @@ import pandas as pd
 
 from cointoss import ContactLaw, Flag, Impacts, RestitutionKind, load
 from cointoss.study import Array, Body, Rules, raised_flags
-from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.cells import Cells, Rows
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.studies.contact_laws.random_impacts import draw_states
 from cointoss_reproduction.studies.contact_laws.single_impacts import strike
@@ -89,7 +89,7 @@ def drawn_impacts(count: int, seed: int = SEED) -> dict[str, Drawn]:
     return {name: Drawn(body, states[name], rng.uniform(0, 1, each)) for name, body in bodies.items()}
 
 
-def impacts(law: str, count: int = 20_000, seed: int = SEED) -> Iterator[dict[str, Any]]:
+def impacts(law: str, count: int = 20_000, seed: int = SEED) -> Iterator[Rows]:
     """Try a law on `count` random impacts at every restitution, a quarter of them of each coin."""
     drawn, rules = drawn_impacts(count, seed), rules_of(law)
     tried = [
@@ -110,8 +110,7 @@ def impacts(law: str, count: int = 20_000, seed: int = SEED) -> Iterator[dict[st
                 **flagged,
                 **changes,
             }
-    for friction in SUFFICIENT:
-        yield {"mu": friction, "within": np.mean(whole.needed <= friction)}
+    yield pd.DataFrame({"mu": SUFFICIENT, "within": [np.mean(whole.needed <= mu) for mu in SUFFICIENT]})
     by_restitution = whole.groupby("restitution")[["pulls", "leaves"]].mean()
     yield {
         "largest_change": whole.change.max(),

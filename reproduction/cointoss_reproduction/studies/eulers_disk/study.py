@@ -4,10 +4,11 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 import cointoss
 from cointoss import Scenario, Toss, analytic
-from cointoss_reproduction.frame.cells import Cells, Row
+from cointoss_reproduction.frame.cells import Cells, Rows
 from cointoss_reproduction.frame.study import study
 
 MASS, RADIUS, GRAVITY = 2e-3, 1.25e-2, 9.81
@@ -53,7 +54,7 @@ def exponent(left: np.ndarray, tilts: np.ndarray) -> float:
     return float(np.polyfit(np.log(left), np.log(tilts), 1)[0])
 
 
-def alone(loss: tuple[str, float, float, float, float]) -> Iterator[Row]:
+def alone(loss: tuple[str, float, float, float, float]) -> Iterator[Rows]:
     """Return how a thin disc falls under one loss beside the closed form; then samples of the fall."""
     field, size, tilt, closed, slope = loss
     tossed = analytic.toss(disc(field, size, tilt))
@@ -62,11 +63,10 @@ def alone(loss: tuple[str, float, float, float, float]) -> Iterator[Row]:
     steady = np.polyfit(left[fitted], tilts[fitted] ** (1 / closed), 1)[0] / (slope * RATE)
     ends = {"first": tilts[fitted][0], "last": tilts[fitted][-1], "seconds": tossed.path_end}
     yield {"of": "law", "closed": closed, "n": exponent(left[fitted], tilts[fitted]), "rate": steady, **ends}
-    for time, seen in zip(left, tilts, strict=True):
-        yield {"of": "fall", "left": time, "tilt": seen}
+    yield pd.DataFrame({"of": "fall", "left": left, "tilt": tilts})
 
 
-def toy(losses: tuple[Any, ...]) -> Iterator[Row]:
+def toy(losses: tuple[Any, ...]) -> Iterator[Rows]:
     """Return when the toy stops, and its exponents at large and at small tilts; then samples of the fall."""
     case = cointoss.load("euler_disk")
     tossed = analytic.toss(case.replace(*losses, "ending.until", "rest"))
@@ -76,8 +76,7 @@ def toy(losses: tuple[Any, ...]) -> Iterator[Row]:
         for name, (least, most) in {"early": EARLY, "late": LATE}.items()
     }
     yield {"of": "toy", "seconds": tossed.path_end, **found}
-    for time, seen in zip(left, tilts, strict=True):
-        yield {"of": "toy's fall", "left": time, "tilt": seen}
+    yield pd.DataFrame({"of": "toy's fall", "left": left, "tilt": tilts})
 
 
 REPRODUCTION = study(__name__, Cells(alone, {"loss": LOSSES}), Cells(toy, {"losses": TOYS}))

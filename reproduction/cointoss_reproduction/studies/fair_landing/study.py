@@ -4,11 +4,12 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from cointoss import ContactLaw, Face, Floor, Scenario, analytic, load
 from cointoss.study import Array, rows_from_states
-from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.cells import Cells, Rows
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.estimates import jackknife, mean, scatter_of_shares
 from cointoss_reproduction.setups.hands import states_of_hands
@@ -31,7 +32,7 @@ BINS = np.linspace(0, 1, 22)
 """Ends of the classes of a hand's share of heads."""
 
 
-def landed(spin: str, hands: int = 1000, each: int = 20) -> Iterator[dict[str, Any]]:
+def landed(spin: str, hands: int = 1000, each: int = 20) -> Iterator[Rows]:
     """Let hands toss a thin ideal coin, and end each toss in four ways."""
     scenario, tossed = load("fig29"), _tossed(spin, hands, each)
     faces = {
@@ -59,8 +60,8 @@ def landed(spin: str, hands: int = 1000, each: int = 20) -> Iterator[dict[str, A
             "more_biased": less_fair(name, lambda some: scatter_of_shares(some, each)),
             "farther_off": less_fair(name, lambda some: abs(float(some.mean()) - 1 / 2)),
         }
-        for low, number in zip(BINS, np.histogram(shares, BINS)[0], strict=False):
-            yield {"landing": name, "part": low + (BINS[1] - BINS[0]) / 2, "hands": number}
+        middles = BINS[:-1] + (BINS[1] - BINS[0]) / 2
+        yield pd.DataFrame({"landing": name, "part": middles, "hands": np.histogram(shares, BINS)[0]})
 
 
 def landed_by_mujoco(hands: int = 1000, each: int = 20, tosses_mujoco: int = 300) -> dict[str, Any]:

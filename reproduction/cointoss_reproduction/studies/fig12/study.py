@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from cointoss import Air, Scenario, States, load
 from cointoss.study import ANALYTIC, MUJOCO, PALE, Array, parting_time, rotation_matrix
-from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.cells import Cells, Rows
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.both_engines import by_both, first_touch
 
@@ -26,7 +26,7 @@ DRAWN = 40
 """How often the coin is drawn."""
 
 
-def fall(coin: str) -> Iterator[dict[str, Any]]:
+def fall(coin: str) -> Iterator[Rows]:
     """Let a 1D coin fall and bounce by both engines, and by eq. (48) until it lands.
 
     Yields:
@@ -43,11 +43,11 @@ def fall(coin: str) -> Iterator[dict[str, Any]]:
         off, turned = _apart(toss.sample(falling), exact)
         out = _out_of_plane(case, states)
         yield {"engine": engine, "out_of_plane": out, "off_m": off, "off_rad": turned}
-        for y, z in states.position[:: STYLES[engine][2], 1:]:
-            yield {"engine": engine, "y": y, "z": z}
-    for number, ends in enumerate(_edges(case, tosses["analytic"].sample(np.linspace(0, t[-1], DRAWN)))):
-        for y, z in ends:
-            yield {"edge": number, "y": y, "z": z}
+        drawn = states.position[:: STYLES[engine][2]]
+        yield pd.DataFrame({"engine": engine, "y": drawn[:, 1], "z": drawn[:, 2]})
+    edges = _edges(case, tosses["analytic"].sample(np.linspace(0, t[-1], DRAWN)))
+    for number, ends in enumerate(edges):
+        yield pd.DataFrame({"edge": number, "y": ends[:, 0], "z": ends[:, 1]})
 
 
 def tilt() -> Iterator[dict[str, Any]]:

@@ -1,13 +1,13 @@
 """Figs 18-20: four models of the coin in free fall, without and with air, and MuJoCo's coin over them."""
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from cointoss import Air, States, load
 from cointoss.study import Array, attitude_angle, distance
-from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.cells import Cells, Rows
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.both_engines import by_both, first_touch
 from cointoss_reproduction.setups.free_fall import MEDIA, MODELS
@@ -20,7 +20,7 @@ ROUNDING = 1e-13
 """The least distance that is drawn [mm]."""
 
 
-def fall(medium: Air) -> Iterator[dict[str, Any]]:
+def fall(medium: Air) -> Iterator[Rows]:
     """Toss the four coins by both engines, until the first of them lands.
 
     Yields:
@@ -47,7 +47,7 @@ def fall(medium: Air) -> Iterator[dict[str, Any]]:
             "off_m": distance(path, mujoco).max(),
             "off_rad": attitude_angle(path, mujoco).max(),
         }
-        yield from _curve(name, t, path, off, ideal)
+        yield _curve(name, t, path, off, ideal)
 
 
 def _ballistic(t: Array) -> Array:
@@ -56,14 +56,13 @@ def _ballistic(t: Array) -> Array:
     return np.outer(t, v) - np.outer(t**2, [0, 0, 9.81 / 2]) + [0, 0, 1]
 
 
-def _curve(name: str, t: Array, path: States, off: Array, ideal: States) -> Iterator[dict[str, Any]]:
+def _curve(name: str, t: Array, path: States, off: Array, ideal: States) -> pd.DataFrame:
     # Between unit vectors, of the chord between them.
     chord = np.linalg.norm(path.normal - ideal.normal, axis=1)
     angle = np.degrees(2 * np.arcsin(np.minimum(chord / 2, 1)))
-    for i in range(0, len(t), 8):
-        at = {"x": 100 * path.position[i, 0], "z": path.position[i, 2]}
-        far = {"distance": max(1e3 * off[i], ROUNDING), "angle": angle[i]}
-        yield {"model": name, "time": t[i], **(at if name == REFERENCE else far)}
+    at = {"x": 100 * path.position[:, 0], "z": path.position[:, 2]}
+    far = {"distance": np.maximum(1e3 * off, ROUNDING), "angle": angle}
+    return pd.DataFrame({"model": name, "time": t, **(at if name == REFERENCE else far)}).iloc[::8]
 
 
 REPRODUCTION = study(__name__, Cells(fall, {"medium": MEDIA}))

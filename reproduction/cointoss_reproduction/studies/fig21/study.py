@@ -8,7 +8,7 @@ import pandas as pd
 
 from cointoss import Air, Scenario, States, analytic, load
 from cointoss.study import Array, distance, force_and_moment, rotation_matrix
-from cointoss_reproduction.frame.cells import Cells, column
+from cointoss_reproduction.frame.cells import Cells, Rows, column
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.both_engines import by_both, first_touch
 
@@ -20,7 +20,7 @@ MEDIA = {"without air": 1000, IN_AIR: 2000}
 COLUMNS = ("speed", "acceleration", "cosine", "force")
 
 
-def fall(medium: str) -> Iterator[dict[str, Any]]:
+def fall(medium: str) -> Iterator[Rows]:
     """Let the coin fall; with air MuJoCo follows it.
 
     Yields:
@@ -45,10 +45,9 @@ def fall(medium: str) -> Iterator[dict[str, Any]]:
         "end": first_touch(tosses),
         "apart": distance(path, tosses["MuJoCo"].sample(t)).max() if medium == IN_AIR else None,
     }
-    for time in t[1:-1][np.diff(np.sign(np.diff(columns[:, 2]))) != 0]:
-        yield {"turn": time}
-    for i in range(0, np.searchsorted(t, SHOWN), MEDIA[medium] // SAMPLES):
-        yield {"time": t[i], **dict(zip(COLUMNS, columns[i].tolist(), strict=True))}
+    yield pd.DataFrame({"turn": t[1:-1][np.diff(np.sign(np.diff(columns[:, 2]))) != 0]})
+    over_time = pd.DataFrame(np.column_stack([t, columns]), columns=["time", *COLUMNS])
+    yield over_time.iloc[: np.searchsorted(t, SHOWN) : MEDIA[medium] // SAMPLES]
 
 
 def _columns(scenario: Scenario, path: States) -> Array:

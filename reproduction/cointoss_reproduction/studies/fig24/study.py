@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from cointoss import Toss, analytic, load
 from cointoss.study import HEADS, INK, PALE, SKY, TAILS, VERMILION, Array, common_prefix, share
-from cointoss_reproduction.frame.cells import Cells, column
+from cointoss_reproduction.frame.cells import Cells, Rows, column
 from cointoss_reproduction.frame.selection import COLORS
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.both_engines import by_both
@@ -43,7 +43,7 @@ SAMPLES = 300
 """The number of samples of a path that is drawn."""
 
 
-def toss(letter: str) -> Iterator[dict[str, Any]]:
+def toss(letter: str) -> Iterator[Rows]:
     """Toss one of the six coins by both engines.
 
     Yields:
@@ -60,34 +60,32 @@ def toss(letter: str) -> Iterator[dict[str, Any]]:
         "printed": len(PRINTED[letter].replace(MARK, "")),
         "title": marked(tossed.impacts.time, tossed.impacts.face),
     }
-    for time, face in zip(tossed.impacts.time, tossed.sequence, strict=True):
-        yield {"touch": time, "face": face}
+    yield pd.DataFrame({"touch": tossed.impacts.time, "face": [*tossed.sequence]})
     t = np.linspace(0, tossed.end_time, SAMPLES)
-    for time, (x, _, z) in zip(t, tossed.sample(t).position, strict=True):
-        yield {"time": round(time, 5), "x": round(x, 6), "z": round(z, 6)}
+    x, _, z = tossed.sample(t).position.T.round(6)
+    yield pd.DataFrame({"time": t.round(5), "x": x, "z": z})
     following = dict(itertools.pairwise(PRINTED))
     if letter in following:
-        for rate in _growth(tossed, analytic.toss(load(f"fig24{following[letter]}"))):
-            yield {"growth": rate}
+        yield pd.DataFrame({"growth": _growth(tossed, analytic.toss(load(f"fig24{following[letter]}")))})
 
 
-def _growth(p: Toss, q: Toss) -> Iterator[float]:
-    """Yield the growth per impact of the difference of two tosses' contact points, as log10."""
+def _growth(p: Toss, q: Toss) -> Array:
+    """Return the growth per impact of the difference of two tosses' contact points, as log10, (n,)."""
     n = common_prefix(p.sequence, q.sequence)
     apart = np.linalg.norm(p.impacts.point[:n] - q.impacts.point[:n], axis=1)
-    for before, after in itertools.pairwise(apart):
-        if 0 < before < 1e-3 and after > 0:
-            yield float(np.log10(after / before))
+    before, after = apart[:-1], apart[1:]
+    small = (before > 0) & (before < 1e-3) & (after > 0)
+    return np.log10(after[small] / before[small])
 
 
-def read(reading: Reading, random: int = 16) -> Iterator[dict[str, Any]]:
+def read(reading: Reading, random: int = 16) -> Iterator[Rows]:
     """Yield how many printed faces a reading shares, at the printed heights and at random ones."""
     printed = sequences(reading.scenario, printed_heights())
     yield {"score": sum(shared(printed)), "clusters": int(clusters_as_printed(printed))}
     number = READINGS.index(reading)
     heights = np.random.default_rng(SEED).uniform(*NEARBY, (number + 1) * random)[-random:]
-    for low in heights:
-        yield {"by_chance": sum(shared(sequences(reading.scenario, low + APART)))}
+    by_chance = [sum(shared(sequences(reading.scenario, low + APART))) for low in heights]
+    yield pd.DataFrame({"by_chance": by_chance})
 
 
 def _found(cells: pd.DataFrame) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from cointoss import Air, Scenario, load
 from cointoss.coin_mj import impacts_of
 from cointoss.study import Array, run, share, state_at_release
-from cointoss_reproduction.frame.cells import Cells, column
+from cointoss_reproduction.frame.cells import Cells, Rows, column
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.estimates import mean
 from cointoss_reproduction.setups.planar_maps import MEDIA
@@ -41,21 +41,21 @@ APART = 10.0 ** np.arange(-7, 1)
 FUNCTION = 0.1
 """If φ(n + 1) is a function of φ(n), points nearer than `CLOSE` have images nearer than this [rad]."""
 CLOSE = FUNCTION / 100
+QUARTILES = (0.75, 0.5, 0.25)
 OTHER_SPINS = "tosses of other spins"
 
 
-def touch(medium: str, impacts_mujoco: int = 350) -> Iterator[dict[str, Any]]:
+def touch(medium: str, impacts_mujoco: int = 350) -> Iterator[Rows]:
     """Yield the angles of the rim points that touch [rad], and what MuJoCo's coin does, in words."""
     scenario = _case(medium)
-    for angle in _angles(scenario):
-        yield {"angle": angle}
+    yield pd.DataFrame({"angle": _angles(scenario)})
     points = impacts_of(scenario.replace("ending.max_impacts", impacts_mujoco)).point
     slope = _slopes(divergence(_angle(points), 1, 12))[-1]
     told = f"{len(points)} impacts; a line through 13 points of its series rises by {slope:.2f}"
     yield {"mujoco": told}
 
 
-def follow(medium: str, toss: int, followed: int = FOLLOWED) -> Iterator[dict[str, Any]]:
+def follow(medium: str, toss: int, followed: int = FOLLOWED) -> Iterator[Rows]:
     """Yield how the series of a toss grows; toss 0 is that of the figure, others have other spins.
 
     Yields:
@@ -72,17 +72,16 @@ def follow(medium: str, toss: int, followed: int = FOLLOWED) -> Iterator[dict[st
         grown = {"exponent": growth.mean(), "of_first": growth[:FIRST].mean()}
     slopes = _slopes(divergence(_angles(scenario), 1, LONGEST))
     yield {**grown, "as_printed": _steps_of(slopes, PRINTED[medium])}
-    for steps in FITTED:
-        yield {"steps": steps, "slope": slopes[steps - 1]}
+    yield pd.DataFrame({"steps": FITTED, "slope": [slopes[steps - 1] for steps in FITTED]})
 
 
-def count(others: int = 200) -> Iterator[dict[str, int]]:
-    """Yield how many impacts tosses in air with other spins have."""
-    for spin in _spins(others):
-        yield {"impacts": len(_angles(_case("air").replace("release.angular_velocity", spin)))}
+def count(others: int = 200) -> pd.DataFrame:
+    """Return how many impacts tosses in air with other spins have."""
+    cases = [_case("air").replace("release.angular_velocity", spin) for spin in _spins(others)]
+    return pd.DataFrame({"impacts": [len(_angles(case)) for case in cases]})
 
 
-def compare_neighbours() -> Iterator[dict[str, Any]]:
+def compare_neighbours() -> Iterator[Rows]:
     """Yield how far the φ(n + 1) of neighbours are apart in a long toss: of near ones, and quartiles."""
     near, images = _neighbours(_angles(_case("vacuum").replace("ending.max_impacts", LONG)))
     closest = images[near < CLOSE]
@@ -92,9 +91,10 @@ def compare_neighbours() -> Iterator[dict[str, Any]]:
     for number in range(1, len(APART)):
         within = images[bins == number]
         if within.size > LEAST:
-            for part in (0.75, 0.5, 0.25):
-                middle = np.sqrt(APART[number - 1] * APART[number])
-                yield {"quantile": part, "distance": middle, "image": np.quantile(within, part)}
+            middle = np.sqrt(APART[number - 1] * APART[number])
+            yield pd.DataFrame(
+                {"quantile": QUARTILES, "distance": middle, "image": np.quantile(within, QUARTILES)}
+            )
 
 
 def _case(medium: str) -> Scenario:

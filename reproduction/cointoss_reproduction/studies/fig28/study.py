@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from cointoss import ContactLaw, Scenario, analytic
 from cointoss.coin_mj import impacts_of
 from cointoss.study import HEADS, INK, TAILS, Array, run, state_at_release
-from cointoss_reproduction.frame.cells import Cells, column
+from cointoss_reproduction.frame.cells import Cells, Rows, column
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.estimates import ratio_of_medians
 from cointoss_reproduction.setups.face_changes import changes, share_after_row
@@ -39,7 +39,7 @@ STROBES = 28
 """How many positions of a path are drawn."""
 
 
-def count_changes(reading: Reading, count: int = 1000) -> Iterator[dict[str, Any]]:
+def count_changes(reading: Reading, count: int = 1000) -> Iterator[Rows]:
     """Toss coins like that of Fig. 24(a), and sort their changes of face.
 
     Yields:
@@ -62,9 +62,8 @@ def count_changes(reading: Reading, count: int = 1000) -> Iterator[dict[str, Any
     for kind, given in zip(KINDS, (row, one), strict=True):
         for quantity, values in (("S", 1e3 * given[:, 0]), ("L", 1e6 * given[:, 1])):
             counted, ends = np.histogram(values.clip(BINS[0], BINS[-1]), BINS)
-            for size, changed in zip(ends[:-1].tolist(), counted.tolist(), strict=True):
-                if changed:
-                    yield {"kind": kind, f"size_{quantity}": size, f"changes_{quantity}": changed}
+            sizes = {f"size_{quantity}": ends[:-1], f"changes_{quantity}": counted}
+            yield pd.DataFrame({"kind": kind, **sizes}).loc[counted > 0]
 
 
 def toss_by_mujoco(count: int = 1000, count_mujoco: int = 60) -> dict[str, str]:

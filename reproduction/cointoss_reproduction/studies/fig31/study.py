@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from cointoss import EndingCriteria, Outcome, Scenario, analytic
 from cointoss.study import Array, Estimate, share, share_of
-from cointoss_reproduction.frame.cells import Cells, column, estimate
+from cointoss_reproduction.frame.cells import Cells, Rows, column, estimate
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.estimates import quotient
 from cointoss_reproduction.setups.planar_maps import (
@@ -63,11 +63,11 @@ COUNTED, AT_LEAST = "counted", "at least"
 """Whether ten times finer twins hardly count more boundaries."""
 
 
-def map_faces(medium: str, impacts: int, points: int = 64) -> Iterator[dict[str, str]]:
-    """Yield the lines of a map of the face after some impacts."""
+def map_faces(medium: str, impacts: int, points: int = 64) -> pd.DataFrame:
+    """Return the lines of a map of the face after some impacts."""
     grid = whole_grid(points)
-    for line in lines_of(faces_after(grid.rows(_case(medium)), impacts).reshape(grid.shape)):
-        yield {"faces": line}
+    faces = faces_after(grid.rows(_case(medium)), impacts)
+    return pd.DataFrame({"faces": lines_of(faces.reshape(grid.shape))})
 
 
 def count_twins(medium: str, impacts: int, tosses: int = 240_000) -> Iterator[dict[str, Any]]:
@@ -112,7 +112,7 @@ def end(tosses: int = 240_000) -> dict[str, Any]:
     }
 
 
-def lose_nothing(tosses: int = 240_000, elastic: int = 1000) -> Iterator[dict[str, Any]]:
+def lose_nothing(tosses: int = 240_000, elastic: int = 1000) -> Iterator[Rows]:
     """Yield how many twins have different faces where impacts lose nothing, in vacuum, and how many end."""
     heights, spins = _random(tosses, elastic)
     scenario = case(air=False, restitution=1.0, max_impacts=MOST)
@@ -121,8 +121,8 @@ def lose_nothing(tosses: int = 240_000, elastic: int = 1000) -> Iterator[dict[st
     faces = touched_faces(scenario, heights, spins, ELASTIC + 1)
     for step in ELASTIC_STEPS:
         differ = np.sum(touched_faces(scenario, heights + step, spins, ELASTIC + 1) != faces, axis=0)
-        for after, number in enumerate(differ.tolist()):
-            yield {"apart": f"{step:.0e} m", "after": after, "differ": number, "twins": elastic}
+        after = np.arange(len(differ))
+        yield pd.DataFrame({"apart": f"{step:.0e} m", "after": after, "differ": differ, "twins": elastic})
 
 
 def _case(medium: str) -> Scenario:

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from cointoss import Air, EndingCriteria, Release, Scenario, coin_mj, load
 from cointoss.study import Array, vector
-from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.cells import Cells, Rows
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.both_engines import by_both, first_touch
 from cointoss_reproduction.setups.kellers_map import flown
@@ -50,7 +50,7 @@ def _gamma(scenario: Scenario, w: Array) -> Array:
     return np.degrees(np.arctan2(np.hypot(L[:, 0], L[:, 1]), L[:, 2]))
 
 
-def toss_at_random(count: int = 1000) -> Iterator[dict[str, Any]]:
+def toss_at_random(count: int = 1000) -> Iterator[Rows]:
     """Toss the ideal coin from flat, and as often from any attitude; γ is up to π/2, the turn to 100 rad/s.
 
     Yields:
@@ -80,8 +80,8 @@ def toss_at_random(count: int = 1000) -> Iterator[dict[str, Any]]:
             "foretold": np.mean((np.abs(tossed[1][:, 2]) > np.sin(gamma)) == (lowest > 0)),
             "mujoco_apart": None if any_attitude else _mujoco_apart(scenario, w, *tossed),
         }
-        for one in range(min(count, DRAWN)):
-            yield {"released": released, "angle": np.degrees(gamma[one]), "lowest": lowest[one]}
+        drawn = {"angle": np.degrees(gamma[:DRAWN]), "lowest": lowest[:DRAWN]}
+        yield pd.DataFrame({"released": released, **drawn})
 
 
 def _tossed(scenario: Scenario, start: Array, n: Array, L: Array, turn: float) -> tuple[float, float]:

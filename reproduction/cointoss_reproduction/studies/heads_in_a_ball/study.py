@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from cointoss import Outcome, Scenario, analytic
 from cointoss.study import Answers, Array, Estimate, rows_from_states, share
-from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.cells import Cells, Rows
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.estimates import jackknife, mean_share
 from cointoss_reproduction.setups.halving import halved
@@ -28,9 +28,7 @@ INSIDE, BORDER, MANY = "inside a basin", "on a boundary", "of many"
 """The names of the releases in the middles of the balls."""
 
 
-def tossed(
-    centers: int = 10, count: int = 150, many: int = 300, tosses_mujoco: int = 100
-) -> Iterator[dict[str, Any]]:
+def tossed(centers: int = 10, count: int = 150, many: int = 300, tosses_mujoco: int = 100) -> Iterator[Rows]:
     """Toss from balls about random releases, and about releases on boundaries."""
     scenario, rng = case(air=True), np.random.default_rng(SEED)
 
@@ -42,18 +40,13 @@ def tossed(
     border = np.array([[boundary_above(scenario, z, w), w] for z, w in inside])
     for kind, points in ((INSIDE, inside), (BORDER, border)):
         for number, point in enumerate(points):
-            for radius in RADII:
-                yield {
-                    "about": kind,
-                    "release": number,
-                    "radius": radius,
-                    "heads": heads_in(point, radius, count),
-                }
+            heads = [heads_in(point, radius, count) for radius in RADII]
+            yield pd.DataFrame({"about": kind, "release": number, "radius": RADII, "heads": heads})
     yield {"by_mujoco": heads_in(inside[0], MUJOCO_RADIUS, tosses_mujoco, toss_rows_by_mujoco)}
     others = _releases(rng, many)
     for radius in (RADII[-1], RADII[0]):
-        for point in others:
-            yield {"about": MANY, "radius": radius, "heads": heads_in(point, radius, FEW)}
+        heads = [heads_in(point, radius, FEW) for point in others]
+        yield pd.DataFrame({"about": MANY, "radius": radius, "heads": heads})
 
 
 _Tossing = Callable[[Array], Answers]

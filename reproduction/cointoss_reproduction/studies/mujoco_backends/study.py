@@ -3,7 +3,7 @@
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -120,10 +120,9 @@ SETTINGS: dict[str, Setting] = {
 }
 
 
-def installed() -> Iterator[dict[str, str]]:
-    """Yield the versions of all that steps models here."""
-    for package, version in require_backends().items():
-        yield {"package": package, "version": version}
+def installed() -> pd.DataFrame:
+    """Return the versions of all that steps models here."""
+    return pd.DataFrame(require_backends().items(), columns=["package", "version"])
 
 
 def measured(setting: Setting, backend: Stepped) -> dict[str, Any]:

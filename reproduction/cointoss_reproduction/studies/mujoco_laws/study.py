@@ -87,10 +87,9 @@ def grown(friction: float, count: int = COUNT, seed: int = SEED) -> dict[str, fl
     return spread(relative_errors(rough, _impulses((friction, FINE), count, seed)))
 
 
-def pushed(made: ContactLaw | Contact, count: int = COUNT, seed: int = SEED) -> Iterator[dict[str, float]]:
-    """Yield the impulses by a law or a contact, touch by touch [N s]."""
-    for touch, S in enumerate(_impulses(made, count, seed).tolist()):
-        yield {"touch": touch, **dict(zip("xyz", S, strict=True))}
+def pushed(made: ContactLaw | Contact, count: int = COUNT, seed: int = SEED) -> pd.DataFrame:
+    """Return the impulses by a law or a contact, touch by touch [N s]."""
+    return pd.DataFrame(_impulses(made, count, seed), columns=[*"xyz"]).reset_index(names="touch")
 
 
 def nearest(cells: pd.DataFrame) -> dict[str, Mapping[Any, Any]]:

@@ -9,6 +9,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
+import pandas as pd
 
 from cointoss import Scenario, coin_mj
 from cointoss.study import Array
@@ -200,13 +201,12 @@ def stepped(stepped: tuple[str, str, float]) -> Iterator[dict[str, float | None]
         before = way
 
 
-def drawn(drawn: tuple[str, str, float] | None) -> Iterator[dict[str, float]]:
+def drawn(drawn: tuple[str, str, float] | None) -> pd.DataFrame:
     """Let a ball roll, and look at its speed from time to time; by the closed form at both ends."""
     times, speeds = np.array([0, BALL.speed / BALL.slowing[0]]), np.array([BALL.speed, 0])
     if drawn is not None:
         times, speeds, *_ = native(BALL, *drawn)[:, ::SAMPLED]
-    for time, speed in zip(times.tolist(), speeds.tolist(), strict=True):
-        yield {"time": time, "speed": speed}
+    return pd.DataFrame({"time": times, "speed": speeds})
 
 
 REPRODUCTION = study(

@@ -1,11 +1,11 @@
 """Bodies that rest, are pressed, tumble, hit each other and slide, by MuJoCo's settings for a bounce."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import asdict, replace
 from functools import partial
-from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from cointoss_bounce import PairBounce
 from cointoss_bounce.contact import (
@@ -127,17 +127,15 @@ def flown(integrator: str, step: float) -> dict[str, float]:
     return {"change": energy_change(integrator, step)}
 
 
-def hit(hit: tuple[str, tuple[float, ...]]) -> Iterator[dict[str, float]]:
+def hit(hit: tuple[str, tuple[float, ...]]) -> pd.DataFrame:
     """Let a ball hit others."""
     bodies, expected = hit
-    for velocity, by_law in zip(hits(ONE, bodies), expected, strict=False):
-        yield {"velocity": float(velocity), "expected": by_law}
+    return pd.DataFrame({"velocity": hits(ONE, bodies)[: len(expected)], "expected": expected})
 
 
-def slid(cone: str, rubbed: tuple[float, float]) -> Iterator[dict[str, Any]]:
+def slid(cone: str, rubbed: tuple[float, float]) -> pd.DataFrame:
     """Let a ball slide as it comes down."""
-    for name, error in zip(("e", "slip"), sliding(ONE, *rubbed, cone), strict=True):
-        yield {"of": name, "error": error}
+    return pd.DataFrame({"of": ("e", "slip"), "error": sliding(ONE, *rubbed, cone)})
 
 
 def fallen(fallen: float) -> dict[str, float]:
@@ -152,14 +150,11 @@ def went(contact: str, floor: float | None) -> dict[str, int]:
     return {"through": falls_through(settings, floor), "expected": FALLS if passes else 0}
 
 
-def turned(
-    turned: Callable[[ContactSettings], PairBounce], kind: ContactSettings
-) -> Iterator[dict[str, float]]:
+def turned(turned: Callable[[ContactSettings], PairBounce], kind: ContactSettings) -> pd.DataFrame:
     """Let a body bounce that turns in its contact; means over phases of a step."""
     found = turned(kind)
-    means = (found.restitutions.mean(axis=1), found.energy_kept.mean(axis=1))
-    for speed, e, kept in zip(SPEEDS, *means, strict=True):
-        yield {"speed": speed, "e": float(e), "kept": float(kept)}
+    means = {"e": found.restitutions.mean(axis=1), "kept": found.energy_kept.mean(axis=1)}
+    return pd.DataFrame({"speed": SPEEDS, **means})
 
 
 def held(held: ContactSettings, hold: tuple[str, bool]) -> dict[str, float | None]:

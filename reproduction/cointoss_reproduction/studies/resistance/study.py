@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from cointoss import Ending, Outcome, Scenario, States, analytic
 from cointoss.study import (
@@ -15,7 +16,7 @@ from cointoss.study import (
     sample_piece,
     turned,
 )
-from cointoss_reproduction.frame.cells import Cells, Row
+from cointoss_reproduction.frame.cells import Cells, Row, Rows
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.edge_classes import (
     AS_SAID,
@@ -103,7 +104,7 @@ def upright(stop: Callable[[], Row]) -> Row:
     return stop()
 
 
-def disk(resistance: str) -> Iterator[Row]:
+def disk(resistance: str) -> Iterator[Rows]:
     """Return how Euler's disk falls, from a tilt at which it rolls round its mass centre; then samples."""
     size, longest = DISKS[resistance]
     friction = FloorFriction(1e4, *((size, 0.0) if resistance == "rolling" else (0.0, size)))
@@ -131,8 +132,7 @@ def disk(resistance: str) -> Iterator[Row]:
         root = np.polyval(np.polyfit(times[chosen], tilts[chosen] ** 0.5, 1), times)
         drawn["(t₀ - t)²"] = np.maximum(root, 0) ** 2
     for line, fall in drawn.items():
-        for time, tilt in zip(times, fall, strict=True):
-            yield {"of": "fall", "line": line, "time": time, "tilt": tilt}
+        yield pd.DataFrame({"of": "fall", "line": line, "time": times, "tilt": fall})
 
 
 def power_law(times: Array, tilts: Array) -> dict[str, float]:
@@ -144,14 +144,14 @@ def power_law(times: Array, tilts: Array) -> dict[str, float]:
     return {"exponent": float(1 / (1 - slope)), "rate": float(np.median(falls[chosen] / closed))}
 
 
-def on_edge(floor: str, count: int = 1000) -> Iterator[Row]:
+def on_edge(floor: str, count: int = 1000) -> Iterator[Rows]:
     """Toss people's nickels; return how many have each outcome, and how many of each outcome end how."""
     ended = nickel(WOBBLING, floor).tossed(count)
     rolls = int(np.sum(ended.ending == Ending.ROLLING))
     yield {"of": "nickel", "resists": floor != FREE, "still_rolling": rolls, **tally(ended.outcome)}
     kinds, numbers = np.unique(np.stack([ended.outcome, ended.ending]), axis=1, return_counts=True)
-    for (outcome, ending), number in zip(kinds.T, numbers, strict=True):
-        yield {"of": "ending", "ending": f"{Outcome(outcome)}, {Ending(ending)}", "number": number}
+    endings = [f"{Outcome(outcome)}, {Ending(ending)}" for outcome, ending in kinds.T]
+    yield pd.DataFrame({"of": "ending", "ending": endings, "number": numbers})
 
 
 REPRODUCTION = study(

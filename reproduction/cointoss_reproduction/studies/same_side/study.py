@@ -6,6 +6,7 @@ from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from cointoss import Engine, Hand
@@ -23,7 +24,7 @@ from cointoss.study import (
     share_of,
     spread_interval,
 )
-from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.cells import Cells, Rows
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.estimates import jackknife
 from cointoss_reproduction.setups.general_coins import CoinClass
@@ -78,7 +79,7 @@ JOBS = (
 )
 
 
-def flipped() -> Iterator[dict[str, Any]]:
+def flipped() -> Iterator[Rows]:
     """Return how often people catch the side that was up, together and each, beside the fitted models."""
     flips, (heads, tails) = read_flips(), read_started()
 
@@ -95,11 +96,11 @@ def flipped() -> Iterator[dict[str, Any]]:
     each = [
         share_of(int(up), int(all_of), "flips") for up, all_of in zip(flips.same, flips.flips, strict=True)
     ]
-    for below, one in zip(part, sorted(each, key=lambda one: one.value), strict=True):
-        yield {"of": "a person", "part": below, "p": one}
+    ordered = sorted(each, key=lambda one: one.value)
+    yield pd.DataFrame({"of": "a person", "part": part, "p": ordered})
     for name, family in FAMILIES.items():
-        for below, one in zip(part, quantiles(family, _fitted(name)[0].parameters, part), strict=True):
-            yield {"of": name, "part": below, "p": one}
+        p = quantiles(family, _fitted(name)[0].parameters, part)
+        yield pd.DataFrame({"of": name, "part": part, "p": p})
 
 
 def modelled(family: str) -> dict[str, Any]:
@@ -139,14 +140,14 @@ def _fitted(family: str) -> tuple[PeopleFit, list[PeopleFit]]:
     ]
 
 
-def bounced(job: int, count: int = 3000, people: int = 8000, mujoco: int = 400) -> Iterator[dict[str, Any]]:
+def bounced(job: int, count: int = 3000, people: int = 8000, mujoco: int = 400) -> pd.DataFrame:
     """Toss a hand's releases onto a floor, and count the first side up after 0, 1, 2, ... impacts."""
     asked = JOBS[job]
     kind = CoinClass(thick=True, imperfect=False, air=True, coulomb=asked.floor == ROUGH)
     scenario = kind.scenario.replace("floor.restitution", asked.chi)
     found = first_side(rows_from_states(scenario, _states(count, people, mujoco)[job]), Engine(asked.engine))
-    for step, up in zip(STEPS, (*found.touches, found.at_rest), strict=True):
-        yield {**asked._asdict(), "name": asked.name, "step": step, "first_side": share(up)}
+    sides = [share(up) for up in (*found.touches, found.at_rest)]
+    return pd.DataFrame({**asked._asdict(), "name": asked.name, "step": STEPS, "first_side": sides})
 
 
 @cache
