@@ -1,16 +1,13 @@
 """What MJX and Warp are measured by: MuJoCo's own column in closed form, refusals, and missing packages."""
 
-import pandas as pd
 import pytest
 
 from cointoss import UnusableEngineError
 from cointoss_reproduction.studies.mujoco_backends import backends as mujoco_backends
-from cointoss_reproduction.studies.mujoco_backends.backends import BACKENDS, by_mujoco
+from cointoss_reproduction.studies.mujoco_backends.backends import by_mujoco
 from cointoss_reproduction.studies.mujoco_backends.study import SETTINGS, SLIP, measured
-from saved import missed, result_of
 from tests.helpers.command_line import cointoss
 
-AT_REST = ("one step, at rest", "spring, at rest")
 ONE_STEP = [f"{body}, one step" for body in ("box flat", "capsule", "ellipsoid")] + ["one step, implicitfast"]
 
 
@@ -39,31 +36,6 @@ def test_what_a_backend_raises_is_its_refusal():
         raise NotImplementedError("diagexact")
 
     assert measured(SETTINGS["flag diagexact"], refusing) == {"answer": "refused: NotImplementedError"}
-
-
-def test_a_ball_that_hops_and_one_that_errs_are_seen():
-    cells = pd.DataFrame(
-        {"package": "mujoco", "version": "3"} if backend is None else {"backend": backend, **row}
-        for backend in (None, *BACKENDS)
-        for row in (
-            {"setting": "flag diagexact", "answer": "runs" if backend == "MuJoCo" else "refused: Error"},
-            {"setting": "one step, implicitfast", "least": 0.8, "most": 0.8, "error": 0.0},
-            {"setting": "restitution and friction together", "slip": 1.0, "error": 1e-4},
-            *({"setting": name, "depth": 4e-6, "hop": 0.0} for name in AT_REST),
-        )
-    )
-    assert missed("mujoco-backends", cells) == ()
-    shown = result_of("mujoco-backends", cells).tables
-    for words in ("refused: Error", "0.8000, 0.8000", "4.00e-06 m, 0e+00 m", "1.0000 m/s, 1e-04"):
-        assert f"| {words} |" in shown
-    of_mjx = cells["backend"] == "MJX, float32"
-    held = "a ball at rest is held by each, in one step and by a spring"
-    for hop in (1e-3, None):
-        worse = cells.assign(hop=cells["hop"].mask(of_mjx & (cells["hop"] == 0), hop))
-        assert missed("mujoco-backends", worse) == (held,)
-    errs = cells.assign(error=cells["error"].mask(of_mjx & (cells["least"] > 0), 0.02))
-    (wrong,) = missed("mujoco-backends", errs)
-    assert wrong.startswith("without it one step has e")
 
 
 def test_a_package_that_is_missing_is_named(monkeypatch, tmp_path):

@@ -91,16 +91,13 @@ def test_one_step_with_the_native_cone_is_moreaus_law():
 
 
 @pytest.mark.slow
-def test_a_small_study_of_laws_bears_out_its_claims_and_sees_a_law_that_is_missed():
+def test_a_small_study_of_laws_bears_out_its_claims():
     cells = REPRODUCTION.make(unseen, count=10, seed=5).data
     assert missed("mujoco-laws", cells) == ()
     assert nearest(cells)["(d) slip_preserving"]["contact"] == "native cone, μ = 100, slip undamped"
     rough = dict(zip(cells["friction"], cells["median"], strict=True))
     assert rough[1000.0] < 1e-3 < rough[0.1]
     assert len(REPRODUCTION.draw["impulses"](cells).axes) == 8
-    median = cells["median"].mask(cells["law"] == "(e) smooth", 0.1)
-    (wrong,) = missed("mujoco-laws", cells.assign(median=median))
-    assert wrong.startswith("MuJoCo realises the smooth")
 
 
 def test_the_example_of_the_docs_rebounds_as_it_says(capsys):

@@ -1,10 +1,9 @@
-"""Situations of MuJoCo's users: closed forms of what is measured, and that the study's claims can fail."""
+"""Situations of MuJoCo's users: closed forms of what is measured."""
 
 import pytest
 
 from cointoss_bounce import solref
 from cointoss_bounce.recipe import recipe_of
-from cointoss_reproduction.frame.cells import Cells, table_of
 from cointoss_reproduction.studies.mujoco_situations.bodies import (
     RADIUS,
     ball,
@@ -15,7 +14,6 @@ from cointoss_reproduction.studies.mujoco_situations.bodies import (
 )
 from cointoss_reproduction.studies.mujoco_situations.failures import creep, cylinder, falls_through
 from cointoss_reproduction.studies.mujoco_situations.study import HITS, hit, lain, stacked, went
-from saved import missed, unseen
 
 CONTACT = recipe_of(0.8, 1e-3)
 
@@ -68,61 +66,8 @@ def test_what_is_pinched_by_springs_falls_out_but_for_pairs_that_damp_the_slip()
     assert 0 < (creep(spring, 'cone="elliptic" impratio="100"', True) or 0) < 1e-5
 
 
-FOUND = [
-    {"bounced": "one step", "error": 4.7e-4},
-    {"lying": "one step", "force": "its weight", "depth": 4e-6, "hop": 0.0, "sinking": 0.0, "over": 1.0},
-    {"lying": "one step", "force": "500 N", "over": 1.0},
-    {"lying": "spring", "force": "its weight", "hop": 0.0, "sinking": 0.0, "over": 1.0},
-    {"lying": "one step, no stiffness", "force": "its weight", "sinking": 1.09e-6},
-    {"lying": "spring, solimp 0.9999", "force": "its weight", "hop": 1.7e-4},
-    {"stacked": "one step", "stack_of": "as printed", "top": 0.4},
-    {"stacked": "one step", "stack_of": "with condim 3", "top": 3e-3, "settling": -9e-8},
-    {"stacked": "one step, no stiffness", "stack_of": "and no diagexact", "settling": 2e-4},
-    {"integrator": "implicitfast", "step": 2e-3, "change": -0.1},
-    {"integrator": "RK4", "step": 2e-3, "change": 6e-8},
-    {"hit": "a ball on a ball", "velocity": 0.1, "expected": 0.1},
-    {"cone": "elliptic cone", "rubbed": "μ = 1", "of": "e", "error": 0.2},
-    {"cone": "the recipe", "rubbed": "μ = 1", "of": "slip", "error": 0.03},
-    {"fallen": "1 ms", "change": 1e-4},
-    {"floor": "a box of 3 mm", "contact": "spring", "through": 30, "expected": 30},
-    {"turned": "cylinder on the middle", "kind": "spring, 2 ms", "speed": 1.0, "e": 0.8, "kept": 0.64},
-    {"turned": "cylinder beside it", "kind": "spring, 2 ms", "speed": 1.0, "e": 1.1, "kept": 0.8},
-    {"turned": "leg", "kind": "spring, 2 ms", "speed": 1.0, "e": 1.4, "kept": 0.4},
-    {"turned": "leg", "kind": "spring, 2 ms", "speed": 2.0, "e": 1.5, "kept": 0.67},
-    {"turned": "leg", "kind": "spring, 0.02 ms", "speed": 2.0, "e": 0.8, "kept": 0.64},
-    {"turned": "leg", "kind": "spring, 0.02 ms", "speed": 5.0, "e": 0.9, "kept": 0.7},
-    {"held": "one step", "hold": "elliptic, impratio 100", "creep": 6e-9},
-    {"held": "spring", "hold": "the same, by pairs", "creep": 4e-6},
-    {"held": "spring", "hold": "elliptic", "creep": None},
-    {"held": "spring", "hold": "pyramidal cone", "creep": None},
-]
-"""What the claims select of the study's table, about as it was found."""
-
-
-def table(rows):
-    return table_of([Cells(lambda: rows, {})], unseen, {})
-
-
-@pytest.mark.parametrize(
-    ("row", "changed", "claim"),
-    [
-        (3, {"hop": 1e-5}, "with the recommended settings a body at rest lies still"),
-        (7, {"settling": 1e-4}, "a stack with 10 kg"),
-        (10, {"change": -1e-3}, "in flight implicitfast"),
-        (15, {"through": 29}, "a floor that is no plane"),
-        (17, {"kept": 1.01}, "a body that turns in a contact"),
-        (24, {"creep": 1e-4}, "what is pinched"),
-    ],
-)
-def test_claims_see_what_differs(row, changed, claim):
-    doctored = [{**one, **changed} if number == row else one for number, one in enumerate(FOUND)]
-    (wrong,) = missed("mujoco-situations", table(doctored))
-    assert wrong.startswith(claim)
-
-
 @pytest.mark.slow
-def test_claims_hold_of_what_was_found_and_of_what_is_measured():
-    assert missed("mujoco-situations", table(FOUND)) == ()
+def test_claims_hold_of_what_is_measured():
     assert lain(CONTACT, 0.0)["over"] == pytest.approx(1, abs=2e-3)
     assert went("spring", 3e-3) == {"through": 10, "expected": 10}
     assert stacked(CONTACT, (3, True))["top"] < 5e-3

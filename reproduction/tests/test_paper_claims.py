@@ -12,7 +12,6 @@ from cointoss.models.batch import PLACE, states_of
 from cointoss.models.laws import EndingTest
 from cointoss.models.parts import Release
 from cointoss.models.records import Ending, Outcome
-from cointoss_reproduction.frame.cells import Cells, table_of
 from cointoss_reproduction.setups import fig24_readings
 from cointoss_reproduction.setups.estimates import quotient
 from cointoss_reproduction.setups.general_coins import CoinClass
@@ -27,7 +26,6 @@ from cointoss_reproduction.studies.standing_coins import study as standing_coins
 from cointoss_reproduction.studies.standing_coins.standing import standing
 from cointoss_reproduction.studies.stop_test import study as stop_test
 from cointoss_reproduction.studies.uniform_starts import study as uniform_starts
-from saved import missed, unseen
 
 
 def test_hands_keep_their_habit():
@@ -208,23 +206,6 @@ def test_coins_that_stand_on_their_edge_come_below_m_g_r():
     """Where they are at rest C lies below B, and so lower than r."""
     found = stop_test.unasked(False, others=80)
     assert found == {"of": 80, "standing": 4, "below": 4}
-
-
-def test_a_face_that_is_never_left_or_always_would_be_seen():
-    def missed_where(*, below=0, **counts):
-        tests = [
-            {"test": name, "named": 900, "edges": 0, "tosses": 100_000}
-            for name, _ in stop_test.TESTS.values()
-        ]
-        cells = Cells(lambda **_: [test | counts for test in tests], stop_test.AXES)
-        stand = Cells(lambda **_: {"of": 100_000, "standing": 900, "below": below}, {"floor": ["smooth"]})
-        table = table_of([cells, stand], unseen, {})
-        return [claim.partition(" ")[0] for claim in missed("stop-test", table)]
-
-    assert missed_where(left=0, maybe=0) == ["E", "eq.", "E"]
-    assert missed_where(left=0, maybe=0, below=900) == ["E", "eq."]
-    assert len(missed_where(left=450, maybe=450, below=900)) == 4
-    assert len(missed_where(left=0, maybe=450, below=900)) == 6, "nothing is known where so much is open"
 
 
 def general_coin(*, thick):
