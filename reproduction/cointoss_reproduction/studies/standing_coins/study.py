@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import cycle
+from multiprocessing.pool import ThreadPool
 from typing import Any
 
 import numpy as np
@@ -15,7 +17,6 @@ from cointoss.analytic import AnalyticSettings
 from cointoss.study import Array, FloorFriction, Pieces, run, share
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
-from cointoss_reproduction.frame.threads import all_cores
 from cointoss_reproduction.precision.planar_coin import PlanarRelease, planar_coin, units
 from cointoss_reproduction.precision.planar_numbers import spread, toss_many
 from cointoss_reproduction.setups.estimates import mean
@@ -67,25 +68,25 @@ class Boundary:
 
 def sides(kind: bool, lines: int = 120) -> list[Mapping[str, Any]]:
     """Return what the coins at both sides of each boundary in air do, on random lines of releases."""
-    with all_cores() as pool:
-        rows = [row for row in pool.map(_sides, *_lines(lines, thick=kind, air=True)) if row is not None]
+    with ThreadPool() as pool:
+        found = pool.starmap(_sides, _lines(lines, thick=kind, air=True), chunksize=1)
+    rows = [row for row in found if row is not None]
     part = rankdata([row["lack"] for row in rows]) / len(rows)
     return [{**row, "below": below} for row, below in zip(rows, part, strict=True)]
 
 
 def in_vacuum(lines: int = 120) -> list[dict[str, bool]]:
     """Return of the boundaries of a thin coin in vacuum, on random lines, whether heads meet tails there."""
-    with all_cores() as pool:
-        boundaries = pool.map(boundary_on, *_lines(lines, thick=False, air=False))
-        found = [one for one in boundaries if one is not None]
-    return [{"meets": set(one.outcomes) == _HEADS_AND_TAILS} for one in found]
+    with ThreadPool() as pool:
+        found = pool.starmap(boundary_on, _lines(lines, thick=False, air=False), chunksize=1)
+    return [{"meets": set(one.outcomes) == _HEADS_AND_TAILS} for one in found if one is not None]
 
 
-def _lines(count: int, *, thick: bool, air: bool) -> tuple[list[Scenario], Array, list[str]]:
-    """Return scenarios, states and quantities that vary, of random lines of releases."""
+def _lines(count: int, *, thick: bool, air: bool) -> list[tuple[Scenario, Array, str]]:
+    """Return scenario, state and quantity that varies, of random lines of releases."""
     kind = CoinClass(thick=thick, imperfect=False, air=air, coulomb=False)
-    scenario, quantities = kind.scenario.replace("floor.restitution", CHI), list(SPANS)
-    return [scenario] * count, kind.starts(count), [quantities[i % len(SPANS)] for i in range(count)]
+    scenario = kind.scenario.replace("floor.restitution", CHI)
+    return [(scenario, *line) for line in zip(kind.starts(count), cycle(SPANS), strict=False)]
 
 
 def at(start: Array, quantity: str, place: float) -> Array:

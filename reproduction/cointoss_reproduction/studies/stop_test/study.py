@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from functools import partial
+from multiprocessing.pool import ThreadPool
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,6 @@ from cointoss.study import (
 )
 from cointoss_reproduction.frame.cells import Cells
 from cointoss_reproduction.frame.study import study
-from cointoss_reproduction.frame.threads import all_cores
 from cointoss_reproduction.setups.general_coins import CoinClass
 
 TESTS = {"paper": ("E < m g r", Ending.PAPER), "paper_smooth": ("eq. (20)", Ending.PAPER_SMOOTH)}
@@ -69,8 +69,9 @@ def stopped(
         left = decided & (outcomes != faces)
         until = np.where(decided, whole.end_time[at], times + LONGEST)
         seen = ~left & (until > times)
-        with all_cores() as pool:
-            left[seen] = [*pool.map(turned, starts[at[seen]], faces[seen], times[seen], until[seen])]
+        with ThreadPool() as pool:
+            asked = zip(starts[at[seen]], faces[seen], times[seen], until[seen], strict=True)
+            left[seen] = pool.starmap(turned, asked, chunksize=1)
         counts = {"left": left, "maybe": left | ~decided, "edges": outcomes == Outcome.EDGE}
         yield {
             "test": name,
