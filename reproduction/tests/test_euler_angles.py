@@ -13,25 +13,11 @@ from cointoss_reproduction.studies.table1.euler_angles import (
     rotation_of,
     singularity,
 )
+from cointoss_reproduction.studies.table1.study import PRINTED
 
 angle = st.floats(-10, 10)
 
-SINE, COSINE = 0.0, np.pi / 2
-TABLE_1 = {
-    "121": ("sin", -1, SINE),
-    "123": ("cos", +1, COSINE),
-    "131": ("sin", -1, SINE),
-    "132": ("cos", -1, COSINE),
-    "212": ("sin", -1, SINE),
-    "213": ("cos", -1, COSINE),
-    "231": ("cos", +1, COSINE),
-    "232": ("sin", -1, SINE),
-    "312": ("cos", +1, COSINE),
-    "313": ("sin", -1, SINE),
-    "321": ("cos", -1, COSINE),
-    "323": ("sin", -1, SINE),
-}
-each_sequence = pytest.mark.parametrize("sequence", TABLE_1)
+each_sequence = pytest.mark.parametrize("sequence", PRINTED)
 
 
 def scipys(sequence):
@@ -69,7 +55,7 @@ def test_rate_matrix_turns_rates_into_angular_velocity(sequence):
 def test_table_1_follows_from_the_rate_matrix(sequence):
     """The determinant is that of the table for all angles: it vanishes there and nowhere else."""
     name, sign, _ = found = singularity(sequence)
-    assert found == TABLE_1[sequence]
+    assert found == PRINTED[sequence]
     rng = np.random.default_rng(32)
     function = {"sin": np.sin, "cos": np.cos}[name]
     for angles in rng.uniform(-7, 7, (50, 3)):

@@ -62,7 +62,7 @@ def nearby(engine: Callable[[Scenario], Toss]) -> dict[str, float]:
 def tangent() -> dict[str, float]:
     """Return how fast a spin about the middle axis parts, by the tangent map and in closed form [1/s]."""
     case, direction, rate = _about_the_middle_axis()
-    return {"middle": _growth_of_tangent(case, direction), "rate": rate}
+    return {"middle": growth_of_tangent(case, direction), "rate": rate}
 
 
 def found(cells: pd.DataFrame) -> dict[str, float]:
@@ -124,13 +124,13 @@ def _growth_of_difference(engine: Callable[[Scenario], Toss], case: Scenario, di
     return float(np.log(np.linalg.norm(one - other) / np.linalg.norm(2 * change)) / SHORT)
 
 
-def _growth_of_tangent(case: Scenario, direction: Array) -> float:
-    """Return the same by the tangent map."""
+def growth_of_tangent(case: Scenario, direction: Array, duration: float = SHORT) -> float:
+    """Return the same by the tangent map, over a duration [s]."""
     changes = np.zeros((1, 13))
     changes[0, 10:] = direction
-    start, end = map(state_of, _flown(case, [0.0, SHORT]))
-    flight_tangent(case.body, start, end, SHORT, FINE, changes)
-    return float(np.log(np.linalg.norm(changes[0, 10:]) / np.linalg.norm(direction)) / SHORT)
+    start, end = map(state_of, _flown(case, [0.0, duration]))
+    flight_tangent(case.body, start, end, duration, FINE, changes)
+    return float(np.log(np.linalg.norm(changes[0, 10:]) / np.linalg.norm(direction)) / duration)
 
 
 def _about_the_middle_axis() -> tuple[Scenario, Array, float]:
