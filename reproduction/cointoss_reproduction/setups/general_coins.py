@@ -7,6 +7,7 @@ import numpy as np
 
 from cointoss import Scenario
 from cointoss.study import Array
+from cointoss_reproduction.setups.releases import directions, released
 
 SEED = 15
 PAPER_OFFSET, THICKNESS = (-1e-3, -1e-3, -2e-4), 2e-3
@@ -85,8 +86,6 @@ class CoinClass:
         number = 8 * self.thick + 4 * self.imperfect + 2 * self.air + self.coulomb
         rng = np.random.default_rng([SEED, number])
         height, velocity = rng.uniform(0.2, 0.6, count), rng.normal(0, 0.3, (count, 3))
-        e = rng.normal(size=(count, 4))
+        attitude = directions(rng, count)
         spin = [rng.normal(0, 10, count), rng.uniform(20, 60, count), rng.normal(0, 10, count)]
-        place = np.stack([np.zeros(count), np.zeros(count), height], axis=1)
-        turned = e / np.linalg.norm(e, axis=1, keepdims=True)
-        return np.hstack([place, velocity, turned, np.stack(spin, axis=1)])
+        return released(height, velocity, attitude, np.stack(spin, axis=1))

@@ -3,6 +3,7 @@
 import numpy as np
 
 from cointoss.study import Array, quaternion_from_angles
+from cointoss_reproduction.setups.releases import released
 
 LEAN = np.radians(7)
 """The coin is released heads up and this far from flat, as that of Fig. 24 [rad]."""
@@ -28,7 +29,5 @@ def states_of_hands(
     )
     drawn = np.repeat(habits, each, axis=0)
     drawn *= 1 + spread * rng.normal(size=drawn.shape)
-    states = np.zeros((len(drawn), 13))
-    states[:, 2], states[:, 5], states[:, 10:] = drawn[:, 0], drawn[:, 1], drawn[:, 2:]
-    states[:, 6:10] = quaternion_from_angles((0.0, float(LEAN), 0.0))
-    return states
+    velocity, attitude = np.outer(drawn[:, 1], (0, 0, 1)), quaternion_from_angles((0.0, float(LEAN), 0.0))
+    return released(drawn[:, 0], velocity, attitude, drawn[:, 2:])

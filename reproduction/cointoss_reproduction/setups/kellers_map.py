@@ -4,6 +4,7 @@ import numpy as np
 
 from cointoss import Scenario
 from cointoss.study import Array, by_numba, sample_flight
+from cointoss_reproduction.setups.releases import released
 
 sample_flight = by_numba(sample_flight)
 
@@ -18,10 +19,9 @@ def middles(end: float, count: int) -> Array:
 
 def thrown(scenario: Scenario, over: Array, up: Array) -> Array:
     """Return states flat, one radius above the floor, with ω_0/π [1/s] and v_0/g [s], (n, 13)."""
-    states = np.zeros((len(over), 13))
-    states[:, 2], states[:, 5] = scenario.coin.radius, up * scenario.gravity
-    states[:, 6], states[:, 10] = 1.0, over * np.pi
-    return states
+    velocity = np.outer(up * scenario.gravity, (0, 0, 1))
+    heights = np.full(len(over), scenario.coin.radius)
+    return released(heights, velocity, spin=np.outer(over * np.pi, (1, 0, 0)))
 
 
 def caught(scenario: Scenario, starts: Array) -> Array:

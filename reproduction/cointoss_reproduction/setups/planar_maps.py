@@ -22,6 +22,7 @@ from cointoss.study import (
     run,
     states_of,
 )
+from cointoss_reproduction.setups.releases import released
 
 HEIGHTS, SPINS = (0.2, 0.6), (20.0, 60.0)
 """Ranges of the axes: release height [m] and spin about ξ [rad/s]."""
@@ -84,9 +85,7 @@ def planar_rows(scenario: Scenario, heights: Array, spins: Array) -> Array:
         heights: of the releases, (n,) [m].
         spins: about ξ, (n,) [rad/s].
     """
-    states = np.zeros((len(heights), 13))
-    states[:, 2], states[:, 6], states[:, 10] = heights, 1.0, spins
-    return rows_from_states(scenario, states)
+    return rows_from_states(scenario, released(heights, spin=np.outer(spins, (1, 0, 0))))
 
 
 def case(*, air: bool, restitution: float = 0.6, max_impacts: int | None = None) -> Scenario:

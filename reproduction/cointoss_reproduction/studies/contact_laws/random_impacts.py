@@ -3,6 +3,7 @@
 import numpy as np
 
 from cointoss.study import Array, Body, Rules
+from cointoss_reproduction.setups.releases import directions, released
 from cointoss_reproduction.studies.contact_laws.single_impacts import strike
 
 SPEED = 1.0
@@ -29,15 +30,9 @@ def draw_states(body: Body, rules: Rules, count: int, rng: np.random.Generator) 
     """
     states = np.empty((0, 13))
     while len(states) < count:
-        e = rng.normal(size=(count, 4))
-        drawn = np.hstack(
-            [
-                np.zeros((count, 3)),
-                rng.uniform(-SPEED, SPEED, (count, 3)),
-                e / np.linalg.norm(e, axis=1, keepdims=True),
-                rng.uniform(-SPIN, SPIN, (count, 3)),
-            ]
-        )
+        attitude = directions(rng, count)
+        velocity, spin = (rng.uniform(-most, most, (count, 3)) for most in (SPEED, SPIN))
+        drawn = released(np.zeros(count), velocity, attitude, spin)
         impacts, _ = strike(body, rules, drawn, restitution=0.0, friction=0.0)
         closing = -impacts.contact_velocity_before[:, 2]
         states = np.vstack([states, drawn[closing > rng.uniform(0, closing.max(), count)]])

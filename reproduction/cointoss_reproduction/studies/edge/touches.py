@@ -14,6 +14,7 @@ from cointoss.study import (
     run,
 )
 from cointoss_reproduction.setups.edge_classes import DIAMETRAL, EdgeClass
+from cointoss_reproduction.setups.releases import directions, released
 from cointoss_reproduction.studies.edge.laws import (
     ANGLE,
     SOLID_ANGLE,
@@ -36,8 +37,7 @@ def attitudes(turned: str, rng: np.random.Generator, count: int) -> Array:
     if turned == DIAMETRAL:
         tilts = rng.uniform(0, 2 * np.pi, count)
         return np.array([quaternion_from_angles((0.0, tilt, 0.0)) for tilt in tilts])
-    drawn = rng.normal(size=(count, 4))
-    return drawn / np.linalg.norm(drawn, axis=1, keepdims=True)
+    return directions(rng, count)
 
 
 def first_touches(
@@ -60,10 +60,10 @@ def first_touches(
 
 def let_go(kind: EdgeClass, turned: str, rng: np.random.Generator, count: int) -> NDArray[np.bool_]:
     """Let coins of a class go at rest just above the floor; return which end on their edge, (count,)."""
-    scenario, starts = kind.scenario, np.zeros((count, 13))
-    starts[:, 6:10] = attitudes(turned, rng, count)
-    starts[:, 2] = [DROP - gap(scenario.body, 0.0, rotation_matrix(tuple(e))[2]) for e in starts[:, 6:10]]
-    return analytic.toss_rows(rows_from_states(scenario, starts)).outcome == Outcome.EDGE
+    scenario, e = kind.scenario, attitudes(turned, rng, count)
+    heights = np.array([DROP - gap(scenario.body, 0.0, rotation_matrix(tuple(one))[2]) for one in e])
+    rows = rows_from_states(scenario, released(heights, attitude=e))
+    return analytic.toss_rows(rows).outcome == Outcome.EDGE
 
 
 def way_to_rest(kind: EdgeClass, count: int) -> Array:

@@ -28,6 +28,7 @@ from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.frame.tables import paragraphs
 from cointoss_reproduction.setups.ends import OUTCOMES, tally
 from cointoss_reproduction.setups.general_coins import AIR, cent, paper_coin
+from cointoss_reproduction.setups.releases import directions, released
 
 SEED, PERMUTATIONS = 2008, 20_000
 ENGINES = tuple(map(str, Engine))
@@ -101,11 +102,8 @@ SHARES = ("face", "edge", "moving")
 def thrown(rng: np.random.Generator, count: int) -> Array:
     """Draw states at release, at rest but for a spin: with any attitude about any axis, (n, 13)."""
     height, spin = rng.uniform(*HEIGHTS, count), rng.uniform(*SPINS, count)
-    e, axis = (
-        one / np.linalg.norm(one, axis=1, keepdims=True)
-        for one in (rng.normal(size=(count, size)) for size in (4, 3))
-    )
-    return np.column_stack([np.zeros((count, 2)), height, np.zeros((count, 3)), e, spin[:, None] * axis])
+    attitude, axis = directions(rng, count), directions(rng, count, 3)
+    return released(height, attitude=attitude, spin=spin[:, None] * axis)
 
 
 def drawn(kind: str, number: int, count: int) -> Array:

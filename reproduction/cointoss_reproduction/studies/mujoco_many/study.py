@@ -21,6 +21,7 @@ from cointoss_reproduction.setups.mujoco_impacts import (
     restitution_errors,
     spread,
 )
+from cointoss_reproduction.setups.releases import directions, released
 from cointoss_reproduction.studies.mujoco_many.fixed_steps import loop_model, restitutions_of_coins
 
 SCENARIO = "fig24a"
@@ -76,10 +77,9 @@ def timed(
 
 def draw_states(rng: np.random.Generator, count: int) -> Array:
     """Draw states at a hand's height, in any attitude, with spins up to 40 rad/s about each axis, (n, 13)."""
-    e = rng.normal(size=(count, 4))
-    height = np.stack([np.zeros(count), np.zeros(count), rng.uniform(0.05, 0.6, count)], axis=1)
+    attitude, height = directions(rng, count), rng.uniform(0.05, 0.6, count)
     velocity, spin = rng.uniform(-0.3, 0.3, (count, 3)), rng.uniform(-40, 40, (count, 3))
-    return np.hstack([height, velocity, e / np.linalg.norm(e, axis=1)[:, None], spin])
+    return released(height, velocity, attitude, spin)
 
 
 def _longest_step(smooth: list[Scenario], settings: MujocoSettings, error: float) -> float | None:
