@@ -242,28 +242,28 @@ def in_words(name: str, where: str, found: Check, *, timed: bool) -> str:
         found: by the check.
         timed: as `check` takes it.
     """
-    lines = [
-        f"{name}: {len(found.changed)} of {found.verdicts} verdicts change, "
-        f"{len(found.off)} of {len(found.numbers)} numbers are off, against {where}"
-    ]
-    if timed:
-        lines.append("  its numbers are times: verdicts alone are compared")
-    elif found.unlike:
-        lines.append(f"  not to the bit: {found.unlike}")
+    unlike = f"not to the bit: {found.unlike}" if found.unlike else ""
     agreeing = Counter(
         EQUAL if _same(number.there, number.here) else number.reason
         for number in found.numbers
         if number.agrees
     )
-    lines += [f"  {count} {reason}" for reason, count in agreeing.items()]
-    lines += [f"  changes: {words}" for words in found.changed]
-    lines += [f"  in other words: {words}" for words in found.words]
-    lines += [
-        f"  off: {number.place}: {_told(number.there)} there, {_told(number.here)} here; "
-        f"accepted: {number.reason}"
-        for number in found.off
+    details = [
+        "its numbers are times: verdicts alone are compared" if timed else unlike,
+        *(f"{count} {reason}" for reason, count in agreeing.items()),
+        *(f"changes: {words}" for words in found.changed),
+        *(f"in other words: {words}" for words in found.words),
+        *(
+            f"off: {number.place}: {_told(number.there)} there, {_told(number.here)} here; "
+            f"accepted: {number.reason}"
+            for number in found.off
+        ),
     ]
-    return "\n".join(lines)
+    head = (
+        f"{name}: {len(found.changed)} of {found.verdicts} verdicts change, "
+        f"{len(found.off)} of {len(found.numbers)} numbers are off, against {where}"
+    )
+    return "\n  ".join([head, *filter(None, details)])
 
 
 def _told(value: Any) -> Any:

@@ -144,10 +144,9 @@ def tables_of(cells: pd.DataFrame, declared: Sequence[Declared]) -> str:
 
 
 def _table(cells: pd.DataFrame, said: Declared) -> str:
-    rows, heads, shown = selected(cells, said), [], []
-    for head, what, *form in said["columns"]:
-        heads.append(head)
-        shown.append(_column(rows, what, *form))
+    rows = selected(cells, said)
+    heads = [head for head, *_ in said["columns"]]
+    shown = [_column(rows, *what) for _, *what in said["columns"]]
     body = [list(row) for row in zip(*shown, strict=True)]
     if "across" in said:
         heads, body = _across(heads, body, [_name((one,)) for one in rows[said["across"]]])

@@ -50,7 +50,6 @@ FRICTIONS = (0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0)
 """Frictions with which onsets are searched."""
 UNSOLVED = (0.5, 1.0, 1.5, 2.0, 3.0)
 """Frictions with which sliding_friction may have no solution."""
-ROUNDING = 1e-12
 SEARCH_ERROR = 1e-7
 IDEAL_LEAST = math.sqrt(5) / 3 - SEARCH_ERROR
 """Least restitution at which sharp_edge adds energy to an ideal coin, less that."""

@@ -12,8 +12,6 @@ from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.both_engines import by_both, first_touch
 from cointoss_reproduction.setups.free_fall import MEDIA, MODELS
 
-SAME = 1e-9 * 0.0125
-"""Paths nearer to each other are the same, but for rounding [m]."""
 REFERENCE = "3D ideal"
 """The coin that the others are compared with."""
 ROUNDING = 1e-13
