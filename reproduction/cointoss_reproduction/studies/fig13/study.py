@@ -2,7 +2,6 @@
 
 import math
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -43,13 +42,6 @@ COLORS = (BLUE, ORANGE, GREEN)
 """The colours of the faces ζ = +h/2 and -h/2, and of the wall."""
 
 
-class Wrench(NamedTuple):
-    """The air's force [N] and its moment about B [N m], body frame, (3,) each."""
-
-    force: Array
-    moment: Array
-
-
 def make(progress: Progress) -> Findings:
     """Sum the air over the fields of a thick coin, and compare with the integrals of both engines."""
     thick = load("fig13")
@@ -88,9 +80,13 @@ def _fields(case: Scenario, points: dict[str, int]) -> SurfaceFields:
     return velocity_fields(case.body, case.release.velocity, case.release.angular_velocity, **points)
 
 
-def _sum(case: Scenario, fields: SurfaceFields, b: float) -> Wrench:
-    """Sum -λ |v|^b v dA over the points of the fields."""
-    force, moment = np.zeros(3), np.zeros(3)
+def _sum(case: Scenario, fields: SurfaceFields, b: float) -> Array:
+    """Sum -λ |v|^b v dA over the points of the fields.
+
+    Returns:
+        The air's force [N] and its moment about B [N m], body frame, (2, 3).
+    """
+    total = np.zeros((2, 3))
     for field, area in zip(fields, _areas(case), strict=True):
         pressure, friction = (
             -coefficient * np.linalg.norm(v, axis=1, keepdims=True) ** b * v * area[:, None]
@@ -99,9 +95,9 @@ def _sum(case: Scenario, fields: SurfaceFields, b: float) -> Wrench:
                 (case.air.tangential, field.tangential),
             )
         )
-        force += np.sum(pressure + friction, axis=0)
-        moment += np.sum(np.cross(field.point, pressure + friction), axis=0)
-    return Wrench(force, moment)
+        force = pressure + friction
+        total += np.sum([force, np.cross(field.point, force)], axis=1)
+    return total
 
 
 def _areas(case: Scenario) -> tuple[np.ndarray, ...]:
@@ -116,24 +112,23 @@ def _areas(case: Scenario) -> tuple[np.ndarray, ...]:
     return face, face, wall
 
 
-def _integral(case: Scenario, b: float) -> Wrench:
-    """Return the integral of the analytic engine."""
+def _integral(case: Scenario, b: float) -> Array:
+    """Return force and moment by the integral of the analytic engine, (2, 3)."""
     body = case.replace("air.exponent", b).body
     f, m_C = force_and_moment(body, case.release.velocity, case.release.angular_velocity)
-    return Wrench(np.array(f), np.array(m_C) + np.cross(body.center, f))
+    return np.array([f, m_C + np.cross(body.center, f)])
 
 
-def _by_mujoco(case: Scenario) -> Wrench:
-    """Return the forces of MuJoCo's actuators and its damping on the released coin."""
+def _by_mujoco(case: Scenario) -> Array:
+    """Return force and moment of MuJoCo's actuators and its damping on the released coin, (2, 3)."""
     machine = machine_of(case, MujocoSettings(), shape_thickness(case))
     forward(machine.coin)
-    force = machine.data.qfrc_actuator + machine.data.qfrc_passive
-    return Wrench(force[:3].copy(), force[3:].copy())
+    return (machine.data.qfrc_actuator + machine.data.qfrc_passive).reshape(2, 3)
 
 
-def _apart(a: Wrench, b: Wrench) -> float:
+def _apart(a: Array, b: Array) -> float:
     """Return the largest difference of forces and of moments, each relative to b's size."""
-    return float(max(np.linalg.norm(x - y) / np.linalg.norm(y) for x, y in zip(a, b, strict=True)))
+    return float(np.max(np.linalg.norm(a - b, axis=1) / np.linalg.norm(b, axis=1)))
 
 
 def _draw(data: Data) -> Figure:
