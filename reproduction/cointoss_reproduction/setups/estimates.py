@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.stats import binom, norm, t
+from scipy.stats import norm, quantile_test, t
 
 from cointoss.study import LEVEL, Array, Estimate, share_of
 
@@ -89,15 +89,10 @@ def quantile(values: ArrayLike, part: float, counted: str = "tosses") -> Estimat
         counted: what the sample is of.
     """
     ordered = np.sort(np.asarray(values, dtype=float))
-    count = len(ordered)
-    padded = np.concatenate([[-np.inf], ordered, [np.inf]])
-    outside = (1 - LEVEL) / 2
-    # The number below the quantile is binomial.
-    numbers = np.arange(count + 1)
-    low = int(np.sum(binom.cdf(numbers, count, part) <= outside))
-    high = count + 1 - int(np.sum(binom.sf(numbers - 1, count, part) <= outside))
-    value = float(ordered[min(int(np.ceil(part * count)), count) - 1])
-    return Estimate(value, float(padded[low]), float(padded[high]), count, counted)
+    ends = quantile_test(ordered, p=part).confidence_interval(LEVEL)
+    low, high = np.where(np.isnan(ends), (-np.inf, np.inf), ends)
+    value = ordered[min(int(np.ceil(part * len(ordered))), len(ordered)) - 1]
+    return Estimate(float(value), float(low), float(high), len(ordered), counted)
 
 
 def ratio_of_medians(
