@@ -19,8 +19,6 @@ from cointoss.study import (
     OutcomeCodes,
     draw_panel,
     rows_from_states,
-    run,
-    states_of,
 )
 from cointoss_reproduction.setups.releases import released
 
@@ -137,10 +135,5 @@ def touched_faces(scenario: Scenario, heights: Array, spins: Array, touches: int
         spins: (n,) [rad/s].
         touches: how many.
     """
-    body, rules = scenario.body, scenario.replace("ending.max_impacts", touches).rules
-    faces = np.empty((len(heights), touches), dtype=np.int8)
-    for row, state in zip(faces, states_of(planar_rows(scenario, heights, spins)), strict=True):
-        tossed = run(body, rules, state)
-        row[: len(tossed.rows)] = tossed.rows["face"]
-        row[len(tossed.rows) :] = tossed.outcome
-    return faces
+    rows = planar_rows(scenario, heights, spins)
+    return np.column_stack([faces_after(rows, impacts) for impacts in range(touches)])
