@@ -1,14 +1,14 @@
 """Section 1, after Zeng-Yuan and Bin: a coin that bounces in air in a plane, and what spin in space adds."""
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from cointoss import Outcome, analytic
 from cointoss.coin_mj import impacts_of
 from cointoss.study import PLACE, run, scenario_of_row, share, states_of
-from cointoss_reproduction.frame.cells import Cells
+from cointoss_reproduction.frame.cells import Cells, Rows
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.planar_maps import (
     HEIGHTS,
@@ -36,7 +36,7 @@ ACCURACY = 1e-6
 """The difference in height of nearby tosses [m]."""
 
 
-def tossed(count: int = 2000, tosses_mujoco: int = 200) -> Iterator[dict[str, Any]]:
+def tossed(count: int = 2000, tosses_mujoco: int = 200) -> Iterator[Rows]:
     """Toss in a plane; add spin about the normal; drop from ever greater heights."""
     scenario, rng = case(air=True), np.random.default_rng(SEED)
     flat = planar_rows(scenario, rng.uniform(*HEIGHTS, count), rng.uniform(*SPINS, count))
@@ -47,16 +47,18 @@ def tossed(count: int = 2000, tosses_mujoco: int = 200) -> Iterator[dict[str, An
         off, aside = np.abs(places[:, :2]).max(axis=0)
         between = np.abs(by_mujoco[: len(places)] - places[: len(by_mujoco)]).max()
         yield {"off": off, "pushed": aside, "between": between, "off_mujoco": np.abs(by_mujoco[:, 0]).max()}
-    first_ended = first_touched = np.empty(0)
+    first_ended, first_touched = analytic.toss_rows(flat).outcome, faces_after(flat, 0)
     for aside in ASIDE:
         turned = flat.copy()
         turned[:, PLACE["release.angular_velocity.zeta"]] = aside
         ended, touched = analytic.toss_rows(turned).outcome, faces_after(turned, 0)
-        if aside == ASIDE[0]:
-            first_ended, first_touched = ended, touched
-        yield {"kind": "outcomes changed", "aside": aside, "part": share(ended != first_ended)}
-        yield {"kind": "first touches changed", "aside": aside, "part": share(touched != first_touched)}
-        yield {"kind": "heads", "aside": aside, "part": share(ended == Outcome.HEADS)}
+        kinds = {
+            "outcomes changed": ended != first_ended,
+            "first touches changed": touched != first_touched,
+            "heads": ended == Outcome.HEADS,
+        }
+        parts = [share(met) for met in kinds.values()]
+        yield pd.DataFrame({"kind": [*kinds], "aside": aside, "part": parts})
         if f"{aside:g}" == SHOWN:
             yield {"by_mujoco": np.mean(toss_rows_by_mujoco(turned[:tosses_mujoco]).outcome == Outcome.HEADS)}
     spins = rng.uniform(*DROP_SPINS, count)

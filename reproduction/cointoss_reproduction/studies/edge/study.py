@@ -144,11 +144,12 @@ def by_law(line: Callable[[float], float]) -> list[Row]:
 
 def by_both(coin: tuple[str, EdgeClass], parts: int = 1) -> list[Row]:
     """Toss coins of a class by both engines."""
-    wobble, kind = coin
-    rows = []
-    for engine, times in ((Engine.ANALYTIC, 4), (Engine.MUJOCO, 2 if kind.aspect == 1 else 1)):
-        own = replace(kind, name=f"{kind.name}, {engine}")
-        rows.append(_tossed("both", own, times * BY_MUJOCO[wobble] // parts, engine))
+    (wobble, kind), usual = coin, BY_MUJOCO[coin[0]]
+    counts = {Engine.ANALYTIC: 4 * usual, Engine.MUJOCO: (2 if kind.aspect == 1 else 1) * usual}
+    rows = [
+        _tossed("both", replace(kind, name=f"{kind.name}, {engine}"), count // parts, engine)
+        for engine, count in counts.items()
+    ]
     chance = chance_alike([[row[name] for name in OUTCOMES] for row in rows])
     return [{**row, "wobble": wobble, "chance": chance} for row in rows]
 

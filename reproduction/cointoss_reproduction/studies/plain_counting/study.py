@@ -111,9 +111,7 @@ def turned_over(scenario: Scenario, tosses: int) -> Iterator[dict[str, Any]]:
             return ends(scenario, higher)
 
         between = ended(0.0)
-        for level, accuracy in enumerate(accuracies):
-            other = (ended(-accuracy) != between) | (ended(accuracy) != between)
-            changed[level] += int(np.sum(other))
+        changed += [np.sum((ended(-by) != between) | (ended(by) != between)) for by in accuracies]
     for accuracy, number in zip(accuracies, changed.tolist(), strict=True):
         share = share_of(number, tosses)
         yield {"accuracy": accuracy, "changed": number, "tosses": tosses, "share": share}
