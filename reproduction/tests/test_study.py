@@ -147,7 +147,10 @@ def test_kinds_of_a_line_share_its_colour_and_its_place_in_the_legend():
     assert corners[0] == corners[1] > corners[2] == corners[3]
 
 
-def test_a_cell_may_answer_a_table():
-    cell = Cells(lambda n: pd.DataFrame({"t": np.arange(n), "z": "so"}), {"n": (1, 2)})
-    found = table_of([cell], unseen, {})
-    assert found.to_dict("list") == {"n": [1, 2, 2], "t": [0, 0, 1], "z": ["so", "so", "so"]}
+def test_a_cell_may_answer_a_table_or_tables_among_its_rows():
+    alone = Cells(lambda n: pd.DataFrame({"t": np.arange(n), "z": "so"}), {"n": (1, 2)})
+    among = Cells(lambda n: [{"t": n, "z": "one"}, pd.DataFrame({"t": [n, n + 1], "z": "so"})], {"n": (7,)})
+    found = table_of([alone, among], unseen, {})
+    assert found["n"].tolist() == [1, 2, 2, 7, 7, 7]
+    assert found["t"].tolist() == [0, 0, 1, 7, 7, 8]
+    assert found["z"].tolist() == ["so", "so", "so", "one", "so", "so"]
