@@ -38,6 +38,8 @@ class Coin(NamedTuple):
     """Rate at which air slows the spin."""
     drag: float
     """Rate at which air slows the centre."""
+    own_slowing: float = 0.0
+    """Rate at which air slows the spin about ζ."""
 
 
 @njit(cache=True)

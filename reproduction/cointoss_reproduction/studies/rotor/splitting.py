@@ -31,6 +31,7 @@ def coin_of(scenario: Scenario) -> Coin:
         rough=scenario.floor.contact != "smooth",
         slowing=time * body.drag.moment_tangential / inertia,
         drag=time * (body.drag.force_tangential + body.drag.force_normal) / (2 * coin.mass),
+        own_slowing=time * body.drag.moment_normal / float(body.inertia[2][2]),
     )
 
 

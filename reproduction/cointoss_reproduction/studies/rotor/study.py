@@ -1,15 +1,16 @@
 """Why so many tosses stay uncertain: a bouncing rotor, a chain of touches with random phases, its law."""
 
-from collections.abc import Callable, Iterator, Mapping
-from math import log
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from math import inf, log
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
-from cointoss import Scenario, analytic
-from cointoss.study import Array, Estimate, rows_from_states, share
+from cointoss import Scenario, analytic, load
+from cointoss.study import Array, Estimate, rows_from_states, run, share
 from cointoss_reproduction.frame.cells import Cells, estimate, kept_rows
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.estimates import quotient
@@ -17,12 +18,14 @@ from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.setups.planar_maps import HEIGHTS, SPINS, case, planar_rows
 from cointoss_reproduction.setups.uncertain_shares import (
     ACCURACIES,
+    CEILING,
     CHIS,
     SMOOTH,
     case_of,
     share_at,
     slope_between,
 )
+from cointoss_reproduction.studies.rotor.in_space import predicted
 from cointoss_reproduction.studies.rotor.law import asked, exponent, logarithm
 from cointoss_reproduction.studies.rotor.picture import draw
 from cointoss_reproduction.studies.rotor.splitting import coin_of, shares_beyond
@@ -45,8 +48,34 @@ PAIRED = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 """Accuracies at which tosses of an engine are compared with their neighbours [m]."""
 FLAT = (0, 0, 0, 1, 0, 0, 0)
 """At rest, with the attitude of a coin that lies [m/s, Euler parameters]."""
-WOBBLES = {"flat, in one plane": 0.0, "flat, with a wobble": 3.0}
+UP = np.eye(13)[2]
+"""More height, of a state at release."""
+FINER = 1e-13
+"""The error allowed in a step of contact where it is compared with the usual one."""
+WOBBLES = {"flat, in one plane": 0.0, "flat, wobble 3 rad/s": 3.0, "in any attitude": inf}
 """Standard deviation of the spin about the other axes [rad/s]."""
+TUMBLERS = {
+    f"{'2 mm' if thick else 'thin'}, {'air' if air else 'vacuum'}": CoinClass(
+        thick=thick, imperfect=False, air=air, coulomb=False
+    )
+    for thick in (False, True)
+    for air in (True, False)
+}
+SPACE_ACCURACIES = (1e-3, 1e-6, 1e-9, 1e-12)
+"""Accuracies at which coins in space are compared [m]."""
+TABLE = load("table").replace("ending.test", "rigorous")
+ON_SMOOTH = TABLE.replace("floor", {"restitution": TABLE.floor.restitution, "contact": "smooth"})
+ZLOTY = load("zloty").coin
+REAL = {
+    "euro, smooth": ON_SMOOTH,
+    "euro, μ = 0.03": ON_SMOOTH.replace("floor.contact", "coulomb", "floor.friction", 0.03),
+    "euro, μ = 0.3": ON_SMOOTH.replace("floor.contact", "coulomb", "floor.friction", 0.3),
+    "euro, μ = 0.3 and resistance (`table`)": TABLE,
+    "euro, perfectly rough": ON_SMOOTH.replace("floor.contact", "perfectly_rough"),
+    "zloty, smooth": ON_SMOOTH.replace("coin", ZLOTY),
+    "zloty, on the floor of `table`": TABLE.replace("coin", ZLOTY),
+}
+"""Coins and floors of one restitution."""
 THICKNESSES = {"2 mm": 2e-3, "7.5 mm": 7.5e-3}
 
 
@@ -87,8 +116,7 @@ def rows_of(shares: Array) -> Iterator[dict[str, Any]]:
 
 def with_ratio(row: Mapping[str, Any], counted: Any) -> dict[str, Any]:
     """Return a row with what was counted, and what is predicted over that where its interval excludes 0."""
-    met = isinstance(counted, Estimate) and counted.low > 0
-    return {**row, "counted": counted, "ratio": quotient(row["predicted"], counted) if met else None}
+    return {**row, "counted": counted, "ratio": ratio(row["predicted"], counted)}
 
 
 def go_on(far: float, tosses: int = 20_000, decades: int = DECADES) -> Iterator[dict[str, Any]]:
@@ -122,17 +150,100 @@ def thick(
 
 
 def tumbling(
-    released: str, tossed: float, tosses: int = 20_000, tumblers: int = 10_000
+    coin: str, released: float, tossed: float, chained: int = 20_000, tumblers: int = 20_000
 ) -> Iterator[dict[str, Any]]:
-    """Yield f of a thin coin that does not keep its plane, in air, beside the chain of the planar one."""
-    planar = case(air=True, restitution=tossed)
-    kind = CoinClass(thick=False, imperfect=False, air=True, coulomb=False)
-    states, scenario = kind.starts(tumblers), kind.scenario.replace("floor.restitution", tossed)
-    if released in WOBBLES:
+    """Yield f of a coin that does not keep its plane, split by whether it comes into sustained contact.
+
+    Args:
+        coin: one of `TUMBLERS`.
+        released: standard deviation of its spin about the other axes; in any attitude where infinite [rad/s].
+        tossed: restitution.
+        chained: tosses by the chain.
+        tumblers: tosses by the engine.
+    """
+    kind = TUMBLERS[coin]
+    scenario = kind.scenario.replace("floor.restitution", tossed)
+    chain = predicted(scenario, releases(kind, released, chained), np.random.default_rng(SEED))
+    counts = counted(scenario, releases(kind, released, tumblers), SPACE_ACCURACIES)
+    for accuracy, by_engine in zip(SPACE_ACCURACIES, counts, strict=True):
+        by_chain = split(chain.contacts > 0, chain.stretch > log(scenario.coin.radius / accuracy))
+        ratios = {f"{name}_ratio": ratio(by_chain[name], by_engine[name]) for name in by_chain}
+        yield (
+            {"accuracy": accuracy}
+            | {f"predicted_{name}": by_chain[name] for name in by_chain}
+            | by_engine
+            | ratios
+        )
+
+
+def on_floors(real: str, tumblers: int = 20_000) -> Iterator[dict[str, Any]]:
+    """Yield f of a coin on one of `REAL` floors, tossed in one plane and in any attitude.
+
+    Args:
+        real: its name.
+        tumblers: tosses by the engine.
+    """
+    kind = TUMBLERS["2 mm, air"]
+    plane, any_ = (
+        counted(REAL[real], releases(kind, wobble, tumblers), SPACE_ACCURACIES[:3]) for wobble in (0.0, inf)
+    )
+    for accuracy, flat, turned in zip(SPACE_ACCURACIES[:3], plane, any_, strict=True):
+        names = {f"{name}_in_plane": each for name, each in flat.items()}
+        yield {"accuracy": accuracy} | names | turned | {"times": ratio(turned["f"], flat["f"])}
+
+
+def releases(kind: CoinClass, wobble: float, count: int) -> Array:
+    """Return states at release, (count, 13): of the class, or flat with a wobble of this size [rad/s]."""
+    states = kind.starts(count)
+    if wobble < inf:
         states[:, 3:10] = FLAT
-        states[:, [10, 12]] = np.random.default_rng(SEED).normal(0, WOBBLES[released], (tumblers, 2))
-    higher = np.eye(states.shape[1])[2]
-    yield from paired(planar, lambda step: rows_from_states(scenario, states + step * higher), tosses)
+        states[:, [10, 12]] = np.random.default_rng(SEED).normal(0, wobble, (count, 2))
+    return states
+
+
+def counted(scenario: Scenario, states: Array, accuracies: Sequence[float]) -> Iterator[dict[str, Any]]:
+    """Yield `split` of an engine's tosses at each accuracy, and the share that a finer contact changes.
+
+    Args:
+        scenario: coin, air and floor.
+        states: at release, (n, 13).
+        accuracies: of the height [m].
+    """
+    rows = rows_from_states(scenario, states)
+    outcome = analytic.toss_rows(rows).outcome
+    finer = analytic.toss_rows(rows, settings=analytic.AnalyticSettings(contact_tolerance=FINER)).outcome
+    held = np.array([len(run(scenario.body, scenario.rules, state).contacts) > 0 for state in states])
+    for accuracy in accuracies:
+        parted = differ(lambda step: rows_from_states(scenario, states + step * UP), accuracy, outcome)
+        yield split(held, parted) | {"rounded": share(finer != outcome)}
+
+
+def differ(rows: Callable[[float], Array], step: float, outcome: NDArray[np.int8]) -> NDArray[np.bool_]:
+    """Return whether tosses with this much more or less height end with another outcome, (n,)."""
+    sides = [analytic.toss_rows(rows(each)).outcome != outcome for each in (-step, step)]
+    return sides[0] | sides[1]
+
+
+def split(held: NDArray[np.bool_], parted: NDArray[np.bool_]) -> dict[str, Any]:
+    """Return the share in contact, f of those that never are and of those that are, and f.
+
+    Args:
+        held: whether a toss comes into contact before its face is settled, (n,).
+        parted: whether it is uncertain, (n,).
+    """
+    parts = {"contact": held, "never": parted[~held], "do": parted[held], "f": parted}
+    return {name: capped(share(each)) if len(each) else None for name, each in parts.items()}
+
+
+def capped(f: Estimate) -> Estimate:
+    """Return a share that is at most `CEILING`."""
+    value, low, high = (min(each, CEILING) for each in f.ends)
+    return Estimate(value, low, high, f.count, f.counted)
+
+
+def ratio(predicted: Estimate | None, counted: Estimate | None) -> Estimate | None:
+    """Return what is predicted over what is counted, where the latter's interval excludes 0."""
+    return quotient(predicted, counted) if predicted and counted and counted.low > 0 else None
 
 
 def paired(scenario: Scenario, rows: Callable[[float], Array], tosses: int) -> Iterator[dict[str, Any]]:
@@ -144,12 +255,8 @@ def paired(scenario: Scenario, rows: Callable[[float], Array], tosses: int) -> I
         tosses: of the chain, at each level.
     """
     outcome = analytic.toss_rows(rows(0.0)).outcome
-    predicted = by_chain(scenario, len(PAIRED), tosses)
-    for row in rows_of(predicted):
-        sides = [
-            analytic.toss_rows(rows(step)).outcome != outcome for step in (-row["accuracy"], row["accuracy"])
-        ]
-        yield with_ratio(row, share(sides[0] | sides[1]))
+    for row in rows_of(by_chain(scenario, len(PAIRED), tosses)):
+        yield with_ratio(row, share(differ(rows, row["accuracy"], outcome)))
 
 
 def found(cells: pd.DataFrame) -> dict[str, Any]:
@@ -178,7 +285,8 @@ REPRODUCTION = study(
     Cells(compare, CASES),
     Cells(go_on, {"far": (0.3, 0.6, 0.8)}),
     Cells(thick, {"thickness": THICKNESSES, "of": (0.3, 0.6)}),
-    Cells(tumbling, {"released": (*WOBBLES, "in any attitude"), "tossed": (0.3, 0.6)}),
+    Cells(tumbling, {"coin": tuple(TUMBLERS), "released": WOBBLES, "tossed": (0.2, 0.3, 0.6, 0.9)}),
+    Cells(on_floors, {"real": tuple(REAL)}),
     found=found,
     draw={"rotor": draw},
 )
