@@ -11,19 +11,19 @@ and the tilt moves in V(s) = q + U with the inertia J + q'². Where L_z ≠ ± L
 """
 
 from math import acos, atan2, cos, exp, inf, log, pi, sin, sqrt
-from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from cointoss import Scenario
 from cointoss.study import Array, rotation_matrix
+from cointoss_reproduction.studies.rotor import chain
 from cointoss_reproduction.studies.rotor.chain import ANGLE, SPIN, Coin, V, Z, reach, shift
 from cointoss_reproduction.studies.rotor.splitting import coin_of
 
-L_Z, L_ZETA = 4, 5
-"""What a state has beside height, vertical speed, φ and Ω of `chain`."""
-SIZE = 6
+L_Z, L_ZETA = 5, 6
+"""What a state has beside that of `chain`, in which ANGLE is φ, SPIN is Ω, and DRIFT is 0."""
+SIZE = 7
 AT_FLOOR = 1e-12
 """A gap that is closed, as the square of a height less that of the floor."""
 LEAST = 1e-9
@@ -42,21 +42,6 @@ MOST_TOUCHES = 1000
 """A coin that touches more often never ends its toss, which happens in vacuum."""
 PERIOD = 3
 """Turns of the tilt in a contact which in vacuum prove that it never ends."""
-
-
-class Bounced(NamedTuple):
-    """How tosses went, each field of shape (n,)."""
-
-    stretch: Array
-    """Logarithm of the largest stretch of an angle, over what the change was at release."""
-    contacts: Array
-    """How often the coin came into sustained contact before its face was settled."""
-    passes: Array
-    """How often it went over its rim there."""
-    touches: Array
-    """Its impacts, those that die out in contact left out."""
-    endless: Array
-    """Whether it turns over for ever, as some do in vacuum."""
 
 
 @njit(cache=True)
@@ -93,16 +78,14 @@ def depth(coin: Coin, state: Array) -> float:
 
 
 @njit(cache=True)
-def energy(coin: Coin, state: Array) -> float:
-    """Return the energy without that of the spin about ζ, which no fall changes [m g r]."""
+def above(coin: Coin, state: Array) -> float:
+    """Return the energy above that of the pass; below it a face is settled [m g r].
+
+    The spin about ζ, which no fall changes, is left out; and in air the turning at the pass, which dies away.
+    """
     turning = coin.inertia * state[SPIN] ** 2 - state[L_ZETA] ** 2 / coin.inertia
-    return state[Z] + (state[V] ** 2 + turning) / 2
-
-
-@njit(cache=True)
-def passing(coin: Coin, state: Array) -> float:
-    """Return the energy below which a face is settled: of the pass; in air its turning may die away."""
-    return reach(coin) + (state[L_Z] ** 2 / (2 * coin.inertia) if coin.slowing == 0 else 0.0)
+    lost = state[L_Z] ** 2 / coin.inertia if coin.slowing == 0 else 0.0
+    return state[Z] - reach(coin) + (state[V] ** 2 + turning - lost) / 2
 
 
 @njit(cache=True)
@@ -134,21 +117,15 @@ def next_touch(coin: Coin, state: Array) -> float:
 
 @njit(cache=True)
 def fly(coin: Coin, state: Array, change: Array, time: float) -> None:
-    """Move a state and a small change of it through a flight, which air slows as in `chain`."""
-    state[Z] += state[V] * time - time**2 / 2
-    state[ANGLE] += state[SPIN] * time
-    change[Z] += change[V] * time
-    change[ANGLE] += change[SPIN] * time
-    slower, turning = exp(-coin.drag * time), exp(-coin.slowing * time)
-    state[V] = state[V] * slower - time * sqrt(slower)
-    change[V] *= slower
-    change[SPIN] *= turning
+    """Move a state and a small change of it through a flight; air slows L across ζ and along it."""
+    chain.fly(coin, state, change, time)
     if coin.slowing > 0:
+        state[L_Z:] *= exp(-coin.slowing * time)
         n, rate = lean(coin, state)
         across = state[L_Z] - state[L_ZETA] * n
-        state[L_ZETA] *= exp(-coin.own_slowing * time)
-        state[L_Z] = across * turning + state[L_ZETA] * n
-        set_lean(coin, state, n, rate * turning)
+        state[L_ZETA] *= exp((coin.slowing - coin.own_slowing) * time)
+        state[L_Z] = across + state[L_ZETA] * n
+        set_lean(coin, state, n, rate)
 
 
 @njit(cache=True)
@@ -172,6 +149,14 @@ def neighbours(state: Array, change: Array) -> tuple[Array, Array, float]:
 
 
 @njit(cache=True)
+def difference(lower: Array, upper: Array, over: float) -> Array:
+    """Return what `neighbours` differ by, in changes, without whole turns of φ."""
+    found = upper - lower
+    found[ANGLE] -= 2 * pi * np.round(found[ANGLE] / (2 * pi))
+    return found * over
+
+
+@njit(cache=True)
 def strike(coin: Coin, state: Array, change: Array) -> tuple[float, float]:
     """Apply an impact and its derivative; return how fast the point leaves, and the change of φ there."""
     lower, upper, over = neighbours(state, change)
@@ -183,16 +168,9 @@ def strike(coin: Coin, state: Array, change: Array) -> tuple[float, float]:
     rebound(coin, lower)
     rebound(coin, upper)
     normal = rebound(coin, state)
-    change[:] = (upper - lower) * over
-    wrap(change, over)
+    change[:] = difference(lower, upper, over)
     shift(state, change, -later)
     return -coin.restitution * normal, turned
-
-
-@njit(cache=True)
-def wrap(change: Array, over: float) -> None:
-    """Take whole turns out of a difference of φ, which is `over` times that of the neighbours."""
-    change[ANGLE] -= 2 * pi * over * np.round(change[ANGLE] / (2 * pi * over))
 
 
 @njit(cache=True)
@@ -214,90 +192,76 @@ def sliding(coin: Coin, y: Array) -> tuple[float, float]:
 @njit(cache=True)
 def dies_out(coin: Coin, state: Array, leaves: float) -> bool:
     """Return whether bounces at a rim point, which it leaves at this speed, die out in sustained contact."""
-    tilt, rate = tilt_of(coin, state)
-    _, force = sliding(coin, np.array([tilt, rate, state[L_Z], state[L_ZETA]]))
-    lever = cos(tilt) - coin.half * np.sign(cos(tilt)) * sin(tilt)
-    falls = force * (1 + lever**2 / coin.inertia) * (1 - coin.restitution)
-    return 2 * leaves * state[SPIN] < IN_CONTACT * sin(tilt) * falls
+    y = in_contact(coin, state)
+    lever = cos(y[0]) - coin.half * np.sign(cos(y[0])) * sin(y[0])
+    falls = sliding(coin, y)[1] * (1 + lever**2 / coin.inertia) * (1 - coin.restitution)
+    return 2 * leaves * state[SPIN] < IN_CONTACT * sin(y[0]) * falls
 
 
 @njit(cache=True)
-def flow(coin: Coin, y: Array, dy: Array) -> None:
-    """Write the rates of the tilt's motion and of a change of it into dy; both are (6,), see `slide`."""
-    near = NEAR / (abs(y[4]) + abs(y[5]) + 1e-300)
-    lower, upper = y[:4].copy(), y[:4].copy()
-    lower[:2] -= near * y[4:]
-    upper[:2] += near * y[4:]
-    dy[0], dy[4] = y[1], y[5]
-    dy[1], _ = sliding(coin, y)
-    dy[5] = (sliding(coin, upper)[0] - sliding(coin, lower)[0]) / (2 * near)
-    n = cos(y[0])
-    dy[2] = -coin.slowing * (y[2] - n * y[3]) - coin.own_slowing * n * y[3]
-    dy[3] = -coin.own_slowing * y[3]
+def flow(coin: Coin, y: Array) -> Array:
+    """Return the rates of coins in contact, each a row as in `sliding`, (n, 4)."""
+    n, rates = np.cos(y[:, 0]), np.empty_like(y)
+    rates[:, 0], rates[:, 3] = y[:, 1], -coin.own_slowing * y[:, 3]
+    rates[:, 2] = -coin.slowing * (y[:, 2] - n * y[:, 3]) + n * rates[:, 3]
+    for k in range(len(y)):
+        rates[k, 1] = sliding(coin, y[k])[0]
+    return rates
 
 
 @njit(cache=True)
-def tilt_of(coin: Coin, state: Array) -> tuple[float, float]:
-    """Return s and its rate."""
+def in_contact(coin: Coin, state: Array) -> Array:
+    """Return a state as it is in `sliding`."""
     n, rate = lean(coin, state)
-    return acos(n), -rate / sine_of(n)
+    return np.array([acos(n), -rate / sine_of(n), state[L_Z], state[L_ZETA]])
 
 
 @njit(cache=True)
-def set_contact(coin: Coin, state: Array, tilt: float, rate: float) -> None:
-    """Give a state this tilt and its rate, with its lowest point on the floor."""
-    n, sine = cos(tilt), sin(tilt)
-    state[Z] = sine + coin.half * abs(n)
-    state[V] = (n - coin.half * np.sign(n) * sine) * rate
-    set_lean(coin, state, n, -sine * rate)
+def set_contact(coin: Coin, state: Array, y: Array) -> None:
+    """Give a state what is in `sliding`, with its lowest point on the floor."""
+    n, sine = cos(y[0]), sin(y[0])
+    state[Z], state[L_Z], state[L_ZETA] = sine + coin.half * abs(n), y[2], y[3]
+    state[V] = (n - coin.half * np.sign(n) * sine) * y[1]
+    set_lean(coin, state, n, -sine * y[1])
 
 
 @njit(cache=True)
-def slide(coin: Coin, state: Array, change: Array) -> tuple[float, int, bool]:
+def slide(coin: Coin, state: Array, change: Array) -> tuple[float, bool]:
     """Follow a contact until the coin lifts off, lands flat or on its other rim, or its face is settled.
 
     Returns:
-        The largest change of the tilt before the coin last goes over its rim, how often it goes over its rim,
-        and whether this never ends.
+        The largest change of the tilt before the coin last goes over its rim, 0 if it does not; and whether
+        the contact never ends.
     """
-    y = np.zeros(6)
-    rates, largest, most, passes, turns = np.zeros((4, 6)), LYING, LYING, 0, 0
     lower, upper, over = neighbours(state, change)
-    y[:2], y[2], y[3] = tilt_of(coin, state), state[L_Z], state[L_ZETA]
-    for k in range(2):
-        y[4 + k] = (tilt_of(coin, upper)[k] - tilt_of(coin, lower)[k]) * over
-    ends = False
-    while not ends and sin(y[0]) > FLAT:
-        n, sine, before = cos(y[0]), sin(y[0]), y.copy()
-        turning = sqrt(y[1] ** 2 + ((y[2] - y[3] * n) / (coin.inertia * sine)) ** 2)
-        step = TURN * sine / (turning + 1)
-        for k, part in enumerate((0.0, 0.5, 0.5, 1.0)):
-            flow(coin, before + part * step * rates[k - 1], rates[k])
-        y += step / 6 * (rates[0] + 2 * rates[1] + 2 * rates[2] + rates[3])
-        over_rim = cos(y[0]) * n < 0
+    largest, counted, turns, ends = 0.0, 0.0, 0, False
+    y = np.stack((in_contact(coin, state), in_contact(coin, lower), in_contact(coin, upper)))
+    while not ends and sin(y[0, 0]) > FLAT:
+        before, rates, n, sine = y.copy(), np.zeros_like(y), cos(y[0, 0]), sin(y[0, 0])
+        across = (y[0, 2] - y[0, 3] * n) / (coin.inertia * sine)
+        step = TURN * sine / (sqrt(y[0, 1] ** 2 + across**2) + 1)
+        for part, weight in ((0.0, 1), (0.5, 2), (0.5, 2), (1.0, 1)):
+            rates = flow(coin, before + part * step * rates)
+            y += step * weight / 6 * rates
+        over_rim = cos(y[0, 0]) * n < 0
         if over_rim:
-            passes, most = passes + 1, largest
-        turns += y[1] * before[1] < 0
-        largest = max(largest, abs(y[4]))
-        set_contact(coin, state, y[0], y[1])
-        state[L_Z], state[L_ZETA] = y[2], y[3]
-        ends = sliding(coin, y)[1] < 0 or (over_rim and coin.half > 0)
-        ends = ends or energy(coin, state) < passing(coin, state) or (turns >= PERIOD and coin.slowing == 0)
-    near = NEAR / (abs(y[4]) + abs(y[5]) + 1e-300)
-    lower, upper = state.copy(), state.copy()
-    set_contact(coin, lower, y[0] - near * y[4], y[1] - near * y[5])
-    set_contact(coin, upper, y[0] + near * y[4], y[1] + near * y[5])
-    set_contact(coin, state, y[0], y[1])
-    change[:] = (upper - lower) / (2 * near)
-    wrap(change, 1 / (2 * near))
-    if sin(y[0]) < FLAT:
+            counted = largest
+        turns += y[0, 1] * before[0, 1] < 0
+        largest = max(largest, abs(y[2, 0] - y[1, 0]) * over)
+        set_contact(coin, state, y[0])
+        ends = sliding(coin, y[0])[1] < 0 or above(coin, state) < 0 or (over_rim and coin.half > 0)
+        ends = ends or (turns == PERIOD and coin.slowing == 0)
+    set_contact(coin, lower, y[1])
+    set_contact(coin, upper, y[2])
+    change[:] = difference(lower, upper, over)
+    if sin(y[0, 0]) < FLAT:
         state[ANGLE] = -state[ANGLE]
-    return most, passes, turns >= PERIOD and coin.slowing == 0
+    return counted, turns == PERIOD and coin.slowing == 0
 
 
 @njit(cache=True)
-def bounce(coin: Coin, state: Array, change: Array, rng: np.random.Generator) -> Array:
-    """Toss until the coin's face is settled, or it stays in contact for ever; return a row of `Bounced`.
+def bounce(coin: Coin, state: Array, change: Array, rng: np.random.Generator) -> tuple[float, int]:
+    """Toss until the coin's face is settled, or it turns over for ever.
 
     At an apex above `reach` the angle is redrawn if the coin has turned by π since its touch. A stretch
     counts at each touch, as in `chain`; once the coin has been in contact, when it goes over its rim. Of a
@@ -305,12 +269,16 @@ def bounce(coin: Coin, state: Array, change: Array, rng: np.random.Generator) ->
 
     Args:
         coin: the coin.
-        state: in flight, (6,); moved.
-        change: of the state, (6,); moved.
+        state: in flight, (7,); moved.
+        change: of the state, (7,); moved.
         rng: draws the angles.
+
+    Returns:
+        The logarithm of the largest stretch of an angle over what the change was at release, and how often
+        the coin came into contact.
     """
-    known, most, counted, first, contacts, passes, touches, endless = 0.0, -inf, -inf, -inf, 0, 0, 0, False
-    while energy(coin, state) > passing(coin, state) and not endless:
+    known, most, counted, first, contacts, touches, endless = 0.0, -inf, -inf, -inf, 0, 0, False
+    while above(coin, state) > 0 and not endless:
         if state[V] * state[SPIN] > pi and state[Z] + state[V] ** 2 / 2 > reach(coin):
             rise, more = state[V], change[V]
             fly(coin, state, change, rise)
@@ -320,50 +288,36 @@ def bounce(coin: Coin, state: Array, change: Array, rng: np.random.Generator) ->
             state[ANGLE] = rng.uniform(0.0, 2 * pi)
         time, before = next_touch(coin, state), lean(coin, state)[0]
         fly(coin, state, change, time)
-        if contacts == 0 or state[SPIN] * time > pi or lean(coin, state)[0] * before < 0:
-            counted = max(counted, most)
+        if state[SPIN] * time > pi or lean(coin, state)[0] * before < 0:
+            counted = most
         leaves, size = strike(coin, state, change)
+        known += log(max(size, LYING))
+        most = max(most, known)
+        change /= max(size, LYING)
+        first = first if contacts else most
+        if above(coin, state) > 0 and dies_out(coin, state, leaves):
+            contacts += 1
+            grown, endless = slide(coin, state, change)
+            if grown > 0:
+                counted = max(most, known + log(grown))
         touches += 1
-        if size > 0:
-            known += log(size)
-            most = max(most, known)
-            change /= size
-        if energy(coin, state) > passing(coin, state) and dies_out(coin, state, leaves):
-            first, contacts = (most if contacts == 0 else first), contacts + 1
-            grown, over, endless = slide(coin, state, change)
-            passes += over
-            if over:
-                counted = max(counted, most, known + log(grown))
         endless = endless or touches == MOST_TOUCHES
-    if contacts == 0:
-        first = most
-    return np.array([first if endless else max(first, counted), contacts, passes, touches, endless])
+    return (max(first, counted) if contacts and not endless else first), contacts
 
 
 @njit(cache=True)
 def bounce_all(coin: Coin, states: Array, rng: np.random.Generator) -> Array:
-    """Return what `bounce` does of several tosses, (n, 5), for a difference of their heights."""
-    found = np.empty((len(states), 5))
+    """Return what `bounce` does of several tosses, (n, 2), for a difference of their heights."""
+    found = np.empty((len(states), 2))
     for i in range(len(states)):
         change = np.zeros(SIZE)
         change[Z] = 1.0
-        found[i] = bounce(coin, states[i], change, rng)
+        found[i, 0], found[i, 1] = bounce(coin, states[i], change, rng)
     return found
 
 
-def predicted(scenario: Scenario, states: Array, rng: np.random.Generator) -> Bounced:
-    """Return how tosses go by the chain.
-
-    Args:
-        scenario: coin, air and floor.
-        states: at release, (n, 13).
-        rng: draws the angles.
-    """
-    return Bounced(*bounce_all(coin_of(scenario), started(scenario, states), rng).T)
-
-
 def started(scenario: Scenario, states: Array) -> Array:
-    """Return releases as states of the coin in space, (n, 6).
+    """Return releases as states of the coin in space, (n, 7).
 
     Args:
         scenario: coin, air and floor.

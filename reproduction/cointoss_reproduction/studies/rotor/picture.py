@@ -1,4 +1,4 @@
-"""What the study of the rotor shows: a rotor that hops, the map of its touches, f and α by the chain."""
+"""What the study of the rotor shows: a rotor that hops, the map of its touches, f and α; and a contact."""
 
 from math import pi
 
@@ -7,9 +7,17 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from cointoss import analytic
 from cointoss.study import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILION, Array
+from cointoss_reproduction.setups.planar_maps import case
 from cointoss_reproduction.studies.rotor.chain import ANGLE, SPIN, Coin, V, Z, fly, next_touch, strike
+from cointoss_reproduction.studies.rotor.in_space import above, lean, started
+from cointoss_reproduction.studies.rotor.splitting import coin_of
 
+SLIDES = case(air=True, restitution=0.3).replace(
+    "release.position.z", 0.3, "release.angular_velocity", (2.0, 36.0, 6.0)
+)
+"""A coin whose bounces die out while it can still go over its rim."""
 COLORS = {0.3: GREEN, 0.6: BLUE, 0.8: ORANGE, 0.9: PURPLE}
 """Restitutions whose curves are drawn."""
 SHOWN = Coin(inertia=0.25, half=0.0, restitution=0.6, rough=False, slowing=0.0, drag=0.0)
@@ -18,6 +26,34 @@ ROTOR = (1.0, 0.8, 1.06, 10.0, 0.0)
 TOUCHES = 3
 SLOW, SPUN = 1e-3, 2000.0
 """ν and ω of the rotor whose next touch is mapped."""
+
+
+def draw_contact(_cells: pd.DataFrame) -> Figure:
+    """Draw the tilt of a coin that comes into contact above the pass, in its potential and over time."""
+    picture, tossed = Figure(figsize=(11, 4)), analytic.toss(SLIDES)
+    well, over_time = picture.subplots(1, 2)
+    times = np.linspace(0, tossed.end_time, 4000)
+    path = tossed.path.sample(times)
+    states = started(
+        SLIDES, np.hstack([path.position, path.velocity, path.quaternion, path.angular_velocity])
+    )
+    coin, held = coin_of(SLIDES), np.zeros(len(times), dtype=bool)
+    for start, end in tossed.contacts:
+        held |= (times >= start) & (times < end)
+    tilt = np.array([np.arccos(lean(coin, state)[0]) for state in states])
+    energies = np.array([above(coin, state) + 1 for state in states])
+    _, _, _, _, _, up, own = states[held][0]
+    s = np.linspace(0.02, pi - 0.02, 400)
+    well.plot(s, np.sin(s) + (up - own * np.cos(s)) ** 2 / (2 * coin.inertia * np.sin(s) ** 2), color=INK)
+    for part, color, name in ((~held, BLUE, "flight"), (held, ORANGE, "contact")):
+        well.plot(tilt[part], energies[part], ".", color=color, markersize=2, label=name)
+        over_time.plot(times[part], tilt[part], ".", color=color, markersize=2)
+    well.axhline(1, color=GREY, linestyle="--")
+    well.set(title="the line is V(s)", xlabel="tilt s", ylabel="energy [m g r]", ylim=(0, 2.5))
+    well.legend(fontsize="small")
+    over_time.axhline(pi / 2, color=GREY, linestyle="--")
+    over_time.set(title="dashed: the pass", xlabel="time [s]", ylabel="tilt s")
+    return picture
 
 
 def draw(cells: pd.DataFrame) -> Figure:

@@ -25,9 +25,9 @@ from cointoss_reproduction.setups.uncertain_shares import (
     share_at,
     slope_between,
 )
-from cointoss_reproduction.studies.rotor.in_space import predicted
+from cointoss_reproduction.studies.rotor.in_space import bounce_all, started
 from cointoss_reproduction.studies.rotor.law import asked, exponent, logarithm
-from cointoss_reproduction.studies.rotor.picture import draw
+from cointoss_reproduction.studies.rotor.picture import draw, draw_contact
 from cointoss_reproduction.studies.rotor.splitting import coin_of, shares_beyond
 
 SEED = 54
@@ -50,8 +50,8 @@ FLAT = (0, 0, 0, 1, 0, 0, 0)
 """At rest, with the attitude of a coin that lies [m/s, Euler parameters]."""
 UP = np.eye(13)[2]
 """More height, of a state at release."""
-FINER = 1e-13
-"""The error allowed in a step of contact where it is compared with the usual one."""
+FINER = analytic.AnalyticSettings(contact_tolerance=1e-13)
+"""Steps of contact whose error is 10⁴ times smaller than usual."""
 WOBBLES = {"flat, in one plane": 0.0, "flat, wobble 3 rad/s": 3.0, "in any attitude": inf}
 """Standard deviation of the spin about the other axes [rad/s]."""
 TUMBLERS = {
@@ -61,6 +61,8 @@ TUMBLERS = {
     for thick in (False, True)
     for air in (True, False)
 }
+FEW = (0.3, 0.6)
+"""Restitutions at which coins other than the first are compared."""
 SPACE_ACCURACIES = (1e-3, 1e-6, 1e-9, 1e-12)
 """Accuracies at which coins in space are compared [m]."""
 TABLE = load("table").replace("ending.test", "rigorous")
@@ -116,7 +118,8 @@ def rows_of(shares: Array) -> Iterator[dict[str, Any]]:
 
 def with_ratio(row: Mapping[str, Any], counted: Any) -> dict[str, Any]:
     """Return a row with what was counted, and what is predicted over that where its interval excludes 0."""
-    return {**row, "counted": counted, "ratio": ratio(row["predicted"], counted)}
+    met = isinstance(counted, Estimate) and ratio(row["predicted"], counted)
+    return {**row, "counted": counted, "ratio": met or None}
 
 
 def go_on(far: float, tosses: int = 20_000, decades: int = DECADES) -> Iterator[dict[str, Any]]:
@@ -150,46 +153,51 @@ def thick(
 
 
 def tumbling(
-    coin: str, released: float, tossed: float, chained: int = 20_000, tumblers: int = 20_000
+    coin: str, released: float, tossed: float, chained: int = 5000, tumblers: int = 6000
 ) -> Iterator[dict[str, Any]]:
     """Yield f of a coin that does not keep its plane, split by whether it comes into sustained contact.
 
     Args:
-        coin: one of `TUMBLERS`.
+        coin: one of `TUMBLERS`; the first at every restitution, others at `FEW`, out of one plane.
         released: standard deviation of its spin about the other axes; in any attitude where infinite [rad/s].
         tossed: restitution.
         chained: tosses by the chain.
-        tumblers: tosses by the engine.
+        tumblers: tosses by the engine; a third in vacuum, where they last longer.
     """
     kind = TUMBLERS[coin]
+    if (kind.thick or not kind.air) and (released == 0 or tossed not in FEW):
+        return
     scenario = kind.scenario.replace("floor.restitution", tossed)
-    chain = predicted(scenario, releases(kind, released, chained), np.random.default_rng(SEED))
-    counts = counted(scenario, releases(kind, released, tumblers), SPACE_ACCURACIES)
-    for accuracy, by_engine in zip(SPACE_ACCURACIES, counts, strict=True):
-        by_chain = split(chain.contacts > 0, chain.stretch > log(scenario.coin.radius / accuracy))
-        ratios = {f"{name}_ratio": ratio(by_chain[name], by_engine[name]) for name in by_chain}
-        yield (
-            {"accuracy": accuracy}
-            | {f"predicted_{name}": by_chain[name] for name in by_chain}
-            | by_engine
-            | ratios
-        )
+    starts = started(scenario, releases(kind, released, chained))
+    stretch, contacts = bounce_all(coin_of(scenario), starts, np.random.default_rng(SEED)).T
+    states = releases(kind, released, tumblers if kind.air else tumblers // 3)
+    finer = outcomes(scenario, states, FINER) != outcomes(scenario, states)
+    for accuracy, by_engine in counted(scenario, states, SPACE_ACCURACIES):
+        parted = stretch > log(scenario.coin.radius / accuracy)
+        by_chain = {name: capped(each) for name, each in split(contacts > 0, parted).items()}
+        yield {
+            "accuracy": accuracy,
+            **{f"predicted_{name}": each for name, each in by_chain.items()},
+            **by_engine,
+            **{f"{name}_ratio": ratio(by_chain[name], by_engine[name]) for name in by_chain},
+            "rounded": share(finer),
+        }
 
 
-def on_floors(real: str, tumblers: int = 20_000) -> Iterator[dict[str, Any]]:
+def on_floors(real: str, rolled: int = 1000) -> Iterator[dict[str, Any]]:
     """Yield f of a coin on one of `REAL` floors, tossed in one plane and in any attitude.
 
     Args:
         real: its name.
-        tumblers: tosses by the engine.
+        rolled: tosses by the engine.
     """
-    kind = TUMBLERS["2 mm, air"]
     plane, any_ = (
-        counted(REAL[real], releases(kind, wobble, tumblers), SPACE_ACCURACIES[:3]) for wobble in (0.0, inf)
+        counted(REAL[real], releases(TUMBLERS["2 mm, air"], wobble, rolled), SPACE_ACCURACIES[:2])
+        for wobble in (0.0, inf)
     )
-    for accuracy, flat, turned in zip(SPACE_ACCURACIES[:3], plane, any_, strict=True):
-        names = {f"{name}_in_plane": each for name, each in flat.items()}
-        yield {"accuracy": accuracy} | names | turned | {"times": ratio(turned["f"], flat["f"])}
+    for (accuracy, flat), (_, turned) in zip(plane, any_, strict=True):
+        in_plane = {f"{name}_in_plane": each for name, each in flat.items()}
+        yield {"accuracy": accuracy, **in_plane, **turned, "times": ratio(turned["f"], flat["f"])}
 
 
 def releases(kind: CoinClass, wobble: float, count: int) -> Array:
@@ -201,38 +209,56 @@ def releases(kind: CoinClass, wobble: float, count: int) -> Array:
     return states
 
 
-def counted(scenario: Scenario, states: Array, accuracies: Sequence[float]) -> Iterator[dict[str, Any]]:
-    """Yield `split` of an engine's tosses at each accuracy, and the share that a finer contact changes.
+def outcomes(
+    scenario: Scenario, states: Array, settings: analytic.AnalyticSettings = analytic.MANY
+) -> NDArray[np.int8]:
+    """Return how tosses end, (n,).
+
+    Args:
+        scenario: coin, air and floor.
+        states: at release, (n, 13).
+        settings: of the engine.
+    """
+    return analytic.toss_rows(rows_from_states(scenario, states), settings=settings).outcome
+
+
+def counted(
+    scenario: Scenario, states: Array, accuracies: Sequence[float]
+) -> Iterator[tuple[float, dict[str, Any]]]:
+    """Yield each accuracy [m], and `split` of an engine's tosses there.
 
     Args:
         scenario: coin, air and floor.
         states: at release, (n, 13).
         accuracies: of the height [m].
     """
-    rows = rows_from_states(scenario, states)
-    outcome = analytic.toss_rows(rows).outcome
-    finer = analytic.toss_rows(rows, settings=analytic.AnalyticSettings(contact_tolerance=FINER)).outcome
     held = np.array([len(run(scenario.body, scenario.rules, state).contacts) > 0 for state in states])
     for accuracy in accuracies:
-        parted = differ(lambda step: rows_from_states(scenario, states + step * UP), accuracy, outcome)
-        yield split(held, parted) | {"rounded": share(finer != outcome)}
+        yield accuracy, split(held, differ(lambda step: outcomes(scenario, states + step * UP), accuracy))
 
 
-def differ(rows: Callable[[float], Array], step: float, outcome: NDArray[np.int8]) -> NDArray[np.bool_]:
-    """Return whether tosses with this much more or less height end with another outcome, (n,)."""
-    sides = [analytic.toss_rows(rows(each)).outcome != outcome for each in (-step, step)]
-    return sides[0] | sides[1]
+def differ(tossed: Callable[[float], NDArray[np.int8]], step: float) -> NDArray[np.bool_]:
+    """Return whether tosses with this much more or less height end with another outcome, (n,).
+
+    Args:
+        tossed: their outcomes with so much more height.
+        step: of the height [m].
+    """
+    below, usual, above = (tossed(side * step) for side in (-1, 0, 1))
+    return (below != usual) | (above != usual)
 
 
-def split(held: NDArray[np.bool_], parted: NDArray[np.bool_]) -> dict[str, Any]:
+def split(held: NDArray[np.bool_], parted: NDArray[np.bool_]) -> dict[str, Estimate]:
     """Return the share in contact, f of those that never are and of those that are, and f.
 
     Args:
         held: whether a toss comes into contact before its face is settled, (n,).
         parted: whether it is uncertain, (n,).
     """
-    parts = {"contact": held, "never": parted[~held], "do": parted[held], "f": parted}
-    return {name: capped(share(each)) if len(each) else None for name, each in parts.items()}
+    return {
+        name: share(each)
+        for name, each in (("contact", held), ("never", parted[~held]), ("do", parted[held]), ("f", parted))
+    }
 
 
 def capped(f: Estimate) -> Estimate:
@@ -241,9 +267,9 @@ def capped(f: Estimate) -> Estimate:
     return Estimate(value, low, high, f.count, f.counted)
 
 
-def ratio(predicted: Estimate | None, counted: Estimate | None) -> Estimate | None:
+def ratio(predicted: Estimate, counted: Estimate) -> Estimate | None:
     """Return what is predicted over what is counted, where the latter's interval excludes 0."""
-    return quotient(predicted, counted) if predicted and counted and counted.low > 0 else None
+    return quotient(predicted, counted) if counted.low > 0 else None
 
 
 def paired(scenario: Scenario, rows: Callable[[float], Array], tosses: int) -> Iterator[dict[str, Any]]:
@@ -254,9 +280,10 @@ def paired(scenario: Scenario, rows: Callable[[float], Array], tosses: int) -> I
         rows: the tosses of the analytic engine with so much more height.
         tosses: of the chain, at each level.
     """
-    outcome = analytic.toss_rows(rows(0.0)).outcome
     for row in rows_of(by_chain(scenario, len(PAIRED), tosses)):
-        yield with_ratio(row, share(differ(rows, row["accuracy"], outcome)))
+        yield with_ratio(
+            row, share(differ(lambda step: analytic.toss_rows(rows(step)).outcome, row["accuracy"]))
+        )
 
 
 def found(cells: pd.DataFrame) -> dict[str, Any]:
@@ -288,5 +315,5 @@ REPRODUCTION = study(
     Cells(tumbling, {"coin": tuple(TUMBLERS), "released": WOBBLES, "tossed": (0.2, 0.3, 0.6, 0.9)}),
     Cells(on_floors, {"real": tuple(REAL)}),
     found=found,
-    draw={"rotor": draw},
+    draw={"rotor": draw, "contact": draw_contact},
 )
