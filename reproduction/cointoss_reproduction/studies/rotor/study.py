@@ -158,19 +158,22 @@ def tumbling(
     """Yield f of a coin that does not keep its plane, split by whether it comes into sustained contact.
 
     Args:
-        coin: one of `TUMBLERS`; the first at every restitution, others at `FEW`, out of one plane.
+        coin: one of `TUMBLERS`; the first at every restitution, others at `FEW` out of one plane, in vacuum
+            with a wobble: those of any attitude may turn over for very long.
         released: standard deviation of its spin about the other axes; in any attitude where infinite [rad/s].
         tossed: restitution.
         chained: tosses by the chain.
-        tumblers: tosses by the engine; a third in vacuum, where they last longer.
+        tumblers: tosses by the engine; a third in vacuum and above `FEW`, where they last longer.
     """
     kind = TUMBLERS[coin]
-    if (kind.thick or not kind.air) and (released == 0 or tossed not in FEW):
+    if (kind.thick or not kind.air) and (tossed not in FEW or released == 0):
+        return
+    if not kind.air and released == inf:
         return
     scenario = kind.scenario.replace("floor.restitution", tossed)
     starts = started(scenario, releases(kind, released, chained))
     stretch, contacts = bounce_all(coin_of(scenario), starts, np.random.default_rng(SEED)).T
-    states = releases(kind, released, tumblers if kind.air else tumblers // 3)
+    states = releases(kind, released, tumblers if kind.air and tossed <= max(FEW) else tumblers // 3)
     finer = outcomes(scenario, states, FINER) != outcomes(scenario, states)
     for accuracy, by_engine in counted(scenario, states, SPACE_ACCURACIES):
         parted = stretch > log(scenario.coin.radius / accuracy)
