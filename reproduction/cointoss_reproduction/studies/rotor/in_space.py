@@ -34,6 +34,8 @@ FLAT = 1e-5
 """Sine of the tilt below which a coin in contact lands on its face."""
 LYING = 1e-12
 """The least sine of a tilt, by which rates of n are divided."""
+GRAZE = 1e-7
+"""A point that touches at less speed is only leaving a contact, and carries no change through an impact."""
 TURN = 0.1
 """The angle of a step of contact, over the sine of the tilt."""
 NEAR = 1e-6
@@ -161,16 +163,19 @@ def strike(coin: Coin, state: Array, change: Array) -> tuple[float, float]:
     """Apply an impact and its derivative; return how fast the point leaves, and the change of φ there."""
     lower, upper, over = neighbours(state, change)
     closed = (depth(coin, upper) - depth(coin, lower)) * over - change[Z]
-    later = closed / min(rebound(coin, state.copy()), -LYING)
-    shift(state, change, later)
+    before = state.copy()
+    approach = rebound(coin, state)
+    if approach > -GRAZE:
+        return 0.0, abs(change[ANGLE])
+    later = closed / approach
+    shift(before, change, later)
     turned = abs(change[ANGLE])
-    lower, upper, over = neighbours(state, change)
+    lower, upper, over = neighbours(before, change)
     rebound(coin, lower)
     rebound(coin, upper)
-    normal = rebound(coin, state)
     change[:] = difference(lower, upper, over)
     shift(state, change, -later)
-    return -coin.restitution * normal, turned
+    return -coin.restitution * approach, turned
 
 
 @njit(cache=True)

@@ -158,8 +158,7 @@ def tumbling(
     """Yield f of a coin that does not keep its plane, split by whether it comes into sustained contact.
 
     Args:
-        coin: one of `TUMBLERS`; the first at every restitution, others at `FEW` out of one plane, in vacuum
-            with a wobble: those of any attitude may turn over for very long.
+        coin: one of `TUMBLERS`; the first at every restitution, others at `FEW` out of one plane.
         released: standard deviation of its spin about the other axes; in any attitude where infinite [rad/s].
         tossed: restitution.
         chained: tosses by the chain.
@@ -167,8 +166,6 @@ def tumbling(
     """
     kind = TUMBLERS[coin]
     if (kind.thick or not kind.air) and (tossed not in FEW or released == 0):
-        return
-    if not kind.air and released == inf:
         return
     scenario = kind.scenario.replace("floor.restitution", tossed)
     starts = started(scenario, releases(kind, released, chained))
