@@ -1,30 +1,46 @@
-"""The bouncing rotor: its map in closed form, the chain's events against the engine, splitting, the law."""
+"""The bouncing rotor: its map in closed form, the chain against the engine, splitting, the law."""
 
 from itertools import pairwise
-from math import pi
+from math import inf, pi
 
 import numpy as np
 import pytest
 from scipy.special import beta
 
 from cointoss import analytic
+from cointoss.study import run, share
+from cointoss_reproduction.setups.general_coins import CoinClass
 from cointoss_reproduction.setups.planar_maps import case
-from cointoss_reproduction.studies.rotor import law
+from cointoss_reproduction.setups.uncertain_shares import CEILING
+from cointoss_reproduction.studies.rotor import law, study
 from cointoss_reproduction.studies.rotor.chain import (
-    ANGLE,
-    SPIN,
+    COUNTED,
+    MOMENTUM,
+    NORMAL,
+    POSITION,
+    TINY,
+    VELOCITY,
     Coin,
-    V,
-    Z,
-    depth,
-    energy,
+    above,
+    bounce_all,
+    dies_out,
+    dot,
     fly,
     next_touch,
-    stretch_all,
+    slide,
+    spin,
     strike,
+    tilt,
+    unknown,
 )
 from cointoss_reproduction.studies.rotor.law import eigenvalue, exponent, moment
-from cointoss_reproduction.studies.rotor.splitting import coin_of, shares_beyond
+from cointoss_reproduction.studies.rotor.splitting import (
+    coin_of,
+    planar,
+    shares_beyond,
+    started,
+    turned_back,
+)
 
 THIN = Coin(inertia=0.25, half=0.0, restitution=0.6, rough=False, slowing=0.0, drag=0.0)
 COINS = {
@@ -33,53 +49,64 @@ COINS = {
     "rough": THIN._replace(rough=True),
     "thick, rough": THIN._replace(half=0.3, inertia=0.28, rough=True),
 }
+VACUUM = {thick: CoinClass(thick=thick, imperfect=False, air=False, coulomb=False) for thick in (False, True)}
 
 
 @pytest.mark.parametrize("depth_of_dip", [0.01, 0.2, 0.9])
 def test_the_equations_of_motion_give_the_map(depth_of_dip):
-    nu, spin = 1e-5, 1e5
+    nu, fast = 1e-5, 1e5
     dip = depth_of_dip * pi * nu
     # Half a turn before it, so that the passage before has just missed the floor.
-    state = np.array([1 - (dip - pi * nu) - nu**2 / 2, -nu * spin, nu - pi / 2, spin, 0.0])
-    fly(THIN, state, np.zeros(5), next_touch(THIN, state))
-    before = energy(THIN, state)
-    strike(THIN, state, np.zeros(5))
-    after = state[V] / state[SPIN]
+    state = planar(THIN, 1 - (dip - pi * nu) - nu**2 / 2, -nu * fast, nu - pi / 2, fast)
+    fly(THIN, state, next_touch(THIN, state))
+    before = above(THIN, state)
+    strike(THIN, state)
+    after = state[VELOCITY, 2].real / spin(THIN, state)
     fall = np.sqrt(2 * dip)
     assert after + nu == pytest.approx((1 + THIN.restitution) * fall, rel=2 * fall)
-    lost = (1 - THIN.restitution) / (1 + THIN.restitution) * spin**2 / 2 * (nu + after) ** 2
-    assert before - energy(THIN, state) == pytest.approx(lost, rel=4 * fall)
+    lost = (1 - THIN.restitution) / (1 + THIN.restitution) * fast**2 / 2 * (nu + after) ** 2
+    assert before - above(THIN, state) == pytest.approx(lost, rel=4 * fall)
 
 
 def test_air_slows_a_flight_by_its_closed_form_to_second_order():
     drag, time = 1e-3, 2.0
-    state, change = np.array([9.0, 1.0, 0.0, 1.0, 0.5]), np.array([0.0, 1.0, 0.0, 1.0, 0.5])
-    fly(THIN._replace(drag=drag, slowing=2 * drag), state, change, time)
-    slower = np.exp(-drag * time)
-    assert change == pytest.approx([time, slower, time, slower**2, 0.5 * slower])
-    assert state == pytest.approx([9, slower - (1 - slower) / drag, time, slower**2, 0.5 * slower], rel=1e-6)
+    coin = THIN._replace(drag=drag, slowing=2 * drag, own_slowing=3 * drag)
+    state, slower = planar(coin, 9.0, 1.0, 0.0, 1.0), np.exp(-drag * time)
+    state[MOMENTUM] += 0.5 * state[NORMAL]
+    fly(coin, state, time)
+    assert state[[POSITION, VELOCITY], 2] == pytest.approx([9, slower - (1 - slower) / drag], rel=1e-6)
+    along = dot(state, MOMENTUM, NORMAL)
+    across = np.sqrt(dot(state, MOMENTUM, MOMENTUM) - along**2)
+    assert (along, across) == pytest.approx((0.5 * slower**3, coin.inertia * slower**2))
 
 
-def in_flight_again(coin, state, change):
-    """Move a state and its change past two touches, to the same time of the flight that follows."""
+def in_flight_again(coin, state):
+    """Move a state past two touches, to the same time of the flight that follows."""
     rest = 6.0
     for _ in range(2):
         time = next_touch(coin, state)
-        fly(coin, state, change, time)
-        strike(coin, state, change)
+        fly(coin, state, time)
+        strike(coin, state)
         rest -= time
-    fly(coin, state, change, rest)
+    fly(coin, state, rest)
     return state
 
 
+@pytest.mark.parametrize("up", [0.0, 0.2])
 @pytest.mark.parametrize("name", COINS)
-def test_a_change_is_carried_by_the_derivative(name):
-    """Of flights and touches; two coins that start apart are the referee."""
+def test_a_change_is_carried_by_the_derivative(name, up):
+    """Of flights and touches, in a plane and with L_z; two coins that start apart are the referee."""
     coin, step = COINS[name], 1e-7
-    start, change = np.array([3.0, -0.2, 0.4, 2.5, 0.1]), np.array([0.3, -0.5, 0.7, 0.2, -0.4])
-    lower, upper = (in_flight_again(coin, start + at * change, np.zeros(5)) for at in (-step, step))
-    in_flight_again(coin, start, change)
-    assert change == pytest.approx((upper - lower) / (2 * step), rel=1e-5)
+
+    def released(part):
+        state = planar(coin, 3.0 + 0.3 * part, -0.2 - 0.5 * part, 0.4 + 0.7 * part, 2.5 + 0.2 * part)
+        state[VELOCITY, 1] = 0.1 - 0.4 * part
+        state[MOMENTUM, 2] = 0.0 if coin.rough else up
+        return state
+
+    lower, upper = (in_flight_again(coin, released(part)) for part in (-step, step))
+    found = in_flight_again(coin, released(TINY * 1j)).imag / TINY
+    assert found == pytest.approx((upper - lower).real / (2 * step), rel=1e-5, abs=1e-6)
 
 
 @pytest.mark.parametrize("law", ["smooth", "perfectly_rough"])
@@ -89,38 +116,81 @@ def test_touches_are_the_engines(law, thickness):
         "floor.contact", law, "coin.thickness", thickness, "release.position.z", 0.31
     )
     tossed = analytic.toss(scenario)
-    coin, length = coin_of(scenario), scenario.coin.radius
-    unit = np.sqrt(length / scenario.gravity)
-    spin = scenario.release.angular_velocity[0] * unit
-    state, now = np.array([0.31 / length, 0.0, 0.0, spin, 0.0]), 0.0
+    coin, unit = coin_of(scenario), np.sqrt(scenario.coin.radius / scenario.gravity)
+    turning = scenario.release.angular_velocity[0] * unit
+    state, now = planar(coin, 0.31 / scenario.coin.radius, 0.0, 0.0, turning), 0.0
     for touched in tossed.impacts.time[:4]:
         time = next_touch(coin, state)
-        fly(coin, state, np.zeros(5), time)
+        fly(coin, state, time)
         now += time
-        strike(coin, state, np.zeros(5))
+        strike(coin, state)
         assert now * unit == pytest.approx(touched, rel=1e-10)
+
+
+@pytest.mark.parametrize("thick", VACUUM)
+def test_touches_and_contact_in_space_are_the_engines(thick):
+    """A contact begins at the engine's time, and the tilt is the engine's where it ends."""
+    kind = VACUUM[thick]
+    coin, unit, compared = coin_of(kind.scenario), np.sqrt(0.0125 / kind.scenario.gravity), 0
+    states = study.releases(kind, inf, 60)
+    for start, state in zip(states, started(kind.scenario, states), strict=True):
+        tossed, touches, held = run(kind.scenario.body, kind.scenario.rules, start), [0.0], False
+        while above(coin, state) > 0 and not held and len(touches) < 60:
+            time = next_touch(coin, state)
+            fly(coin, state, time)
+            touches.append(touches[-1] + time * unit)
+            held = dies_out(coin, state, strike(coin, state)[0])
+        assert touches[1:3] == pytest.approx(tossed.rows["time"][: len(touches[1:3])], rel=1e-6)
+        if held and len(tossed.contacts) and abs(tossed.contacts[0, 0] - touches[-1]) < 1e-4:
+            slide(coin, state)
+            end = tossed.started.states[np.searchsorted(tossed.started.times, tossed.contacts[0, 1])]
+            n_z = 1 - 2 * (end[7] ** 2 + end[8] ** 2)
+            compared += abs(state[NORMAL, 2].real - n_z) < 0.1
+    assert compared > 5
 
 
 def test_the_gap_is_open_before_the_touch_and_closed_there():
     rng = np.random.default_rng(3)
     for coin in COINS.values():
         for _ in range(50):
-            state = np.array([rng.uniform(1.1, 4), rng.normal(), rng.uniform(0, 6), rng.normal(0, 5), 0.0])
+            state = planar(coin, rng.uniform(1.1, 4), rng.normal(), rng.uniform(0, 6), rng.normal(0, 5))
+            state[MOMENTUM, 1:] = rng.normal(0, 0.5, 2)
             touch = next_touch(coin, state)
             for time in np.linspace(0, touch, 200):
-                q, _ = depth(coin, state[ANGLE] + state[SPIN] * time, state[SPIN])
-                gap = state[Z] + state[V] * time - time**2 / 2 - q
+                moved = state.copy()
+                fly(coin, moved, time)
+                gap = (moved[POSITION, 2] - tilt(coin, moved)[2]).real
                 assert gap > -1e-9
                 assert gap < 1e-9 or time < touch
+
+
+def test_l_z_and_l_zeta_turn_a_coin_back_where_their_potential_is_m_g_r():
+    states = np.array([planar(THIN, 1.0, 0.0, 0.7, turning) for turning in (2.0, 2.0, 3.0)])
+    states[1:, MOMENTUM, 2], states[2, MOMENTUM] = 0.2, states[2, MOMENTUM] + 0.3 * states[2, NORMAL]
+    flat, *others = turned_back(THIN, states)
+    assert flat == 0
+    for state, sine in zip(states[1:], others, strict=True):
+        own, sides = dot(state, MOMENTUM, NORMAL).real, np.sqrt(1 - sine**2) * np.array([-1, 1])
+        potential = (state[MOMENTUM, 2].real - own * sides) ** 2 / (2 * THIN.inertia * sine**2)
+        assert min(potential) == pytest.approx(1)
+
+
+def test_what_part_but_end_alike_counts_for_less():
+    held, parted, apart = np.zeros(8, dtype=bool), np.arange(8) < 4, np.arange(8) % 2 == 0
+    weighed, plain = study.split(held, parted, apart)["f"], share(parted)
+    assert weighed.value == pytest.approx(plain.value * 0.5 / CEILING)
 
 
 @pytest.mark.slow
 def test_splitting_finds_the_shares_of_tosses_that_are_not_split():
     scenario, levels = case(air=False), np.log(0.0125) + np.log(10) * np.arange(3, 9)
-    split = np.array([shares_beyond(scenario, levels, np.random.default_rng(run), 2000) for run in range(10)])
-    plain = [
-        shares_beyond(scenario, levels[-1:], np.random.default_rng(run + 50), 5000)[0] for run in range(10)
-    ]
+
+    def found(levels, seed, tosses):
+        rng = np.random.default_rng(seed)
+        return shares_beyond(scenario, study.planar_states(scenario, rng, 4 * tosses), levels, rng, tosses)
+
+    split = np.array([found(levels, seed, 2000) for seed in range(10)])
+    plain = [found(levels[-1:], seed + 50, 5000)[0] for seed in range(10)]
     means = split[:, -1].mean(), np.mean(plain)
     errors = np.hypot(split[:, -1].std(), np.std(plain)) / 3
     assert abs(means[0] - means[1]) < 4 * errors < means[1]
@@ -154,6 +224,6 @@ def test_the_exponent_is_where_the_moment_grows_as_fast_as_asked(monkeypatch):
 
 
 def test_a_coin_that_cannot_pass_is_let_go():
-    rng = np.random.default_rng(1)
-    states, changes = np.array([[0.9, 0.0, 0.3, 0.1, 0.0]]), np.eye(5)[:1]
-    assert stretch_all(THIN, states, changes, np.zeros(1), 10.0, rng)[0] == -np.inf
+    states, known = planar(THIN, 0.9, 0.0, 0.3, 0.1)[None], unknown(1)
+    bounce_all(THIN, states, known, 10.0, np.random.default_rng(1))
+    assert known[0, COUNTED] == -inf

@@ -8,11 +8,23 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from cointoss import analytic
-from cointoss.study import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILION, Array
+from cointoss.study import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILION
 from cointoss_reproduction.setups.planar_maps import case
-from cointoss_reproduction.studies.rotor.chain import ANGLE, SPIN, Coin, V, Z, fly, next_touch, strike
-from cointoss_reproduction.studies.rotor.in_space import above, lean, started
-from cointoss_reproduction.studies.rotor.splitting import coin_of
+from cointoss_reproduction.studies.rotor.chain import (
+    MOMENTUM,
+    NORMAL,
+    POSITION,
+    VELOCITY,
+    Coin,
+    States,
+    above,
+    dot,
+    fly,
+    next_touch,
+    spin,
+    strike,
+)
+from cointoss_reproduction.studies.rotor.splitting import coin_of, planar, started
 
 SLIDES = case(air=True, restitution=0.3).replace(
     "release.position.z", 0.3, "release.angular_velocity", (2.0, 36.0, 6.0)
@@ -21,7 +33,7 @@ SLIDES = case(air=True, restitution=0.3).replace(
 COLORS = {0.3: GREEN, 0.6: BLUE, 0.8: ORANGE, 0.9: PURPLE}
 """Restitutions whose curves are drawn."""
 SHOWN = Coin(inertia=0.25, half=0.0, restitution=0.6, rough=False, slowing=0.0, drag=0.0)
-ROTOR = (1.0, 0.8, 1.06, 10.0, 0.0)
+ROTOR = planar(SHOWN, 1.0, 0.8, 1.06, 10.0)
 """A rotor that has just left the floor."""
 TOUCHES = 3
 SLOW, SPUN = 1e-3, 2000.0
@@ -40,9 +52,10 @@ def draw_contact(_cells: pd.DataFrame) -> Figure:
     coin, held = coin_of(SLIDES), np.zeros(len(times), dtype=bool)
     for start, end in tossed.contacts:
         held |= (times >= start) & (times < end)
-    tilt = np.array([np.arccos(lean(coin, state)[0]) for state in states])
+    tilt = np.arccos(states[:, NORMAL, 2].real)
     energies = np.array([above(coin, state) + 1 for state in states])
-    _, _, _, _, _, up, own = states[held][0]
+    first = states[held][0]
+    up, own = first[MOMENTUM, 2].real, dot(first, MOMENTUM, NORMAL).real
     s = np.linspace(0.02, pi - 0.02, 400)
     well.plot(s, np.sin(s) + (up - own * np.cos(s)) ** 2 / (2 * coin.inertia * np.sin(s) ** 2), color=INK)
     for part, color, name in ((~held, BLUE, "flight"), (held, ORANGE, "contact")):
@@ -69,30 +82,31 @@ def draw(cells: pd.DataFrame) -> Figure:
 
 def draw_rotor(axes: Axes) -> None:
     """Draw the heights of a rotor's centre and ends over time, and where it touches."""
-    state, now = np.array(ROTOR), 0.0
+    state, now = ROTOR.copy(), 0.0
     for _ in range(TOUCHES):
         length = next_touch(SHOWN, state)
         time = np.linspace(0, length, 400)
-        centre = state[Z] + state[V] * time - time**2 / 2
-        swing = np.sin(state[ANGLE] + state[SPIN] * time)
-        axes.plot(now + time, centre, color=INK, linewidth=1.5)
-        for end, color in ((swing, BLUE), (-swing, VERMILION)):
-            axes.plot(now + time, centre + end, color=color, linewidth=0.8)
-        fly(SHOWN, state, np.zeros(5), length)
+        path = [state.copy() for _ in time]
+        for moved, at in zip(path, time, strict=True):
+            fly(SHOWN, moved, at)
+        centre, swing = (np.array([moved[row].real for moved in path]) for row in (POSITION, NORMAL))
+        axes.plot(now + time, centre[:, 2], color=INK, linewidth=1.5)
+        for end, color in ((1, BLUE), (-1, VERMILION)):
+            axes.plot(now + time, centre[:, 2] + end * swing[:, 1], color=color, linewidth=0.8)
+        fly(SHOWN, state, length)
         now += length
-        strike(SHOWN, state, np.zeros(5))
+        strike(SHOWN, state)
         axes.plot(now, 0.0, "o", color=INK, markersize=5)
     axes.axhline(0, color=GREY)
     axes.axhline(1, color=GREY, linewidth=0.8, linestyle="--")
     axes.set(title="a rotor: its centre hops, its ends turn", xlabel="time [√(r/g)]", ylabel="height [r]")
 
 
-def touch(state: Array) -> float:
+def touch(state: States) -> float:
     """Return ν' after the next touch of a rotor that falls."""
-    moved = state.copy()
-    fly(SHOWN, moved, np.zeros(5), next_touch(SHOWN, moved))
-    strike(SHOWN, moved, np.zeros(5))
-    return float(moved[V] / moved[SPIN])
+    fly(SHOWN, state, next_touch(SHOWN, state))
+    strike(SHOWN, state)
+    return float(state[VELOCITY, 2].real / spin(SHOWN, state))
 
 
 def draw_map(axes: Axes) -> None:
@@ -101,7 +115,7 @@ def draw_map(axes: Axes) -> None:
     # Upright at the time at which the gap is least, half a turn after a passage that dips by D - π ν.
     angle = pi / 2 + SLOW - pi
     height = 1 - (share - 1) * pi * SLOW - SLOW**2 / 2
-    found = [touch(np.array([z, -SLOW * SPUN, angle, SPUN, 0.0])) for z in height]
+    found = [touch(planar(SHOWN, z, -SLOW * SPUN, angle, SPUN)) for z in height]
     axes.plot(share, np.array(found) / SLOW, ".", color=INK, label="equations of motion")
     axes.plot(
         share,

@@ -1,6 +1,6 @@
 """Why so many tosses stay uncertain: a bouncing rotor, a chain of touches with random phases, its law."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from math import inf, log
 from pathlib import Path
 from typing import Any
@@ -10,7 +10,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from cointoss import Scenario, analytic, load
-from cointoss.study import Array, Estimate, rows_from_states, run, share
+from cointoss.study import Array, Estimate, rows_from_states, run, share, states_of
 from cointoss_reproduction.frame.cells import Cells, estimate, kept_rows
 from cointoss_reproduction.frame.study import study
 from cointoss_reproduction.setups.estimates import quotient
@@ -25,14 +25,16 @@ from cointoss_reproduction.setups.uncertain_shares import (
     share_at,
     slope_between,
 )
-from cointoss_reproduction.studies.rotor.in_space import bounce_all, started
+from cointoss_reproduction.studies.rotor.chain import CONTACTS, COUNTED, NORMAL, above, bounce_all, unknown
 from cointoss_reproduction.studies.rotor.law import asked, exponent, logarithm
 from cointoss_reproduction.studies.rotor.picture import draw, draw_contact
-from cointoss_reproduction.studies.rotor.splitting import coin_of, shares_beyond
+from cointoss_reproduction.studies.rotor.splitting import coin_of, shares_beyond, started, turned_back
 
 SEED = 54
 RUNS = 20
 """The number of runs of the splitting; their scatter gives the intervals."""
+MANY = 4
+"""How many times the tosses there are at the first level of the splitting."""
 DECADES = 91
 """Accuracies at which the law is evaluated, down to 1e-93 m."""
 WINDOW = {1e-6: 1e-9, 1e-12: 1e-18, 1e-18: 1e-24}
@@ -65,6 +67,13 @@ FEW = (0.3, 0.6)
 """Restitutions at which coins other than the first are compared."""
 SPACE_ACCURACIES = (1e-3, 1e-6, 1e-9, 1e-12)
 """Accuracies at which coins in space are compared [m]."""
+BARRIERS = {
+    "below 0.1": (0.0, 0.1),
+    "0.1 to 0.3": (0.1, 0.3),
+    "0.3 to 0.5": (0.3, 0.5),
+    "above 0.5": (0.5, inf),
+}
+"""Sines of the tilt at which L_z and L_ζ turn back a coin that turns with m g r."""
 TABLE = load("table").replace("ending.test", "rigorous")
 ON_SMOOTH = TABLE.replace("floor", {"restitution": TABLE.floor.restitution, "contact": "smooth"})
 ZLOTY = load("zloty").coin
@@ -82,7 +91,7 @@ THICKNESSES = {"2 mm": 2e-3, "7.5 mm": 7.5e-3}
 
 
 def compare(
-    floor: str, chi: float, tosses: int = 20_000, levels: int = len(ACCURACIES), out: Path | None = None
+    floor: str, chi: float, tosses: int = 5000, levels: int = len(ACCURACIES), out: Path | None = None
 ) -> Iterator[dict[str, Any]]:
     """Yield f and α of the planar coin at each accuracy, by the chain and as `predictability` has them."""
     if chi not in CHIS[floor]:
@@ -98,8 +107,18 @@ def compare(
 def by_chain(scenario: Scenario, levels: int, tosses: int) -> Array:
     """Return the share of tosses that part at each accuracy, a decade apart from 1 mm on, (RUNS, levels)."""
     stretches = log(scenario.coin.radius / ACCURACIES[0]) + log(10) * np.arange(float(levels))
-    runs = np.random.default_rng(SEED).spawn(RUNS)
-    return np.array([shares_beyond(scenario, stretches, rng, tosses) for rng in runs])
+    return np.array(
+        [
+            shares_beyond(scenario, planar_states(scenario, rng, MANY * tosses), stretches, rng, tosses)
+            for rng in np.random.default_rng(SEED).spawn(RUNS)
+        ]
+    )
+
+
+def planar_states(scenario: Scenario, rng: np.random.Generator, count: int) -> Array:
+    """Draw releases with the heights and spins of the maps, flat and at rest but for the spin, (n, 13)."""
+    z, spins = rng.uniform(*HEIGHTS, count), rng.uniform(*SPINS, count)
+    return states_of(planar_rows(scenario, z, spins))
 
 
 def rows_of(shares: Array) -> Iterator[dict[str, Any]]:
@@ -122,7 +141,7 @@ def with_ratio(row: Mapping[str, Any], counted: Any) -> dict[str, Any]:
     return {**row, "counted": counted, "ratio": met or None}
 
 
-def go_on(far: float, tosses: int = 20_000, decades: int = DECADES) -> Iterator[dict[str, Any]]:
+def go_on(far: float, tosses: int = 8000, decades: int = DECADES) -> Iterator[dict[str, Any]]:
     """Yield α far below every accuracy that means anything, by the chain and by the law of the limit."""
     scenario = case(air=False, restitution=far)
     coin, radius = coin_of(scenario), scenario.coin.radius
@@ -142,18 +161,16 @@ def go_on(far: float, tosses: int = 20_000, decades: int = DECADES) -> Iterator[
         }
 
 
-def thick(
-    thickness: float, of: float, tosses: int = 20_000, pairs: int = 100_000
-) -> Iterator[dict[str, Any]]:
+def thick(thickness: float, of: float, tosses: int = 5000, pairs: int = 50_000) -> Iterator[dict[str, Any]]:
     """Yield f of a thick planar coin in vacuum, by the chain and as tosses and their neighbours have it."""
     scenario = case(air=False, restitution=of).replace("coin.thickness", thickness)
-    rng = np.random.default_rng(SEED)
-    z, spin = rng.uniform(*HEIGHTS, pairs), rng.uniform(*SPINS, pairs)
-    yield from paired(scenario, lambda step: planar_rows(scenario, z + step, spin), tosses)
+    states = planar_states(scenario, np.random.default_rng(SEED), pairs)
+    for row in rows_of(by_chain(scenario, len(PAIRED), tosses)):
+        yield with_ratio(row, share(differ(scenario, states, row["accuracy"])))
 
 
 def tumbling(
-    coin: str, released: float, tossed: float, chained: int = 5000, tumblers: int = 6000
+    coin: str, released: float, tossed: float, chained: int = 3000, tumblers: int = 4000
 ) -> Iterator[dict[str, Any]]:
     """Yield f of a coin that does not keep its plane, split by whether it comes into sustained contact.
 
@@ -168,20 +185,62 @@ def tumbling(
     if (kind.thick or not kind.air) and (tossed not in FEW or released == 0):
         return
     scenario = kind.scenario.replace("floor.restitution", tossed)
-    starts = started(scenario, releases(kind, released, chained))
-    stretch, contacts = bounce_all(coin_of(scenario), starts, np.random.default_rng(SEED)).T
+    stretch, held, apart = thrice(scenario, releases(kind, released, chained))
     states = releases(kind, released, tumblers if kind.air and tossed <= max(FEW) else tumblers // 3)
     finer = outcomes(scenario, states, FINER) != outcomes(scenario, states)
     for accuracy, by_engine in counted(scenario, states, SPACE_ACCURACIES):
         parted = stretch > log(scenario.coin.radius / accuracy)
-        by_chain = {name: capped(each) for name, each in split(contacts > 0, parted).items()}
+        predicted = {"contact": share(held)} | split(held, parted, apart)
         yield {
             "accuracy": accuracy,
-            **{f"predicted_{name}": each for name, each in by_chain.items()},
+            **{f"predicted_{name}": each for name, each in predicted.items()},
             **by_engine,
-            **{f"{name}_ratio": ratio(by_chain[name], by_engine[name]) for name in by_chain},
+            **{f"{name}_ratio": ratio(predicted[name], by_engine[name]) for name in predicted},
             "rounded": share(finer),
         }
+
+
+def thrice(scenario: Scenario, states: Array) -> tuple[Array, NDArray[np.bool_], NDArray[np.bool_]]:
+    """Return how far the chain stretches, whether it comes into contact, and whether three chains part.
+
+    Tosses that part do not forget L_z and L_ζ, which prefer a face. So three chains of one release agree more
+    often than fair coins.
+
+    Args:
+        scenario: coin, air and floor.
+        states: at release, (n, 13).
+
+    Returns:
+        Logarithms of the stretch, (n,); of the last of the chains, as what follows, (n,) twice.
+    """
+    coin, known, ends = coin_of(scenario), unknown(len(states)), []
+    for rng in np.random.default_rng(SEED).spawn(3):
+        moved, known = started(scenario, states), unknown(len(states))
+        bounce_all(coin, moved, known, inf, rng)
+        ends.append([0.0 if above(coin, end) > 0 else np.sign(end[NORMAL, 2].real) for end in moved])
+    return known[:, COUNTED], known[:, CONTACTS] > 0, np.ptp(ends, axis=0) > 0
+
+
+def behind(
+    barrier: tuple[float, float], dropped: float, chained: int = 3000, tumblers: int = 4000
+) -> dict[str, Any]:
+    """Return the share of thin coins in air and any attitude that comes into contact, by `turned_back`.
+
+    Args:
+        barrier: one of `BARRIERS`.
+        dropped: restitution.
+        chained: tosses by the chain, of all barriers.
+        tumblers: tosses by the engine.
+    """
+    kind = next(iter(TUMBLERS.values()))
+    scenario = kind.scenario.replace("floor.restitution", dropped)
+    chain, engine = (
+        states[(barrier[0] <= sines) & (sines < barrier[1])]
+        for states in (releases(kind, inf, chained), releases(kind, inf, tumblers))
+        for sines in [turned_back(coin_of(scenario), started(scenario, states))]
+    )
+    predicted, held = share(thrice(scenario, chain)[1]), share(in_contact(scenario, engine))
+    return {"chained_contact": predicted, "tossed_contact": held, "behind_ratio": ratio(predicted, held)}
 
 
 def on_floors(real: str, rolled: int = 1000) -> Iterator[dict[str, Any]]:
@@ -225,65 +284,53 @@ def outcomes(
 def counted(
     scenario: Scenario, states: Array, accuracies: Sequence[float]
 ) -> Iterator[tuple[float, dict[str, Any]]]:
-    """Yield each accuracy [m], and `split` of an engine's tosses there.
+    """Yield each accuracy [m], and the share in contact and `split` of an engine's tosses there.
 
     Args:
         scenario: coin, air and floor.
         states: at release, (n, 13).
         accuracies: of the height [m].
     """
-    held = np.array([len(run(scenario.body, scenario.rules, state).contacts) > 0 for state in states])
+    held = in_contact(scenario, states)
     for accuracy in accuracies:
-        yield accuracy, split(held, differ(lambda step: outcomes(scenario, states + step * UP), accuracy))
+        yield accuracy, {"contact": share(held)} | split(held, differ(scenario, states, accuracy))
 
 
-def differ(tossed: Callable[[float], NDArray[np.int8]], step: float) -> NDArray[np.bool_]:
-    """Return whether tosses with this much more or less height end with another outcome, (n,).
-
-    Args:
-        tossed: their outcomes with so much more height.
-        step: of the height [m].
-    """
-    below, usual, above = (tossed(side * step) for side in (-1, 0, 1))
-    return (below != usual) | (above != usual)
+def in_contact(scenario: Scenario, states: Array) -> NDArray[np.bool_]:
+    """Return whether an engine's tosses come into contact before their faces are settled, (n,)."""
+    return np.array([len(run(scenario.body, scenario.rules, state).contacts) > 0 for state in states])
 
 
-def split(held: NDArray[np.bool_], parted: NDArray[np.bool_]) -> dict[str, Estimate]:
-    """Return the share in contact, f of those that never are and of those that are, and f.
+def differ(scenario: Scenario, states: Array, step: float) -> NDArray[np.bool_]:
+    """Return whether tosses with this much more or less height [m] end with another outcome, (n,)."""
+    below, usual, above_ = (outcomes(scenario, states + side * step * UP) for side in (-1, 0, 1))
+    return (below != usual) | (above_ != usual)
+
+
+def split(
+    held: NDArray[np.bool_], parted: NDArray[np.bool_], apart: NDArray[np.bool_] | None = None
+) -> dict[str, Estimate]:
+    """Return f of tosses that never are in contact, of those that are, and of all.
 
     Args:
         held: whether a toss comes into contact before its face is settled, (n,).
         parted: whether it is uncertain, (n,).
+        apart: of a chain, whether three of one release end otherwise, (n,).
     """
-    return {
-        name: share(each)
-        for name, each in (("contact", held), ("never", parted[~held]), ("do", parted[held]), ("f", parted))
-    }
-
-
-def capped(f: Estimate) -> Estimate:
-    """Return a share that is at most `CEILING`."""
-    value, low, high = (min(each, CEILING) for each in f.ends)
-    return Estimate(value, low, high, f.count, f.counted)
+    found = {}
+    for name, which in (("never", ~held), ("do", held), ("f", np.ones_like(held))):
+        found[name] = share(parted[which])
+        if apart is not None:
+            both = parted & which
+            weight = apart[both].mean() / CEILING if both.any() else 1.0
+            value, low, high = (float(min(each, CEILING) * weight) for each in found[name].ends)
+            found[name] = Estimate(value, low, high, found[name].count, found[name].counted)
+    return found
 
 
 def ratio(predicted: Estimate, counted: Estimate) -> Estimate | None:
     """Return what is predicted over what is counted, where the latter's interval excludes 0."""
     return quotient(predicted, counted) if counted.low > 0 else None
-
-
-def paired(scenario: Scenario, rows: Callable[[float], Array], tosses: int) -> Iterator[dict[str, Any]]:
-    """Yield what the chain predicts at each of `PAIRED`, and the share of tosses that ε more or less changes.
-
-    Args:
-        scenario: of the chain.
-        rows: the tosses of the analytic engine with so much more height.
-        tosses: of the chain, at each level.
-    """
-    for row in rows_of(by_chain(scenario, len(PAIRED), tosses)):
-        yield with_ratio(
-            row, share(differ(lambda step: analytic.toss_rows(rows(step)).outcome, row["accuracy"]))
-        )
 
 
 def found(cells: pd.DataFrame) -> dict[str, Any]:
@@ -313,6 +360,7 @@ REPRODUCTION = study(
     Cells(go_on, {"far": (0.3, 0.6, 0.8)}),
     Cells(thick, {"thickness": THICKNESSES, "of": (0.3, 0.6)}),
     Cells(tumbling, {"coin": tuple(TUMBLERS), "released": WOBBLES, "tossed": (0.2, 0.3, 0.6, 0.9)}),
+    Cells(behind, {"barrier": BARRIERS, "dropped": FEW}),
     Cells(on_floors, {"real": tuple(REAL)}),
     found=found,
     draw={"rotor": draw, "contact": draw_contact},
