@@ -33,9 +33,9 @@ the first contact."""
 TINY = 1e-30
 """The size of the imaginary part of a state whose change is 1."""
 AT_FLOOR = 1e-12
-"""A gap that is closed, as the square of a height less that of the floor."""
-LEAST = 1e-12
-"""The least step of the search for a touch, and the least speed of one over its height."""
+"""A gap that is closed, as the square of a height less that of the floor; and the least step of a search."""
+LEAST = 1e-9
+"""The least speed of a touch, over its height; and the least step while a gap is closed."""
 IN_CONTACT = 1e-2
 """Bounces die out in contact if the coin turns by less until the last of them, over the sine of its tilt."""
 FLAT = 1e-5
@@ -46,8 +46,8 @@ GRAZE = 1e-7
 """A point that touches at less speed is only leaving a contact, and carries no change through an impact."""
 TURN = 0.1
 """The angle of a step of contact, over the sine of the tilt."""
-MOST_CONTACTS = 100
-"""A coin in vacuum that comes into contact so often never ends its toss."""
+MOST_TOUCHES, MOST_CONTACTS = 1000, 100
+"""A coin that touches more often, or in vacuum comes into contact so often, never ends its toss."""
 PERIOD = 3
 """Turns of the tilt in a contact which in vacuum prove that it never ends."""
 
@@ -153,8 +153,9 @@ def next_touch(coin: Coin, state: States) -> float:
             opening = 2 * (height - half * n) * (fall - half * rate) + 2 * n * rate
             if open_ < AT_FLOOR and opening < -LEAST * height:
                 return time
-            step = min(step, (opening + sqrt(opening**2 + 2 * bend * max(open_, 0.0))) / bend)
-        time += max(step, LEAST)
+            ahead = (opening + sqrt(opening**2 + 2 * bend * max(open_, 0.0))) / bend
+            step = min(step, max(ahead, LEAST if open_ < AT_FLOOR else AT_FLOOR))
+        time += step
 
 
 @njit(cache=True)
@@ -314,7 +315,7 @@ def bounce(coin: Coin, state: States, known: Array, target: float, rng: np.rando
         target: of the logarithm of the stretch.
         rng: draws the phases.
     """
-    endless = False
+    touches, endless = 0, False
     while above(coin, state) > 0 and known[COUNTED] < target and not endless:
         up = state[VELOCITY, 2].real
         if up > 0 and state[POSITION, 2].real + up**2 / 2 > reach(coin):
@@ -337,6 +338,8 @@ def bounce(coin: Coin, state: States, known: Array, target: float, rng: np.rando
             endless = endless or (known[CONTACTS] == MOST_CONTACTS and coin.slowing == 0)
             if grown > 0:
                 known[COUNTED] = max(known[MOST], known[KNOWN] + log(grown))
+        touches += 1
+        endless = endless or touches == MOST_TOUCHES
     if endless:
         known[COUNTED] = known[FIRST]
     known[COUNTED] = max(known[COUNTED], known[FIRST])

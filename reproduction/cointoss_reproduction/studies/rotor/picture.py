@@ -49,17 +49,15 @@ def draw_contact(_cells: pd.DataFrame) -> Figure:
     states = started(
         SLIDES, np.hstack([path.position, path.velocity, path.quaternion, path.angular_velocity])
     )
-    coin, held = coin_of(SLIDES), np.zeros(len(times), dtype=bool)
-    for start, end in tossed.contacts:
-        held |= (times >= start) & (times < end)
-    tilt = np.arccos(states[:, NORMAL, 2].real)
-    energies = np.array([above(coin, state) + 1 for state in states])
-    first = states[held][0]
-    up, own = first[MOMENTUM, 2].real, dot(first, MOMENTUM, NORMAL).real
-    s = np.linspace(0.02, pi - 0.02, 400)
-    well.plot(s, np.sin(s) + (up - own * np.cos(s)) ** 2 / (2 * coin.inertia * np.sin(s) ** 2), color=INK)
+    coin, tilt = coin_of(SLIDES), np.arccos(states[:, NORMAL, 2].real)
+    # It is in contact between an odd and an even number of its beginnings and ends.
+    held = np.searchsorted(np.ravel(tossed.contacts), times, side="right") % 2 == 1
+    first, s = states[held][0], np.linspace(0.02, pi - 0.02, 400)
+    across = (first[MOMENTUM, 2] - dot(first, MOMENTUM, NORMAL) * np.cos(s)).real / np.sin(s)
+    well.plot(s, np.sin(s) + across**2 / (2 * coin.inertia), color=INK)
     for part, color, name in ((~held, BLUE, "flight"), (held, ORANGE, "contact")):
-        well.plot(tilt[part], energies[part], ".", color=color, markersize=2, label=name)
+        energies = [above(coin, state) + 1 for state in states[part]]
+        well.plot(tilt[part], energies, ".", color=color, markersize=2, label=name)
         over_time.plot(times[part], tilt[part], ".", color=color, markersize=2)
     well.axhline(1, color=GREY, linestyle="--")
     well.set(title="the line is V(s)", xlabel="tilt s", ylabel="energy [m g r]", ylim=(0, 2.5))
@@ -70,7 +68,7 @@ def draw_contact(_cells: pd.DataFrame) -> Figure:
 
 
 def draw(cells: pd.DataFrame) -> Figure:
-    """Draw them."""
+    """Draw the rotor, the map of its touches, f and α."""
     picture = Figure(figsize=(11, 7.6))
     hopping, mapped, shares, slopes = picture.subplots(2, 2).flat
     draw_rotor(hopping)
@@ -86,13 +84,11 @@ def draw_rotor(axes: Axes) -> None:
     for _ in range(TOUCHES):
         length = next_touch(SHOWN, state)
         time = np.linspace(0, length, 400)
-        path = [state.copy() for _ in time]
-        for moved, at in zip(path, time, strict=True):
-            fly(SHOWN, moved, at)
-        centre, swing = (np.array([moved[row].real for moved in path]) for row in (POSITION, NORMAL))
-        axes.plot(now + time, centre[:, 2], color=INK, linewidth=1.5)
+        centre = (state[POSITION, 2] + state[VELOCITY, 2] * time - time**2 / 2).real
+        turned = np.arctan2(-state[NORMAL, 1].real, state[NORMAL, 2].real) + spin(SHOWN, state) * time
+        axes.plot(now + time, centre, color=INK, linewidth=1.5)
         for end, color in ((1, BLUE), (-1, VERMILION)):
-            axes.plot(now + time, centre[:, 2] + end * swing[:, 1], color=color, linewidth=0.8)
+            axes.plot(now + time, centre + end * np.sin(turned), color=color, linewidth=0.8)
         fly(SHOWN, state, length)
         now += length
         strike(SHOWN, state)

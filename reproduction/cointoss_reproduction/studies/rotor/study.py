@@ -91,7 +91,7 @@ THICKNESSES = {"2 mm": 2e-3, "7.5 mm": 7.5e-3}
 
 
 def compare(
-    floor: str, chi: float, tosses: int = 5000, levels: int = len(ACCURACIES), out: Path | None = None
+    floor: str, chi: float, tosses: int = 4000, levels: int = len(ACCURACIES), out: Path | None = None
 ) -> Iterator[dict[str, Any]]:
     """Yield f and α of the planar coin at each accuracy, by the chain and as `predictability` has them."""
     if chi not in CHIS[floor]:
@@ -141,7 +141,7 @@ def with_ratio(row: Mapping[str, Any], counted: Any) -> dict[str, Any]:
     return {**row, "counted": counted, "ratio": met or None}
 
 
-def go_on(far: float, tosses: int = 8000, decades: int = DECADES) -> Iterator[dict[str, Any]]:
+def go_on(far: float, tosses: int = 6000, decades: int = DECADES) -> Iterator[dict[str, Any]]:
     """Yield α far below every accuracy that means anything, by the chain and by the law of the limit."""
     scenario = case(air=False, restitution=far)
     coin, radius = coin_of(scenario), scenario.coin.radius
@@ -170,7 +170,7 @@ def thick(thickness: float, of: float, tosses: int = 5000, pairs: int = 50_000) 
 
 
 def tumbling(
-    coin: str, released: float, tossed: float, chained: int = 3000, tumblers: int = 4000
+    coin: str, released: float, tossed: float, chained: int = 3000, tumblers: int = 6000
 ) -> Iterator[dict[str, Any]]:
     """Yield f of a coin that does not keep its plane, split by whether it comes into sustained contact.
 
