@@ -85,7 +85,8 @@ def draw_rotor(axes: Axes) -> None:
         length = next_touch(SHOWN, state)
         time = np.linspace(0, length, 400)
         centre = (state[POSITION, 2] + state[VELOCITY, 2] * time - time**2 / 2).real
-        turned = np.arctan2(-state[NORMAL, 1].real, state[NORMAL, 2].real) + spin(SHOWN, state) * time
+        turned = np.arctan2(-state[NORMAL, 1].real, state[NORMAL, 2].real)
+        turned += state[MOMENTUM, 0].real / SHOWN.inertia * time
         axes.plot(now + time, centre, color=INK, linewidth=1.5)
         for end, color in ((1, BLUE), (-1, VERMILION)):
             axes.plot(now + time, centre + end * np.sin(turned), color=color, linewidth=0.8)
