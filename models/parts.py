@@ -320,7 +320,14 @@ class Release(Part):
     """ω, body frame (ξ, η, ζ) [rad/s]."""
     rolls: bool | None = None
     """Whether the coin starts on the floor, with its lowest point at rest. The height and the velocity of C
-    follow, and are given as 0."""
+    follow, and are given as 0, or the position not at all."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _at_the_origin(cls, given: Any) -> Any:
+        if isinstance(given, Mapping) and given.get("rolls") is True:
+            return {"position": _ZERO, **given}
+        return given
 
     @field_validator("quaternion")
     @classmethod

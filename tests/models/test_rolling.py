@@ -1,5 +1,7 @@
 """A release that rolls: one scenario by a file, by changes and by rows."""
 
+import re
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -36,3 +38,8 @@ def test_changed_it_rolls_as_changed():
     assert found.release.model_dump(exclude={"rolls"}) == due.release.model_dump(exclude={"rolls"})
     thrown = np.array([[0, 0, 1, 0, 0, 2, 1, 0, 0, 0, 0, 3, 0.0]])
     assert states_of(rows_from_states(HERE, thrown)).tolist() == thrown.tolist()
+
+
+def test_a_coin_that_rolls_and_has_no_position_starts_above_the_origin():
+    here = HERE.replace("release.position", [0, 0, 0])
+    assert parse(re.sub(r"\bposition = .*", "", here.to_toml()), "its file") == here
