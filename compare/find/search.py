@@ -112,7 +112,7 @@ def search(
         points = points[shown == longest]
     if longest < target.steps:
         return Searched((), made, refused, longest)
-    showing = "1 toss shows" if len(points) == 1 else f"{len(points)} tosses show"
+    showing = "1 toss shows" if (count := hits or len(points)) == 1 else f"{count:,d} tosses show"
     tell(f"{showing} {target.in_words}; now measuring how far each field may change")
     with stage("measuring margins"):
         wide = [Hit(*one) for one in zip(points, _margins(window, target, points, target.steps), strict=True)]

@@ -31,8 +31,8 @@ def window(count, ends=(10.0, 20.0)):
     return Window(scenario=load("fig24a"), spans=spans)
 
 
-def searched(target: Any, fields, tosses, seed=0):
-    return search(window(fields), target, tosses, seed)
+def searched(target: Any, fields, tosses, seed=0, *tell):
+    return search(window(fields), target, tosses, seed, *tell)
 
 
 def common_half(x):
@@ -129,11 +129,11 @@ def test_points_that_are_no_tosses_are_counted_as_such(formula, tosses, refused,
 
 
 def test_a_search_ends_where_enough_is_found_and_depends_on_its_seed():
-    common = [searched(Formula(1, common_half), 1, 1 << 20, seed) for seed in (1, 1, 2)]
+    common, said = [searched(Formula(1, common_half), 1, 1 << 20, seed) for seed in (1, 1, 2)], []
     assert [one.tosses for one in common] == [4096] * 3
     assert common[0].hits[0].point == common[1].hits[0].point != common[2].hits[0].point
-    whole = searched(Formula(1, common_half, outcome=Outcome.HEADS), 1, 1 << 20)
-    assert (whole.tosses, len(whole.hits)) == (128, 1)
+    whole = searched(Formula(1, common_half, outcome=Outcome.HEADS), 1, 1 << 20, 0, said.append)
+    assert (whole.tosses, len(whole.hits), said[0].split(";")[0]) == (128, 1, "64 tosses show it")
 
 
 @pytest.mark.parametrize(
