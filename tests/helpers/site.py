@@ -10,6 +10,7 @@ from urllib.parse import unquote, urlsplit
 import numpy as np
 from PIL import Image
 
+from cointoss.models.fields import FIELDS
 from cointoss.models.palette import HEADS, TAILS
 from tests.helpers.pages import TOP
 
@@ -85,8 +86,9 @@ def read(page: Path) -> Read:
 def problems(site: Path) -> list[str]:
     """Return what is wrong with the pages and style sheets of a site, one line each.
 
-    A relative address must lead to a file, and to an anchor of it; what is loaded must be of the site or in
-    the page; an address elsewhere must be one by its form; and a picture must be described.
+    A relative address must lead to a file, and to an anchor of it, or of the lab to fields; what is loaded
+    must be of the site or in the page; an address elsewhere must be one by its form; and a picture must be
+    described.
     """
     pages = {path: read(path) for path in sorted(site.rglob("*.html"))}
     found = []
@@ -119,6 +121,9 @@ def _of_link(source: Path, address: str, pages: dict[Path, Read]) -> str:
     if not target.is_file():
         return f"{address} leads nowhere"
     anchor = unquote(parts.fragment)
+    if target.name == "lab.html" and "=" in anchor:
+        named = {part.partition("=")[0] for part in anchor.split("&")}
+        return "" if named <= {*FIELDS, "map"} else f"{address} has no such field"
     if anchor and target in pages and anchor not in pages[target].anchors:
         return f"{address} has no such anchor"
     return ""

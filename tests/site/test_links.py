@@ -16,7 +16,10 @@ def test_every_link_leads_somewhere_and_nothing_comes_from_the_network():
     assert problems(SITE) == []
 
 
-GOOD = '<h1 id="a">A</h1><a href="b.html#b">b</a><a href="#a">a</a><a href="https://example.org/x">x</a>'
+GOOD = (
+    '<h1 id="a">A</h1><a href="b.html#b">b</a><a href="#a">a</a><a href="https://example.org/x">x</a>'
+    '<a href="lab.html#coin.mass=1&map=final">l</a>'
+)
 
 
 @pytest.mark.parametrize(
@@ -25,6 +28,7 @@ GOOD = '<h1 id="a">A</h1><a href="b.html#b">b</a><a href="#a">a</a><a href="http
         ('<a href="c.html">c</a>', "c.html leads nowhere"),
         ('<a href="b.html#c">c</a>', "b.html#c has no such anchor"),
         ('<a href="#b">b</a>', "#b has no such anchor"),
+        ('<a href="lab.html#coin.mas=1">l</a>', "lab.html#coin.mas=1 has no such field"),
         ('<a href="https:/example">x</a>', "https:/example is no address"),
         ('<img src="c.png" alt="c">', "c.png leads nowhere"),
         ('<img src="data:,">', "data:, has no alt"),
@@ -40,6 +44,7 @@ def test_a_problem_is_seen(tmp_path, wrong, problem):
     """And no other: the rest of the page has none."""
     name = "x.css" if wrong.startswith("a {") else "a.html"
     (tmp_path / "a.html").write_text(GOOD, encoding="utf-8")
+    (tmp_path / "lab.html").touch()
     (tmp_path / "b.html").write_text('<p id="b"></p><img src="data:," alt="nothing">', encoding="utf-8")
     with (tmp_path / name).open("a", encoding="utf-8") as file:
         file.write(wrong)
