@@ -55,7 +55,7 @@ def rows_of(scenario: Scenario, n: int, changed: Mapping[str, ArrayLike] | None 
         base[_INERTIA] = np.ravel(scenario.coin.moments)
     given = [field for field in _FOLLOWING if field in changed] if scenario.release.rolls else []
     if 0 < len(given) < len(_FOLLOWING):
-        raise ScenarioError(f"{given[0]}: accepted: no such field with release.rolls, of which it follows")
+        raise ScenarioError(f"{given[0]}: accepted: no such field with release.rolls, from which it follows")
     rows = np.tile(base, (n, 1))
     for field, values in changed.items():
         rows[:, PLACE[field]] = values

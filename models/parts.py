@@ -318,7 +318,7 @@ class Release(Part):
     """Euler parameters e0, e1, e2, e3, body to space, in place of the angles; brought to norm 1."""
     angular_velocity: Annotated[Spins, each_of("spin about", xi="ξ", eta="η", zeta="ζ")] = _ZERO
     """ω, body frame (ξ, η, ζ) [rad/s]."""
-    rolls: bool | None = None
+    rolls: Annotated[bool | None, Field(repr=False)] = None
     """Whether the coin starts on the floor, with its lowest point at rest. The height and the velocity of C
     follow, and are given as 0, or the position not at all."""
 

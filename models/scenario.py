@@ -96,7 +96,7 @@ class Scenario(Part):
         if height not in (0, z):
             raise FieldError("release.position.z", height, f"0 with rolls, which sets the coin at {z:.6g} m")
         if velocity not in (_STILL, v):
-            raise FieldError("release.velocity", velocity, "no such field with rolls, of which it follows")
+            raise FieldError("release.velocity", velocity, "no such field with rolls, from which it follows")
         found: dict[str, Any] = dict(self.release) | {"position": (x, y, z), "velocity": v}
         return Release.model_construct(**found)
 
@@ -122,7 +122,7 @@ class Scenario(Part):
                 f"Scenario.replace: {pairs[-1]} without a value; accepted: fields and values in turn"
             )
         data = self.model_dump()
-        if self.release.rolls:
+        if self.release.rolls and dict(zip(pairs[::2], pairs[1::2], strict=True)).get("release.rolls", True):
             data["release"] |= {"position": (*self.release.position[:2], 0.0), "velocity": _STILL}
         for name, new in zip(pairs[::2], pairs[1::2], strict=True):
             require_type("field", name, str, 'a dotted path, such as "floor.restitution"')
