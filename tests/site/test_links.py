@@ -2,6 +2,7 @@
 
 import pytest
 
+from tests.helpers.lab import WHOLE
 from tests.helpers.site import SITE, problems, read
 
 
@@ -14,6 +15,17 @@ def test_a_page_that_the_site_takes_as_it_is_leads_back(name):
 
 def test_every_link_leads_somewhere_and_nothing_comes_from_the_network():
     assert problems(SITE) == []
+
+
+def test_a_state_of_the_lab_to_which_a_page_links_is_shown(page):
+    linked = [
+        address for path in SITE.glob("*.html") for address in read(path).linked if "lab.html#" in address
+    ]
+    for address in linked:
+        page.open(f"{SITE.as_uri()}/{address}")
+        page.wait_for(WHOLE)
+        assert page.value("document.getElementById('problem').hidden"), address
+    assert linked
 
 
 GOOD = (
