@@ -7,14 +7,15 @@ from typing import Any
 import numpy as np
 import pytest
 
+from cointoss import analytic
 from cointoss.models.records import Outcome
 from cointoss_reproduction.precision import branching
 from cointoss_reproduction.precision.branching import PARTS, branch, chances, expand, what_lies_there
 from cointoss_reproduction.precision.planar_coin import PlanarRelease
 from cointoss_reproduction.precision.planar_numbers import Toss, spread, toss_many
 from cointoss_reproduction.precision.planar_state import Impact
-from cointoss_reproduction.setups.planar_maps import case
-from cointoss_reproduction.setups.uncertain_shares import uncertain_shares
+from cointoss_reproduction.setups.planar_maps import case, planar_rows
+from cointoss_reproduction.setups.uncertain_shares import share_at, uncertain_shares
 from planar import coin_of, drawn
 
 LAST = 24
@@ -172,7 +173,7 @@ def test_no_dead_part_holds_a_boundary(chi, law, intervals):
     assert count > 15
 
 
-def test_runs_agree_at_an_atoms_size():
+def test_runs_agree_down_to_an_atoms_size_with_each_other_and_with_pairs_of_tosses():
     """Without any preference they scatter more."""
     scenario = case(air=False, restitution=0.6)
     runs = [
@@ -180,6 +181,14 @@ def test_runs_agree_at_an_atoms_size():
         for run in range(5)
     ]
     assert 0.05 < np.std([np.log10(run.shares[:, -1].mean()) for run in runs]) < 0.5
+    shares, whole = (np.concatenate([getattr(run, name) for run in runs]) for name in ("shares", "whole"))
+    z, w, _ = drawn(20_000)
+    for level in (0, 3, 6):
+        found, step = share_at(shares, whole, level), 1e-3 / 10**level
+        lower, middle, higher = (
+            analytic.toss_rows(planar_rows(scenario, z + by, w)).outcome for by in (-step, 0, step)
+        )
+        assert found.low < np.mean((lower != middle) | (higher != middle)) < found.high
 
 
 @pytest.mark.slow
