@@ -44,7 +44,7 @@ _Sizes = Mapping[str, Mapping[str, Any]]
     "settings",
     multiple=True,
     metavar="SIZE=VALUE",
-    help="Another size of the run, where its page names one: tosses=1e6; may be given again.",
+    help="Another size of the run, where it takes one: by_analytic=1e4; may be given again.",
 )
 @click.option(
     "--check",

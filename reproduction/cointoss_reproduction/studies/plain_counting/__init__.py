@@ -1,1 +1,0 @@
-"""Shares of uncertain tosses and of coins on edge by plain counting."""
