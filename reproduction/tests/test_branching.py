@@ -48,7 +48,6 @@ def tossed(outcome, itinerary, energy):
         outcome=outcome,
         impacts=(Impact(heads=True, corner=1, impulse=0, state=(itinerary, 0, 0), energy=energy),),
         contacts=(),
-        energy=0.0,
         from_upright=0.0,
         flattest=0.0,
     )

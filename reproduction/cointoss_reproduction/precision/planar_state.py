@@ -1,7 +1,5 @@
 """The state of a planar coin in long arithmetic, its release, and its impacts."""
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, NamedTuple
@@ -14,7 +12,7 @@ _NAMES = ("z", "v", "tilt", "w", "u")
 
 
 class UndecidedError(Exception):
-    """An enclosure is too wide."""
+    """A limit is reached, or an enclosure is too wide."""
 
 
 class Impact(NamedTuple):
@@ -43,26 +41,15 @@ class State:
     u: Any
     heads: bool = True
 
-    def let(self, change: Callable[[Any], Any]) -> None:
-        """Change each number."""
+    def keep_middles(self) -> None:
+        """Keep of the enclosure of each number its middle."""
         for name in _NAMES:
-            setattr(self, name, change(getattr(self, name)))
+            setattr(self, name, getattr(self, name).mid())
 
 
 def ball(number: Fraction) -> Any:
     """Return the enclosure of a number."""
     return arb(fmpq(number.numerator, number.denominator))
-
-
-@contextmanager
-def precision(bits: int, order: int = 1) -> Iterator[None]:
-    """Compute with these numbers of bits, and of coefficients of series."""
-    before = ctx.prec, ctx.cap
-    ctx.prec, ctx.cap = bits, order
-    try:
-        yield
-    finally:
-        ctx.prec, ctx.cap = before
 
 
 def in_own_units(units: Units, release: PlanarRelease) -> list[Any]:
