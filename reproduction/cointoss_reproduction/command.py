@@ -6,7 +6,6 @@ import sys
 from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 import click
 
@@ -27,7 +26,7 @@ from cointoss_reproduction.frame import runner
 from cointoss_reproduction.frame.sizes import SizeError
 
 _LISTED = "a name that cointoss reproduce --list prints"
-_Sizes = Mapping[str, Mapping[str, Any]]
+_Sizes = Mapping[str, Mapping[str, int]]
 """By the name of what is reproduced, sizes by their names."""
 
 

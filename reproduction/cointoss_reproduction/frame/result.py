@@ -56,13 +56,13 @@ class Reproduction:
     assumed: str = ""
     """The assumptions where the paper says nothing."""
 
-    def sizes(self, settings: Sequence[str]) -> dict[str, Any]:
+    def sizes(self, settings: Sequence[str]) -> dict[str, int]:
         """Return the sizes that `settings` give, NAME=VALUE each.
 
         Raises:
             SizeError: for one that it does not take.
         """
-        return read_sizes({name: self.usual[name] for name in self.settable}, settings)
+        return read_sizes(self.settable, settings)
 
     @property
     def files(self) -> tuple[str, ...]:

@@ -1,29 +1,28 @@
 """Sizes of a run, as a command line gives them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
-from typing import Any
 
 
 class SizeError(ValueError):
     """A size that a study does not take; the message names it, its value and what is accepted."""
 
 
-def read_sizes(usual: Mapping[str, Any], settings: Sequence[str]) -> dict[str, Any]:
-    """Return sizes by name: words where the usual one is a word, else whole numbers, such as 1e6.
+def read_sizes(settable: Sequence[str], settings: Sequence[str]) -> dict[str, int]:
+    """Return sizes by name, whole numbers such as 1e6.
 
     Args:
-        usual: the sizes that may be given.
+        settable: the sizes that may be given.
         settings: NAME=VALUE each.
 
     Raises:
         SizeError: for another name or value.
     """
-    sizes: dict[str, Any] = {}
+    sizes: dict[str, int] = {}
     for name, _, text in (setting.partition("=") for setting in settings):
-        if name not in usual:
-            raise SizeError(f"{name}: no such size, accepted: {', '.join(usual) or 'none'}")
-        sizes[name] = text if isinstance(usual[name], str) else _whole(name, text)
+        if name not in settable:
+            raise SizeError(f"{name}: no such size, accepted: {', '.join(settable) or 'none'}")
+        sizes[name] = _whole(name, text)
     return sizes
 
 
