@@ -3,7 +3,6 @@
 import os
 import shutil
 import sys
-from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -23,11 +22,8 @@ from cointoss.study import (
     stage,
 )
 from cointoss_reproduction.frame import runner
-from cointoss_reproduction.frame.sizes import SizeError
 
 _LISTED = "a name that cointoss reproduce --list prints"
-_Sizes = Mapping[str, Mapping[str, int]]
-"""By the name of what is reproduced, sizes by their names."""
 
 
 @click.command()
@@ -38,13 +34,6 @@ _Sizes = Mapping[str, Mapping[str, int]]
     help="Folder of the results, each in its reproduction/NAME/; made if missing.",
 )
 @click.option("--quick", is_flag=True, help="Compute the smaller version of each that has one.")
-@click.option(
-    "--set",
-    "settings",
-    multiple=True,
-    metavar="SIZE=VALUE",
-    help="Another size of the run, where it takes one: by_analytic=1e4; may be given again.",
-)
 @click.option(
     "--check",
     "kept",
@@ -75,7 +64,6 @@ def reproduce(
     names: tuple[str, ...],
     out: Path | None,
     quick: bool,
-    settings: tuple[str, ...],
     kept: str | None,
     kept_here: str | None,
     as_list: bool,
@@ -100,10 +88,6 @@ def reproduce(
     if as_list:
         _list(names or tuple(known))
         return
-    try:
-        sizes = {name: runner.find(name).sizes(settings) for name in names} if settings else {}
-    except SizeError as error:
-        ctx.fail(f"--set: {error}")
     if kept_here is not None:
         if out is not None or kept is not None:
             ctx.fail("--older: not with --out or --check; accepted: one of them")
@@ -114,7 +98,7 @@ def reproduce(
         if out is not None:
             ctx.fail("--out: not with --check, which writes nothing; accepted: one of them")
         _ready(device)
-        sys.exit(0 if _agree(names, Path(kept), quick=quick, sizes=sizes) else 1)
+        sys.exit(0 if _agree(names, Path(kept), quick=quick) else 1)
     if not names and out is None:
         _list(tuple(known))
         return
@@ -123,7 +107,7 @@ def reproduce(
     if not names:
         ctx.fail(f"NAME: missing; accepted: all, or {_LISTED}")
     _ready(device)
-    sys.exit(1 if _write(names, out, quick=quick, sizes=sizes, pages=asked == ("all",)) else 0)
+    sys.exit(1 if _write(names, out, quick=quick, pages=asked == ("all",)) else 0)
 
 
 def _list(known: tuple[str, ...]) -> None:
@@ -150,7 +134,7 @@ def _ready(device: str) -> None:
     )
 
 
-def _write(names: tuple[str, ...], out: Path, *, quick: bool, sizes: _Sizes, pages: bool) -> list[str]:
+def _write(names: tuple[str, ...], out: Path, *, quick: bool, pages: bool) -> list[str]:
     """Write what is computed and print it; return the claims that come out otherwise than known."""
     from cointoss.study import require_folder
     from cointoss_reproduction.frame import gallery, printing
@@ -164,13 +148,11 @@ def _write(names: tuple[str, ...], out: Path, *, quick: bool, sizes: _Sizes, pag
             runner.require_writable(name, out)
         for name in names:
             with stage(name, "parts") as progress:
-                result = runner.reproduce(name, out, progress, quick=quick, sizes=sizes.get(name, {}))
+                result = runner.reproduce(name, out, progress, quick=quick)
             if name != names[0]:
                 click.echo()
             click.echo(printing.page(name, result, runner.folder_of(name, out), width))
-            failed += [
-                f"{name}: {claim}" for claim in unexpected(result.claims, quick=quick or name in sizes)
-            ]
+            failed += [f"{name}: {claim}" for claim in unexpected(result.claims, quick=quick)]
         if pages:
             gallery.write(out, names, quick=quick)
     for claim in failed:
@@ -196,7 +178,7 @@ def _list_older(names: tuple[str, ...], kept: Path) -> bool:
     return found
 
 
-def _agree(names: tuple[str, ...], kept: Path, *, quick: bool, sizes: _Sizes) -> bool:
+def _agree(names: tuple[str, ...], kept: Path, *, quick: bool) -> bool:
     """Compute results anew, print how they compare with those in a folder, and return whether all agree."""
     from cointoss_reproduction.frame import checking
 
@@ -207,10 +189,9 @@ def _agree(names: tuple[str, ...], kept: Path, *, quick: bool, sizes: _Sizes) ->
     agree = True
     for name, there in runs.items():
         timed = runner.find(name).timed
-        own = {**(there.made_of or {}).get("sizes", {}), **sizes.get(name, {})}
         with plain_errors(name), TemporaryDirectory() as aside:
             with stage(name, "parts") as progress:
-                runner.reproduce(name, Path(aside), progress, quick=quick, sizes=own, beside=Path(kept))
+                runner.reproduce(name, Path(aside), progress, quick=quick, beside=Path(kept))
             here = checking.read_run(runner.folder_of(name, Path(aside)), quick=quick)
             found = checking.check(there, here, timed=timed)
         click.echo(checking.in_words(name, str(runner.folder_of(name, kept)), found, timed=timed))

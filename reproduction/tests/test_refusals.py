@@ -13,11 +13,6 @@ REFUSED = {
     "nothing": "nothing: no such name; accepted: a name that cointoss reproduce --list prints",
     "fig42": "fig42: no such name; did you mean fig4? accepted: a name that cointoss reproduce --list prints",
     "contact-laws no-such --out out": "no-such: no such name; accepted: ",
-    "endings --out out --set singles=few": "--set: singles: 'few', accepted: a whole number",
-    "endings --out out --set singles=0.5": "--set: singles: '0.5', accepted: a whole number",
-    "endings --out out --set singles=inf": "--set: singles: 'inf', accepted: a whole number",
-    "endings --out out --set coins=3": "--set: coins: no such size, accepted: by_analytic, ",
-    "fig4 endings --out out --set singles=3": "--set: singles: no such size, accepted: none",
     "contact_laws --out out": "contact_laws: no such name; did you mean contact-laws? accepted: ",
 }
 

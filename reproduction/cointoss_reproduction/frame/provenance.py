@@ -8,7 +8,6 @@ from collections.abc import Mapping
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 from warnings import catch_warnings, simplefilter
 
@@ -24,31 +23,27 @@ _OUTPUTS = (CLAIMS, TABLE)
 _BOOK = Path(__file__).parents[1]
 
 
-def provenance(
-    folder: Path, *, quick: bool, sizes: Mapping[str, Any] = MappingProxyType({})
-) -> dict[str, Any]:
+def provenance(folder: Path, *, quick: bool) -> dict[str, Any]:
     """Return what a run was made of, and the hashes of what it wrote.
 
     Args:
         folder: that was written.
         quick: whether it was the smaller size.
-        sizes: by name, which were other than usual.
     """
     written = {name: folder / name for name in _OUTPUTS if (folder / name).exists()}
     return {
         "sources": sources(),
         "engines": fingerprints(),
         "quick": quick,
-        **({"sizes": {**sizes}} if sizes else {}),
         "versions": {"python": platform.python_version(), **versions_of(PACKAGES)},
         "machine": machine(),
         "sha256": {name: hashlib.sha256(path.read_bytes()).hexdigest() for name, path in written.items()},
     }
 
 
-def keep(folder: Path, *, quick: bool, sizes: Mapping[str, Any]) -> None:
+def keep(folder: Path, *, quick: bool) -> None:
     """Write what a run was made of into its folder, after all else; see `provenance`."""
-    made_of = json.dumps(provenance(folder, quick=quick, sizes=sizes), indent=1)
+    made_of = json.dumps(provenance(folder, quick=quick), indent=1)
     (folder / PROVENANCE).write_text(made_of + "\n", encoding="utf-8")
 
 

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from cointoss_reproduction.frame.claim import Claim
 from cointoss_reproduction.frame.files import CLAIMS, PAGE, PROVENANCE, SHEETS, TABLE
-from cointoss_reproduction.frame.sizes import read_sizes
 
 if TYPE_CHECKING:  # names are listed without it
     from matplotlib.figure import Figure
@@ -49,20 +48,10 @@ class Reproduction:
     """Whether it keeps what it has done in its folder, so that an interrupted run goes on."""
     timed: bool = False
     """Whether its numbers are times, which no two runs share."""
-    settable: Sequence[str] = ()
-    """The sizes of a run that a command line may give."""
     usual: Mapping[str, Any] = field(default_factory=dict)
     """The default sizes of a run, by name."""
     assumed: str = ""
     """The assumptions where the paper says nothing."""
-
-    def sizes(self, settings: Sequence[str]) -> dict[str, int]:
-        """Return the sizes that `settings` give, NAME=VALUE each.
-
-        Raises:
-            SizeError: for one that it does not take.
-        """
-        return read_sizes(self.settable, settings)
 
     @property
     def files(self) -> tuple[str, ...]:

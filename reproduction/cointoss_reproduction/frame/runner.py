@@ -3,10 +3,8 @@
 import importlib
 import pkgutil
 import shutil
-from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from cointoss_reproduction import studies
@@ -58,7 +56,6 @@ def reproduce(
     progress: "Progress",
     *,
     quick: bool = False,
-    sizes: Mapping[str, Any] = MappingProxyType({}),
     beside: Path | None = None,
 ) -> "Result":
     """Compute one of the `names` and write its files into its folder, all of them or none.
@@ -68,7 +65,6 @@ def reproduce(
         out: folder of all that is reproduced, made if missing.
         progress: called as the work goes on.
         quick: whether to make its quick size, if it has one.
-        sizes: of the run, by name, which are other than usual.
         beside: folder of the results with which a study compares itself, by default `out`.
 
     Raises:
@@ -80,7 +76,7 @@ def reproduce(
     found = find(name)
     require_writable(name, out)
     folder = folder_of(name, out)
-    make = partial((found.quick if quick else None) or found.make, **sizes)
+    make = (found.quick if quick else None) or found.make
     if beside is not None and "out" in found.usual:
         make = partial(make, out=beside)
     if found.resumes:
@@ -89,7 +85,7 @@ def reproduce(
         result = make(progress)
         saving.save(aside, result, found.draw)
         pages.write(aside, name, found, result, quick=quick)
-        provenance.keep(aside, quick=quick, sizes=sizes)
+        provenance.keep(aside, quick=quick)
     shutil.rmtree(folder / PARTS, ignore_errors=True)
     return result
 
