@@ -5,7 +5,7 @@ import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,14 +70,6 @@ class Varied:
         return WORDED[self.field].by_value() if self.field in WORDED else None
 
 
-class Coordinate(NamedTuple):
-    """The values of a field that varies, as xarray takes them."""
-
-    dims: tuple[str, ...]
-    values: NDArray[Any]
-    attributes: dict[str, Any]
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Batch:
     """A scenario, and the fields of it that vary; its tosses are numbered in the order of a C array."""
@@ -108,12 +100,9 @@ class Batch:
         return [column.field for column in self._columns]
 
     @property
-    def coordinates(self) -> dict[str, Coordinate]:
-        """The values of what varies, by field."""
-        return {
-            one.field: Coordinate(one.dims, one.values, attributes_of(one, self.scenario))
-            for one in self.varied
-        }
+    def coordinates(self) -> dict[str, tuple[tuple[str, ...], NDArray[Any], dict[str, Any]]]:
+        """The dimensions, the values and the attributes of what varies, by field, as xarray takes them."""
+        return {one.field: (one.dims, one.values, attributes_of(one, self.scenario)) for one in self.varied}
 
     def rows(self, tosses: NDArray[np.intp]) -> Array:
         """Return some tosses, by their numbers, as rows, (n, m)."""

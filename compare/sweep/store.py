@@ -320,16 +320,16 @@ def _write_empty(folder: Path, layout: Layout) -> None:
             compressors=ZstdCodec(checksum=True),
             attributes={**layer.attributes, "coordinates": " ".join(layout.batch.coordinates)},
         )
-    for field, one in layout.batch.coordinates.items():
+    for field, (dims, values, attributes) in layout.batch.coordinates.items():
         group.create_array(
             field,
-            data=one.values,
-            chunks=one.values.shape,
+            data=values,
+            chunks=values.shape,
             # Zeros are the fill value, and a file that is not there is one that was lost.
             config={"write_empty_chunks": True},
             compressors=ZstdCodec(checksum=True),
-            dimension_names=list(one.dims),
-            attributes=one.attributes,
+            dimension_names=list(dims),
+            attributes=attributes,
         )
     # Not yet in the specification of Zarr 3, but xarray asks for it.
     with warnings.catch_warnings(action="ignore", category=ZarrUserWarning):
@@ -368,11 +368,11 @@ def _unlike(found: Store, layout: Layout, path: Path) -> str | None:
         if stored.get(name) != due.get(name):
             value = f", {json.dumps(stored.get(name))}" if name == "engine_settings" else ""
             return f"{_CALLED.get(name, name)}{value}"
-    for field, one in reversed(layout.batch.coordinates.items()):
-        array, values = found.arrays.get(field), one.values
-        is_same = array is not None and _shape_of(array) == (values.shape, values.dtype, one.dims)
+    for field, (dims, values, _) in reversed(layout.batch.coordinates.items()):
+        array = found.arrays.get(field)
+        is_same = array is not None and _shape_of(array) == (values.shape, values.dtype, dims)
         if not (is_same and np.array_equal(found.whole(field), values, equal_nan=values.dtype.kind == "f")):
-            return f"grid in {one.dims[0]}"
+            return f"grid in {dims[0]}"
     shape, dims = layout.batch.shape, tuple(layout.batch.sizes)
     arrays = {name: (shape, np.dtype(layer.kind), dims) for name, layer in layout.layers.items()}
     there = {
