@@ -8,6 +8,7 @@ from typing import Any
 
 from cointoss.models.distribution import versions_of
 from cointoss.models.kernel.digests import digest_of_parts
+from cointoss.models.records import UnusableEngineError
 from cointoss.models.rows import fields_of
 from cointoss.models.scenario import Scenario
 
@@ -23,13 +24,17 @@ def engine_scripts() -> dict[str, bytes]:
     return {name: (folder / name).read_bytes() for name in ("engine.js", "workers.js")}
 
 
-def engine_bytes() -> bytes | None:
-    """Return the engine's file, or None where it was not built, or of other sources."""
+def engine_bytes() -> bytes:
+    """Return the engine's file.
+
+    Raises:
+        UnusableEngineError: where it was not built, or of other sources.
+    """
     file = resources.files("cointoss.compare.web.wasm") / FILE
-    if not file.is_file():
-        return None
-    content = file.read_bytes()
-    return content if made_of(content) == sources() else None
+    content = file.read_bytes() if file.is_file() else b""
+    if made_of(content) != sources():
+        raise UnusableEngineError("engine.wasm: not built, or of other sources; make report builds it")
+    return content
 
 
 def sources() -> str:
@@ -47,19 +52,19 @@ def made_of(content: bytes) -> str:
         return ""
 
 
-def engine_data(scenario: Scenario) -> dict[str, Any] | None:
+def engine_data(scenario: Scenario) -> dict[str, Any]:
     """Return what a page needs to toss a scenario with other values of some fields, as JSON.
 
     Args:
         scenario: to be tossed.
 
     Returns:
-        The engine's file by gzip and base64, and the scenario; None where the engine was not built.
+        The engine's file by gzip and base64, and the scenario.
+
+    Raises:
+        UnusableEngineError: where the engine was not built.
     """
-    content = engine_bytes()
-    if content is None:
-        return None
     return {
-        "wasm": b64encode(gzip.compress(content, mtime=0)).decode("ascii"),
+        "wasm": b64encode(gzip.compress(engine_bytes(), mtime=0)).decode("ascii"),
         "scenario": fields_of(scenario),
     }

@@ -57,6 +57,6 @@ def test_without_a_target_the_page_is_opened(monkeypatch, tmp_path, words, found
 
 
 def test_an_engine_that_was_not_built_is_told_in_a_line(monkeypatch):
-    monkeypatch.setattr(carried, "engine_bytes", lambda: None)
+    monkeypatch.setattr(carried, "sources", lambda: "others")
     told = "cointoss: engine.wasm: not built, or of other sources; make report builds it\n"
     assert refused("lab") == told

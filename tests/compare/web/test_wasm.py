@@ -13,7 +13,7 @@ from cointoss.compare.web.wasm.carried import engine_bytes, made_of, sources
 from cointoss.models.answers import ANSWER, REFUSED
 from cointoss.models.faults import Fault
 from cointoss.models.fields import FIELDS
-from cointoss.models.records import Outcome
+from cointoss.models.records import Outcome, UnusableEngineError
 from cointoss.models.rows import EXAMINED, foreign_number, row_of
 from tests.helpers.draws import scenario
 
@@ -22,9 +22,11 @@ from tests.helpers.draws import scenario
 def test_a_file_of_other_sources_is_not_carried(content, monkeypatch, tmp_path):
     assert made_of(content) == ""
     monkeypatch.setattr(carried.resources, "files", lambda _: tmp_path)
-    assert engine_bytes() is None
+    with pytest.raises(UnusableEngineError):
+        engine_bytes()
     (tmp_path / "engine.wasm").write_bytes(content)
-    assert engine_bytes() is None
+    with pytest.raises(UnusableEngineError):
+        engine_bytes()
     about = f'{{"sources": "{sources()}"}}'
     (tmp_path / "engine.wasm").write_bytes(whole := content + b"cointoss" + about.encode())
     assert engine_bytes() == whole
