@@ -38,12 +38,13 @@ def _section() -> bytes:
     from cointoss.models import rows
     from cointoss.models.answers import ANSWER
     from cointoss.models.faults import ACCEPTED
+    from cointoss.models.fields import PLACES
     from cointoss.models.records import Ending, Outcome
 
     about = {
         "version": version("cointoss-dynamics"),
         "sources": sources(),
-        "fields": described(),
+        "fields": [described(*field) for field in PLACES.items()],
         "faults": {fault.value: sentence for fault, sentence in ACCEPTED.items()},
         "answer": ANSWER,
         "examined": rows.EXAMINED,

@@ -3,18 +3,19 @@
 from typing import Any
 
 from cointoss.models.describing import accepted, ends_of
-from cointoss.models.fields import PLACES, UNITS, WORDED, WORDS
+from cointoss.models.fields import UNITS, WORDED, WORDS, Place
 from cointoss.models.rows import default_of
 from cointoss.models.scenario import Scenario
 from cointoss.models.units import printed_unit
 
 
-def described() -> list[dict[str, Any]]:
-    """Return what a page has to know of each field to check a value, in the package's own words."""
-    return [_described(name, place) for name, place in PLACES.items()]
+def described(name: str, place: Place) -> dict[str, Any]:
+    """Return what a page has to know of a field to check a value, in the package's own words.
 
-
-def _described(name: str, place: tuple[str | int, ...]) -> dict[str, Any]:
+    Args:
+        name: of the field.
+        place: of it in a scenario file, see `cointoss.models.fields.PLACES`.
+    """
     default, is_required = default_of(place)
     ends = ends_of(place, Scenario)
     texts = {problem: accepted(place, Scenario, problem) for problem in ("type", "finite", "bounds")}
