@@ -37,14 +37,14 @@ set_option = click.option(
 )
 
 
-def described(source: str, settings: Sequence[str] = (), text: str | None = None) -> "tuple[Scenario, str]":
+def described(source: str, text: str, settings: Sequence[str]) -> "tuple[Scenario, str]":
     """Return a scenario in which some fields have other values, and the text of its file.
 
     Args:
         source: its file, or the name of one that comes with the package.
+        text: of the file: a pipe can be read only once.
         settings: FIELD=VALUE each, which take their places in turn. A field may be named in part, as
             "restitution"; a value is a number, a text with a unit, a word or a list, as in a file.
-        text: of the file, where it was read: a pipe can be read only once.
 
     Raises:
         ScenarioError: naming the source, field, value and what is accepted.
@@ -52,11 +52,9 @@ def described(source: str, settings: Sequence[str] = (), text: str | None = None
     """
     from cointoss.models.errors import ScenarioError
     from cointoss.models.reading import parse
-    from cointoss.models.sources import scenario_text
     from cointoss.models.unlikely import warn_of_unlikely_units
     from cointoss.models.unused import warn_of_unused_fields
 
-    text = scenario_text(source) if text is None else text
     pairs = _pairs(settings) if settings else []  # before what reads a scenario, which takes an engine
     scenario = parse(text, source)
     if pairs:
@@ -92,11 +90,11 @@ def with_scenario(command: Callable[..., None]) -> Callable[..., None]:
     def called(*arguments: Any, scenario: str | None, settings: tuple[str, ...], **asked: Any) -> None:
         if scenario is None and settings:
             raise click.UsageError(f"--set {settings[0]}: accepted: only with a SCENARIO")
-        text = None if scenario is None else _text_of(scenario)
+        text = "" if scenario is None else _text_of(scenario)
         with plain_errors("cointoss" if scenario is None else scenario):
             command(
                 *arguments,
-                source=scenario and Source(scenario, *described(scenario, settings, text), settings),
+                source=scenario and Source(scenario, *described(scenario, text, settings), settings),
                 **asked,
             )
 

@@ -90,5 +90,5 @@ def test_height_tilt_and_energy_are_drawn_over_time(tmp_path, monkeypatch, engin
     ],
 )
 def test_a_value_is_one_of_a_scenario_file(typed, field, value):
-    found, text = described("fig24a", [typed])
+    found, text = described("fig24a", scenario_text("fig24a"), [typed])
     assert found == load("fig24a").replace(field, value) == parse(text, "changed")
