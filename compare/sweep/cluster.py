@@ -5,7 +5,7 @@ import logging
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from itertools import islice
-from typing import Any, Protocol, TypeVar
+from typing import Any, TypeVar
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.errors import SweepError
@@ -19,14 +19,9 @@ PATIENCE, PATIENCE_FOR_WORKERS = 10, 60
 """How long to wait for the scheduler, and for a first worker [s]."""
 
 
-class Workers(Protocol):
-    """Has the workers of a cluster toss parts of a job."""
-
-    def __call__(
-        self, toss: Callable[[Part], Tossed], parts: Iterable[Part], engine: Engine
-    ) -> Iterator[tuple[Part, Tossed]]:
-        """Yield the parts, in any order, with what `toss` by this engine returns of each."""
-        ...
+Workers = Callable[[Callable[[Part], Tossed], Iterable[Part], Engine], Iterator[tuple[Part, Tossed]]]
+"""Has the workers of a cluster toss parts of a job by an engine; yields the parts, in any order, with what is
+tossed of each."""
 
 
 @contextmanager
