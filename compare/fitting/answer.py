@@ -40,14 +40,8 @@ def _value(each: Fitted) -> str:
     if each.interval is None:
         return value
     low, high = each.interval
-    return f"{value}  99 % [{low:.7g}, {high:.7g}]{_end_of(each)}"
-
-
-def _end_of(each: Fitted) -> str:
-    """Return that a value, or its interval, ends where its span does; empty where neither does."""
-    return (
-        "  at the end of its span" if each.at_end else "  cut at the end of its span" if each.is_cut else ""
-    )
+    end = "  at the end of its span" if each.at_end else "  cut at the end of its span" if each.is_cut else ""
+    return f"{value}  99 % [{low:.7g}, {high:.7g}]{end}"
 
 
 def _seen(fit: Fit) -> str:

@@ -95,10 +95,10 @@ class Observed:
         norms = np.hypot.reduce(self.quaternions, axis=1)
         near, bounds = f"numbers within {LARGEST:g}", f"a standard deviation from {LEAST_SD:g} to {LARGEST:g}"
         measured = {
-            "touch_sd": self.touch_times,
-            "height_sd": self.heights,
-            "tilt_sd": self.tilts,
-            "quaternion_sd": self.quaternions[:, 0],
+            "touch_sd": (self.touch_times, self.touch_sd),
+            "height_sd": (self.heights, self.height_sd),
+            "tilt_sd": (self.tilts, self.tilt_sd),
+            "quaternion_sd": (self.quaternions[:, 0], self.quaternion_sd),
         }
         for name, refused, accepted in (
             ("touch_times", ~(np.abs(self.touch_times) <= LARGEST), f"{near} [s]"),
@@ -109,8 +109,8 @@ class Observed:
             ("quaternions", np.abs(norms - 1) > NORM_ERROR, f"four numbers of norm 1 within {NORM_ERROR:g}"),
             ("tilts", (self.tilts < 0) | (self.tilts > np.pi), "angles from 0 to pi [rad]"),
             *(
-                (name, np.isfinite(of) & ~_is_sd(getattr(self, name)), bounds)
-                for name, of in measured.items()
+                (name, np.isfinite(of) & ~((sd >= LEAST_SD) & (sd <= LARGEST)), bounds)
+                for name, (of, sd) in measured.items()
             ),
         ):
             _refuse(name, getattr(self, name), refused, accepted)
@@ -142,10 +142,6 @@ def _array(name: str, given: ArrayLike, shape: tuple[int, ...]) -> Array:
     if name in _KINDS:
         _refuse(name, values, ~((values % 1 == 0) & (np.abs(values) <= MOST)), f"whole numbers up to {MOST}")
     return values
-
-
-def _is_sd(values: Array) -> NDArray[np.bool_]:
-    return (values >= LEAST_SD) & (values <= LARGEST)
 
 
 def _faces(given: Any, n: int) -> ArrayLike:
