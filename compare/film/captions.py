@@ -17,6 +17,7 @@ from cointoss.models.palette import HEADS, TAILS
 from cointoss.models.records import Ending, Outcome
 
 Font = ImageFont.FreeTypeFont | ImageFont.ImageFont
+_font = cache(ImageFont.load_default)
 
 TITLES = {"analytic": "#005A8E", "mujoco": "#AA4400"}
 """The colour of each engine's name; another's is written in ink."""
@@ -128,8 +129,3 @@ def written(frame: np.ndarray, captions: Sequence[Caption], below: str) -> np.nd
 def _fitting(draw: ImageDraw.ImageDraw, text: str, size: float, most: float) -> Font:
     """Return the font in which a text is at most `most` wide, and no larger than `size` [pixels]."""
     return _font(size * min(1.0, most / max(draw.textlength(text, font=_font(size)), 1.0)))
-
-
-@cache
-def _font(size: float) -> Font:
-    return ImageFont.load_default(size)
