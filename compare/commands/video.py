@@ -58,8 +58,8 @@ def video(source: Source, asked: Film) -> None:
     engines = list(Engine) if asked.engine == "both" else [Engine(asked.engine)]
     shown = [followed(each.package.toss(source.scenario)) for each in engines]
     form = ENCODINGS[asked.out.suffix.lower()].form
-    with written_whole(asked.out) as aside, stage("drawing the film", "frames") as progress:
-        picture = write_video(shown, Camera(asked.camera), form, aside, progress)
+    with written_whole(asked.out) as aside:
+        picture = write_video(shown, Camera(asked.camera), form, aside)
     if asked.poster is not None:
         with written_whole(asked.poster) as aside:
             Image.fromarray(picture).save(aside, format="png")

@@ -4,7 +4,7 @@ import errno
 import itertools
 import re
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
@@ -18,6 +18,7 @@ from cointoss.compare.film.encodings import ENCODINGS, Format
 from cointoss.compare.film.filmed import Filmed
 from cointoss.compare.film.play import play_of
 from cointoss.compare.film.slow_motion import film_times
+from cointoss.models.stages import stage
 
 HELD = 1.0
 """How long the last picture stays [s]."""
@@ -53,17 +54,14 @@ def frames(shown: Sequence[Filmed], camera: Camera, form: Format) -> Iterator[np
             yield from itertools.repeat(frame, 1 + held)
 
 
-def write_video(
-    shown: Sequence[Filmed], camera: Camera, form: Format, path: Path, progress: Callable[[int, int], None]
-) -> np.ndarray:
-    """Write a film to a file.
+def write_video(shown: Sequence[Filmed], camera: Camera, form: Format, path: Path) -> np.ndarray:
+    """Write a film to a file, and show how far it is.
 
     Args:
         shown: tosses by any engines, of one coin; they stand side by side.
         camera: from where.
         form: of the film.
         path: of the file, with a suffix of `ENCODINGS`.
-        progress: called after each frame with their number so far and in all.
 
     Returns:
         The frame that stands for the film, (height, width, 3) of uint8.
@@ -83,7 +81,7 @@ def write_video(
         crf=encoding.rate,
         ffmpeg_args=encoding.arguments,
     )
-    with _encoding(writer):
+    with stage("drawing the film", "frames") as progress, _encoding(writer):
         for number, frame in enumerate(frames(shown, camera, form), start=1):
             writer.add_image(frame)
             poster = frame if number == chosen else poster

@@ -112,8 +112,8 @@ class Comparison(ComparedTosses):
         if problem is not None:
             raise BackEndError(problem)
         filmed, form = self.filmed, ENCODINGS[path.suffix.lower()].form
-        with written_whole(path) as aside, stage("drawing the film", "frames") as progress:
-            write_video(filmed, Camera.CLOSE_UP, form, aside, progress)
+        with written_whole(path) as aside:
+            write_video(filmed, Camera.CLOSE_UP, form, aside)
         return path
 
 

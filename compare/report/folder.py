@@ -62,9 +62,7 @@ def write_report(
             from cointoss.compare.film.encodings import SMALL
             from cointoss.compare.film.video import write_video
 
-            filmed = comparison.filmed
-            with stage("drawing the film", "frames") as progress:
-                poster = write_video(filmed, Camera.CLOSE_UP, SMALL, aside / "toss.mp4", progress)
+            poster = write_video(comparison.filmed, Camera.CLOSE_UP, SMALL, aside / "toss.mp4")
             film = (aside / "toss.mp4").read_bytes(), compress_image(poster, fmt="jpeg", quality=80)
             (aside / "report.html").write_text(render(comparison, film=film, maps=maps), encoding="utf-8")
     return folder / "report.html"
