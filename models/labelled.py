@@ -116,21 +116,18 @@ def table(record: Any, row: str, *, first: int | None = None) -> "pd.DataFrame":
     import pandas
 
     arrays = dataset(record, row, first=first)
-    plain: dict[str, Any] = {}
-    units: dict[str, str] = {}
-    for name in [row, *arrays.data_vars]:
-        each = arrays[name]
-        parts = (
-            {f"{name}_{part}": each.values[:, i] for i, part in enumerate(each[each.dims[1]].values)}
-            if each.ndim > 1
-            else {str(name): _words(each)}
-        )
-        plain |= parts
-        if unit := each.attrs.get("units"):
-            units |= dict.fromkeys(parts, unit)
-    del plain[row]
-    frame = pandas.DataFrame(plain, index=arrays.indexes[row])
-    frame.attrs["units"] = units
+    columns = {row: arrays[row]}
+    for name, each in arrays.data_vars.items():
+        if each.ndim > 1:
+            columns |= {
+                f"{name}_{part.item()}": each.sel({each.dims[1]: part}) for part in each[each.dims[1]]
+            }
+        else:
+            columns[str(name)] = each
+    frame = pandas.DataFrame({name: _words(one) for name, one in columns.items()}).set_index(row)
+    frame.attrs["units"] = {
+        name: one.attrs["units"] for name, one in columns.items() if one.attrs.get("units")
+    }
     return frame
 
 
