@@ -39,6 +39,16 @@ class EqualByValue:
         return hash(repr(self))
 
 
+class ReadOnlyArrays:
+    """A record whose fields that are arrays are read-only."""
+
+    def __post_init__(self) -> None:
+        """Make them so."""
+        for value in vars(self).values():
+            if isinstance(value, np.ndarray):
+                value.setflags(write=False)
+
+
 def column(
     axes: str = "",
     unit: str | None = None,

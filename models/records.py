@@ -14,7 +14,7 @@ from cointoss.models.entries import joint_of_states, lowest_points
 from cointoss.models.geometry import FACE_SINE
 from cointoss.models.interruptible import interruptible
 from cointoss.models.kernel.arrays import Array
-from cointoss.models.labelled import EqualByValue, column, dataset, freeze, table
+from cointoss.models.labelled import EqualByValue, ReadOnlyArrays, column, dataset, freeze, table
 from cointoss.models.resting_place import Rest, RestReason
 from cointoss.models.scenario import Scenario
 from cointoss.models.views import view
@@ -382,7 +382,7 @@ class OtherOutcome:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Later(EqualByValue):
+class Later(ReadOnlyArrays, EqualByValue):
     """How a coin goes on after its toss is decided, see `ending.until`; arrays are read-only."""
 
     end: float = 0.0
@@ -391,11 +391,6 @@ class Later(EqualByValue):
     """The times at which it touches and bounces, (n,) [s]."""
     contacts: Array = field(default_factory=lambda: np.empty((0, 2)))
     """Start and end of its sustained contacts, (n, 2) [s]."""
-
-    def __post_init__(self) -> None:
-        """Make the arrays read-only."""
-        for array in (self.times, self.contacts):
-            array.setflags(write=False)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

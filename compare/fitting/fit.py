@@ -22,6 +22,7 @@ from cointoss.compare.sweep.axes import Span
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
 from cointoss.models.devices import Device
 from cointoss.models.errors import ScenarioError
+from cointoss.models.labelled import ReadOnlyArrays
 from cointoss.models.processor import Processor
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Array, Toss
@@ -59,7 +60,7 @@ class Fitted:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Fit:
+class Fit(ReadOnlyArrays):
     """What explains best what was seen of a coin, by the analytic engine; arrays are read-only."""
 
     observed: Observed
@@ -269,8 +270,6 @@ def _fit_of(misfit: Misfit, minimum: Minimum, ends: Array) -> Fit:
         Fitted(span=span, value=value, sd=sd, interval=(low, high))
         for span, value, sd, (low, high) in zip(misfit.spans, *columns, strict=True)
     )
-    for array in (misfit.times, minimum.covariance, shown.residuals, shown.is_tested, shown.touch_times):
-        array.setflags(write=False)
     return Fit(
         observed=misfit.observed,
         scenario=misfit.scenario_of(minimum.values),

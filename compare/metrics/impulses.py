@@ -7,11 +7,12 @@ import numpy as np
 from cointoss import analytic
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.geometry import gap
+from cointoss.models.labelled import ReadOnlyArrays
 from cointoss.models.records import Array, Impacts, Toss
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Differences:
+class Differences(ReadOnlyArrays):
     """Differences of impacts matched by their number, of a against b; arrays are read-only."""
 
     time: Array
@@ -20,11 +21,6 @@ class Differences:
     """|S_a - S_b|/|S_a|, (n,)."""
     angular_velocity: Array
     """|ω_a' - ω_b'|/|ω_a'| after the impact, (n,); infinite where only ω_b' turns."""
-
-    def __post_init__(self) -> None:
-        """Make the arrays read-only."""
-        for array in (self.time, self.impulse, self.angular_velocity):
-            array.setflags(write=False)
 
 
 def match(a: Impacts, b: Impacts) -> Differences:

@@ -11,6 +11,7 @@ from cointoss.compare.film.filmed import Filmed, followed
 from cointoss.compare.metrics.impulses import Differences, errors_of_impacts, match
 from cointoss.compare.metrics.sequences import agreement_horizon, common_prefix
 from cointoss.compare.metrics.trajectories import attitude_angle, distance, parting_time
+from cointoss.models.labelled import ReadOnlyArrays
 from cointoss.models.records import Array, Toss, UnsupportedError
 from cointoss.models.scenario import Scenario
 
@@ -22,7 +23,7 @@ PARTED = 0.1
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Together:
+class Together(ReadOnlyArrays):
     """Both paths at the same times, as far as both tosses last; arrays are read-only."""
 
     time: Array
@@ -33,11 +34,6 @@ class Together:
     """The angle of the rotation from one attitude to the other, (n,) [rad]."""
     parting_time: float | None
     """The time at which the distance first exceeds `PARTED` r [s]."""
-
-    def __post_init__(self) -> None:
-        """Make the arrays read-only."""
-        for array in (self.time, self.distance, self.attitude_angle):
-            array.setflags(write=False)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -32,8 +32,9 @@ def test_both_tosses_are_compared(found):
     assert (found.against, found.tosses) == ((pair,), (found.measure, pair.toss))
     assert (pair.common_horizon, pair.common_prefix, pair.common_horizon_time) == (3, 3, None)
     assert len(pair.errors) == len(pair.differences.time) == 3
-    with pytest.raises(ValueError, match="read-only"):
-        pair.errors[0] = 0
+    for array in (pair.errors, pair.differences.time, pair.together.time):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0
     with pytest.raises(KeyError, match="off; accepted: mujoco"):
         found["off"]
 
