@@ -36,19 +36,11 @@ Place = tuple[str | int, ...]
 
 def _declared() -> Iterator[tuple[str, Any, tuple[Any, ...]]]:
     """Yield each field that a table has, its type, and what is declared of it beside the type."""
-    yield "gravity", *_split_annotation(Gravity)
+    kind, *declared = get_args(Gravity)
+    yield "gravity", kind, tuple(declared)
     for table, part in TABLES.items():
         for key, field in part.model_fields.items():
             yield f"{table}.{key}", field.annotation, tuple(field.metadata)
-
-
-def _split_annotation(hint: Any) -> tuple[Any, tuple[Any, ...]]:
-    kind, *declared = get_args(hint)
-    return kind, tuple(declared)
-
-
-def _label_in(declared: tuple[Any, ...]) -> Label | None:
-    return next((each for each in declared if isinstance(each, Label)), None)
 
 
 def _units_in(declared: tuple[Any, ...]) -> Iterator[str]:
@@ -59,7 +51,10 @@ def _units_in(declared: tuple[Any, ...]) -> Iterator[str]:
         yield from _units_in(get_args(each))
 
 
-_DECLARED = {path: (kind, declared, _label_in(declared)) for path, kind, declared in _declared()}
+_DECLARED = {
+    path: (kind, declared, next((each for each in declared if isinstance(each, Label)), None))
+    for path, kind, declared in _declared()
+}
 COMPONENTS = {path: tuple(label.each) for path, (_, _, label) in _DECLARED.items() if label and label.each}
 """The fields that are lists of numbers, and what their components are called."""
 
