@@ -211,10 +211,9 @@ def _integral(part: int, motion: ScaledMotion, start: float, end: float, layer: 
 
 @compiled
 def _apart(a: Sums, b: Sums) -> float:
-    difference = _plus(a, -1.0, b)
     largest = 0.0
-    for i in range(6):
-        largest = max(largest, abs(difference[i]))
+    for difference in _plus(a, -1.0, b):
+        largest = max(largest, abs(difference))
     return largest
 
 
@@ -311,11 +310,11 @@ def _along_line(b: float, half: float, line: LineVelocity) -> tuple[float, float
     """
     B, C, D = line
     far = (B * B + C * C) / (half * half)
+    if far > 2500 * D * D:
+        return _by_gauss(b, half, line, _FOUR_X, _FOUR_W)
+    if far > 121 * D * D:
+        return _by_gauss(b, half, line, _SIX_X, _SIX_W)
     if far > 9 * D * D:
-        if far > 2500 * D * D:
-            return _by_gauss(b, half, line, _FOUR_X, _FOUR_W)
-        if far > 121 * D * D:
-            return _by_gauss(b, half, line, _SIX_X, _SIX_W)
         return _by_gauss(b, half, line, _COARSE_X, _COARSE_W)
     middle, wide = -C / D, max(abs(B / D), 1e-20 * half)
     low, high = math.asinh((-half - middle) / wide), math.asinh((half - middle) / wide)
