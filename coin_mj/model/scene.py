@@ -77,7 +77,10 @@ def compile_coin(spec: mujoco.MjSpec, scenario: Scenario) -> mujoco.MjModel:
     model.geom("floor").sameframe[:] = apart
     model.body("coin").sameframe[:] = apart
     if scenario.body.air.exponent is None:
-        _damp(model, scenario)
+        # The rest of linear air is damping of the free joint, whose turning is told in body axes.
+        drag = scenario.body.drag
+        model.dof_damping[:3] = drag.force_tangential
+        model.dof_damping[3:] = (drag.moment_tangential, drag.moment_tangential, drag.moment_normal)
     return model
 
 
@@ -100,14 +103,7 @@ def described(scenario: Scenario, thickness: float) -> mujoco.MjSpec:
     body.fullinertia = (J[0, 0], J[1, 1], J[2, 2], J[0, 1], J[0, 2], J[1, 2])
     spec.geom("coin").size = (coin.radius, thickness / 2, 0.0)
     if scenario.body.air.exponent is None:
-        # The rest of the force of linear air, which is larger along the normal, is damping: see `_damp`.
+        # The rest of the force of linear air, which is larger along the normal, is set by `compile_coin`.
         drag = scenario.body.drag
         spec.actuator("drag").biasprm[2] = drag.force_tangential - drag.force_normal
     return spec
-
-
-def _damp(model: mujoco.MjModel, scenario: Scenario) -> None:
-    """Set the rest of linear air as damping of the free joint, whose turning is told in body axes."""
-    drag = scenario.body.drag
-    model.dof_damping[:3] = drag.force_tangential
-    model.dof_damping[3:] = (drag.moment_tangential, drag.moment_tangential, drag.moment_normal)
