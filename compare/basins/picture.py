@@ -216,9 +216,12 @@ def draw_comparison(
     different = decided & (a != b)
     difference = np.where(different[..., None], _rgb(_DIFFERENT), _rgb(_SAME))
     difference[~decided] = _rgb(_COLORS[style.palette][Outcome.UNDECIDED])
+    told = "difference: no pixel decided by both"
+    if decided.any():
+        told = f"different: {100 * different.sum() / decided.sum():.3g} % of the pixels both decide"
     for axes, title, colors in zip(
         panels,
-        ("analytic", "MuJoCo", f"{_difference_title(different, decided)}\n{note}".rstrip()),
+        ("analytic", "MuJoCo", f"{told}\n{note}".rstrip()),
         (_colored(a, style), _colored(b, style), difference),
         strict=True,
     ):
@@ -228,12 +231,6 @@ def draw_comparison(
     patches = [*_outcome_patches([a, b], style), _patch(_SAME, "both alike"), _patch(_DIFFERENT, "different")]
     _legend(figure, [*patches, *_hatched(panels[0], untrusted, x, y, a.shape, style)])
     return figure
-
-
-def _difference_title(different: NDArray[np.bool_], decided: NDArray[np.bool_]) -> str:
-    if not decided.any():
-        return "difference: no pixel decided by both"
-    return f"different: {100 * different.sum() / decided.sum():.3g} % of the pixels both decide"
 
 
 def _colored(codes: OutcomeCodes, style: PictureStyle) -> NDArray[np.uint8]:
