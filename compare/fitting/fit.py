@@ -18,6 +18,7 @@ from cointoss.compare.fitting.observed import Observed
 from cointoss.compare.fitting.search import LeastSquaresSearch, Minimum
 from cointoss.compare.fitting.table import read_seen
 from cointoss.compare.metrics.estimates import LEVEL
+from cointoss.compare.output.language import entry_of
 from cointoss.compare.sweep.axes import Span
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
 from cointoss.models.devices import Device
@@ -129,10 +130,7 @@ class Fit(ReadOnlyArrays):
         Raises:
             KeyError: for another field.
         """
-        by_field = {each.span.field: each for each in self.values}
-        if field not in by_field:
-            raise KeyError(f"{field}: accepted: {', '.join(by_field)}")
-        return by_field[field]
+        return entry_of({each.span.field: each for each in self.values}, field)
 
     def __repr__(self) -> str:
         """Return the values and the verdict."""

@@ -23,6 +23,7 @@ from cointoss.compare.flips.table import read_flips
 from cointoss.compare.flips.tossed import heads_along
 from cointoss.compare.metrics.estimate import Estimate
 from cointoss.compare.metrics.estimates import LEVEL, share_of
+from cointoss.compare.output.language import entry_of
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
 from cointoss.models.devices import Device
 from cointoss.models.hand import Hand, load_hand
@@ -92,10 +93,7 @@ class HandFit:
         Raises:
             KeyError: for another name.
         """
-        found = dict(zip(self.flips.people, self.people, strict=True))
-        if person not in found:
-            raise KeyError(f"{person}: accepted: {', '.join(found)}")
-        return found[person]
+        return entry_of({one.person: one for one in self.people}, person)
 
     def __repr__(self) -> str:
         """Return the hand and the verdict."""
