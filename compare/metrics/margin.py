@@ -156,11 +156,10 @@ def margins(scenario: Scenario, *, settings: analytic.AnalyticSettings = analyti
     def outcomes(rows: Array) -> Codes:
         return analytic.toss_rows(rows, settings=settings).outcome
 
-    def margin_along(quantity: ReleaseQuantity) -> Margin:
-        change = float(smallest_changes(start, quantity, outcomes=outcomes, search=FINE)[0])
-        return Margin(quantity, change * quantity.factor)
-
-    return tuple(map(margin_along, counted("margins", "quantities", QUANTITIES)))
+    return tuple(
+        Margin(one, one.factor * float(smallest_changes(start, one, outcomes=outcomes, search=FINE)[0]))
+        for one in counted("margins", "quantities", QUANTITIES)
+    )
 
 
 def smallest_changes(
