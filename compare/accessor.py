@@ -74,12 +74,11 @@ class Tosses:
         """
         from cointoss.compare.shares.show import shares_of  # loads scipy
 
-        made = self.codes
-        dims = self._dataset["outcome"].dims
+        codes = xr.DataArray(self.codes, dims=self._dataset["outcome"].dims)
+        dims = codes.dims
         for dim in along:
             if dim not in dims:
                 raise SweepError(f"along: {dim!r}, accepted: {', '.join(map(str, dims))}")
-        codes = xr.DataArray(made, dims=dims)
         over = [dim for dim in dims if dim not in along]
         counts = xr.concat([(codes == one).sum(over) for one in Outcome], "outcome").transpose(
             *along, "outcome"
