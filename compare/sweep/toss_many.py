@@ -104,15 +104,25 @@ def toss_many(
         DeviceWarning: for a card that fails, with the device "auto": the CPU makes the remaining tosses.
     """
     batch = batch_of(scenario, vary)
-    how = how_of(
-        engine,
+    for name, value, accepted in (("trust", trust, TRUSTS), ("errors", errors, ERRORS)):
+        if value not in accepted:
+            raise SweepError(f"{name}: {value!r}, accepted: {', '.join(map(repr, accepted))}")
+    if workers is not None:
+        require_whole("workers", workers, 1, MOST_WORKERS)
+    chosen = Engine(engine)
+    usual = chosen.package.MANY
+    if settings is not None:
+        kind = type(usual)
+        require_type("settings", settings, kind, f"{kind.__name__} of the engine {chosen}")
+    how = How(
+        engine=chosen,
+        settings=usual if settings is None else settings,
         trust=trust,
         rest=rest,
-        settings=settings,
         law=law,
         workers=workers,
-        device=device,
-        errors=errors,
+        keeps=errors == "keep",
+        processor=Processor(device),
     )
     if out is None and (resume or overwrite):
         raise SweepError(f"{'resume' if resume else 'overwrite'}: given, accepted: only with out")
@@ -153,42 +163,3 @@ def _into_store(
             left = sum(kept.missing(tile).size for tile in kept.tiles)
             warn_of_interruption(len(batch) - left, len(batch))
     return xarray.open_zarr(path, chunks=None).assign_attrs(how.processor.attributes)
-
-
-def how_of(
-    engine: Engine | str,
-    *,
-    trust: Any = None,
-    rest: bool = False,
-    settings: Any = None,
-    law: Any = None,
-    workers: Any = None,
-    device: Device | str = Device.CPU,
-    errors: Any = "raise",
-) -> How:
-    """Return how a batch is tossed; the arguments are those of `toss_many`.
-
-    Raises:
-        SweepError: naming the argument, its value and what is accepted.
-        TypeError: for settings of another engine.
-    """
-    for name, value, accepted in (("trust", trust, TRUSTS), ("errors", errors, ERRORS)):
-        if value not in accepted:
-            raise SweepError(f"{name}: {value!r}, accepted: {', '.join(map(repr, accepted))}")
-    if workers is not None:
-        require_whole("workers", workers, 1, MOST_WORKERS)
-    chosen = Engine(engine)
-    usual = chosen.package.MANY
-    if settings is not None:
-        kind = type(usual)
-        require_type("settings", settings, kind, f"{kind.__name__} of the engine {chosen}")
-    return How(
-        engine=chosen,
-        settings=usual if settings is None else settings,
-        trust=trust,
-        rest=rest,
-        law=law,
-        workers=workers,
-        keeps=errors == "keep",
-        processor=Processor(device),
-    )
