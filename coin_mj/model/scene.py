@@ -63,14 +63,10 @@ def build(scenario: Scenario, rebound: Rebound, friction: float, thickness: floa
             solreffriction=(0.0, -max(rebound.slip_damping, NO_DAMPING)),
             solimp=coin.solimp,
         )
-    return compile_coin(spec, scenario)
-
-
-def compile_coin(spec: mujoco.MjSpec, scenario: Scenario) -> mujoco.MjModel:
-    """Compile the description of a scenario's coin, and set what a description cannot tell."""
     flags = int(spec.option.disableflags)
     spec.option.disableflags = flags | _UNCALLED
     model = spec.compile()
+    # What a description cannot tell.
     model.opt.disableflags = flags
     # MuJoCo's compiler takes two frames less than a micrometre apart for one.
     apart = mujoco.mjtSameFrame.mjSAMEFRAME_NONE
@@ -85,7 +81,7 @@ def compile_coin(spec: mujoco.MjSpec, scenario: Scenario) -> mujoco.MjModel:
 
 
 def described(scenario: Scenario, thickness: float) -> mujoco.MjSpec:
-    """Describe the coin over a floor whose contact is still that of coin.xml; see `compile_coin`.
+    """Describe the coin over a floor whose contact is still that of coin.xml; see `build`.
 
     Args:
         scenario: what to toss.
@@ -103,7 +99,7 @@ def described(scenario: Scenario, thickness: float) -> mujoco.MjSpec:
     body.fullinertia = (J[0, 0], J[1, 1], J[2, 2], J[0, 1], J[0, 2], J[1, 2])
     spec.geom("coin").size = (coin.radius, thickness / 2, 0.0)
     if scenario.body.air.exponent is None:
-        # The rest of the force of linear air, which is larger along the normal, is set by `compile_coin`.
+        # The rest of the force of linear air, which is larger along the normal, is set by `build`.
         drag = scenario.body.drag
         spec.actuator("drag").biasprm[2] = drag.force_tangential - drag.force_normal
     return spec
