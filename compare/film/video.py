@@ -18,17 +18,13 @@ from cointoss.compare.film.encodings import ENCODINGS, Format
 from cointoss.compare.film.filmed import Filmed
 from cointoss.compare.film.play import play_of
 from cointoss.compare.film.slow_motion import film_times
+from cointoss.models.records import Array
 from cointoss.models.stages import stage
 
 HELD = 1.0
 """How long the last picture stays [s]."""
 SOON = 0.1
 """How long after ffmpeg stopped the signal may be heeded here that stopped it, as Ctrl-C does [s]."""
-
-
-def frame_count(shown: Sequence[Filmed], form: Format) -> int:
-    """Return the number of frames of a film."""
-    return len(film_times(shown, form.frames_per_second, form.longest)[0]) + _held(form)
 
 
 def frames(shown: Sequence[Filmed], camera: Camera, form: Format) -> Iterator[np.ndarray]:
@@ -71,8 +67,9 @@ def write_video(shown: Sequence[Filmed], camera: Camera, form: Format, path: Pat
     """
     mediapy.set_ffmpeg(imageio_ffmpeg.get_ffmpeg_exe())
     encoding = ENCODINGS[path.suffix.lower()]
-    count, shape = frame_count(shown, form), (form.height, _width(shown, form))
-    chosen, poster = poster_number(shown, form), np.zeros((*shape, 3), np.uint8)
+    times, _ = film_times(shown, form.frames_per_second, form.longest)
+    count, shape = len(times) + _held(form), (form.height, _width(shown, form))
+    chosen, poster = poster_number(shown, times), np.zeros((*shape, 3), np.uint8)
     writer = mediapy.VideoWriter(
         str(path),
         shape,
@@ -119,12 +116,15 @@ def _last_words(writer: mediapy.VideoWriter) -> str:
     return "" if encoder is None or encoder.stderr is None else encoder.stderr.read().decode(errors="replace")
 
 
-def poster_number(shown: Sequence[Filmed], form: Format) -> int:
+def poster_number(shown: Sequence[Filmed], times: Array) -> int:
     """Return the number of the frame that stands for a film.
 
     It shows the faces best of those in the second half of the first flight, or of all where nothing touches.
+
+    Args:
+        shown: the tosses of the film.
+        times: of its frames, (n,) [s].
     """
-    times, _ = film_times(shown, form.frames_per_second, form.longest)
     until = min(np.append(each.motion.impacts.time, each.motion.end_time)[0] for each in shown)
     first, last = np.searchsorted(times, (until / 2, until))
     flight = times[first : last + 1]

@@ -10,7 +10,8 @@ import pytest
 from cointoss.compare.film import video
 from cointoss.compare.film.drawing import Camera
 from cointoss.compare.film.encodings import ENCODINGS, Format
-from cointoss.compare.film.video import frame_count, frames, poster_number, write_video
+from cointoss.compare.film.slow_motion import film_times
+from cointoss.compare.film.video import frames, poster_number, write_video
 from tests.helpers.films import MadePath, Written, film_written, made, shown
 
 TINY = Format(64, 48, 4, longest=2.0)
@@ -23,9 +24,11 @@ def test_a_film_is_written_in_every_format(tmp_path, monkeypatch, suffix):
     path, tosses, told = tmp_path / f"film{suffix}", [shown(TOSS)] * 2, []
     monkeypatch.setattr(video, "stage", lambda *_: nullcontext(lambda *done: told.append(done)))
     poster = write_video(tosses, Camera.TOP, TINY, path)
-    count, drawn = frame_count(tosses, TINY), list(frames(tosses, Camera.TOP, TINY))
+    drawn = list(frames(tosses, Camera.TOP, TINY))
+    count = len(drawn)
     assert told == [(i + 1, count) for i in range(count)]
-    assert np.array_equal(poster, drawn[poster_number(tosses, TINY) - 1])
+    times, _ = film_times(tosses, TINY.frames_per_second, TINY.longest)
+    assert np.array_equal(poster, drawn[poster_number(tosses, times) - 1])
     codec = {".mp4": "h264", ".webm": "vp9", ".gif": "gif"}[suffix]
     assert film_written(path) == Written(codec=codec, size=(64, 48), rate=4, frames=count)
 

@@ -9,8 +9,9 @@ import pytest
 
 from cointoss.compare.film import encodings
 from cointoss.compare.film.back_end import ADVICE, drawing_problem
+from cointoss.compare.film.drawing import Camera
 from cointoss.compare.film.encodings import SMALL
-from cointoss.compare.film.video import frame_count
+from cointoss.compare.film.video import frames
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.report.comparison import compare, compared
 from cointoss.compare.report.contents import FILES, require_folder
@@ -83,7 +84,8 @@ def test_a_comparison_in_python_writes_the_report_and_the_film_of_the_commands(t
     assert all(name in html and version in html for name, version in versions().items())
     assert {path.name for path in (tmp_path / "report").iterdir()} == set(FILES)
     assert found.film(str(tmp_path / "mine.mp4")) == tmp_path / "mine.mp4"
-    assert film_written(tmp_path / "mine.mp4").frames == frame_count(found.filmed, stamp)
+    drawn = frames(found.filmed, Camera.CLOSE_UP, stamp)
+    assert film_written(tmp_path / "mine.mp4").frames == len(list(drawn))
     assert (tmp_path / "mine.mp4").read_bytes() == (tmp_path / "report" / "toss.mp4").read_bytes()
 
 
