@@ -124,8 +124,11 @@ class Observed:
     @property
     def measured(self) -> dict[str, NDArray[np.bool_]]:
         """The frames in which heights, tilts and attitudes were measured, by these names, (m,) each."""
-        columns = {"heights": self.heights, "tilts": self.tilts, "attitudes": self.quaternions[:, 0]}
-        return {name: np.isfinite(values) for name, values in columns.items()}
+        return {
+            "heights": np.isfinite(self.heights),
+            "tilts": np.isfinite(self.tilts),
+            "attitudes": np.isfinite(self.quaternions[:, 0]),
+        }
 
     def __repr__(self) -> str:
         """Return how much was seen."""

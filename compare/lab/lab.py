@@ -53,9 +53,10 @@ def lab_page(
     Raises:
         UnusableEngineError: where the engine for a browser was not built.
     """
-    data = engine_data(scenario)
     files = {**files_of("cointoss.compare.lab"), **engine_scripts()}
     told = {"tour": is_tour, "served": is_served, "saved": saved, "tosses": tosses}
     return one_file(
-        files, {**data, "outcomes": shown_outcomes(), **told}, SERVED_POLICY if is_served else ENGINE_POLICY
+        files,
+        {**engine_data(scenario), "outcomes": shown_outcomes(), **told},
+        SERVED_POLICY if is_served else ENGINE_POLICY,
     )
