@@ -31,7 +31,9 @@ def as_lines(found: HandFit | Estimate) -> str:
         ),
     ]
     if found.scatter:
-        rows.append(["all", str(flips), f"{100 * same / flips:.2f}", _around(found.scatter)])
+        over = counted(found.scatter.count, "person").replace("persons", "people")
+        around = f"90 with a scatter of {_in_degrees(found.scatter)} over {over}"
+        rows.append(["all", str(flips), f"{100 * same / flips:.2f}", around])
     meaning = "same side: how often the side that was up at the release came up; in brackets 99 % intervals"
     return "\n".join([*_aligned(rows), meaning, "", found.verdict])
 
@@ -59,8 +61,3 @@ def _in_degrees(psi: Estimate) -> str:
     if math.isnan(psi.value):
         return "not determined"
     return in_words(psi, ".1f", DEGREE) if math.isfinite(psi.low) else f"{psi.value * DEGREE:.1f}"
-
-
-def _around(scatter: Estimate) -> str:
-    over = counted(scatter.count, "person").replace("persons", "people")
-    return f"90 with a scatter of {_in_degrees(scatter)} over {over}"
