@@ -10,7 +10,7 @@ from cointoss.analytic.contact.edge.guards import comes_upright, stands_for_good
 from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.integrator import ContactStep, contact_work, step_contact
 from cointoss.analytic.contact.lying import lay_flat
-from cointoss.analytic.contact.periodic import record_tilt, repeats, start_tilt_history
+from cointoss.analytic.contact.periodic import TiltHistory, record_tilt, repeats, start_tilt_history
 from cointoss.analytic.contact.resets import (
     begin_contact,
     bounce,
@@ -31,7 +31,7 @@ from cointoss.models.contact_laws.table import is_followed
 from cointoss.models.ending import classify_ending, endless, face_outcome, out_of_steps, unless_caught
 from cointoss.models.impact_row import FIRST_ROOM, ImpactRows, with_room
 from cointoss.models.kernel.arrays import Codes, Row, Table, copy_into, doubled
-from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.compiled import compiled, inlined
 from cointoss.models.laws import EndingTest
 from cointoss.models.perpetual import EnergyHistory, energy_history, start_history
 from cointoss.models.records import Array, Ending, Outcome
@@ -89,7 +89,7 @@ class Passage(NamedTuple):
     """The flight up to a touch, or `NOT_FLOWN`."""
 
 
-GOES_ON = TossEnd(Outcome.UNDECIDED, Ending.NONE)
+GOES_ON, OUT_OF_TIME = TossEnd(Outcome.UNDECIDED, Ending.NONE), TossEnd(Outcome.UNDECIDED, Ending.MAX_TIME)
 NOT_FLOWN = Flown(0.0, False, 0, 0, np.inf)
 _STEPS, _GRAZE = 2 + STATE_SIZE, 3 + STATE_SIZE
 """Columns of the table of modes for the flights, after the time, the `Mode` and the state."""
@@ -154,26 +154,44 @@ def toss_coin(
         if mode == Mode.ENDED:
             break
         passage = flow_to_event(setup, mode, y, spent)
-        spent, verdict, before = passage.spent, passage.verdict, mode
-        mode = mode_after(mode, passage.event)
         if keep_all:
-            rows = with_room(rows, spent.impacts)
-            if before == Mode.FLIGHT:
+            rows = with_room(rows, passage.spent.impacts)
+            if mode == Mode.FLIGHT:
                 pieces[k - 1, _STEPS], pieces[k - 1, _GRAZE] = passage.flown.steps, passage.flown.graze
-        row = rows[spent.impacts % len(rows)]
-        ending = reset(setup, before, passage, y, row)
-        if ending != Ending.NONE:
-            verdict = TossEnd(Outcome.UNDECIDED, ending)
-        elif passage.event == Event.IMPACT or passage.event == Event.FALLS_FLAT:
-            impacts = spent.impacts + (1 if passage.event == Event.IMPACT else 0)
-            spent = Spent(spent.time, impacts, spent.steps)
-            verdict = classified(setup, y, spent.time)
-        if verdict.ending == Ending.NONE and mode != Mode.TOUCHING and spent.steps >= limits.steps:
-            verdict = steps_spent(setup, y)
-        if verdict.ending != Ending.NONE and mode != Mode.ENDED:
-            mode = mode_after(mode, Event.ENDS)
+        mode, spent, verdict = after_event(setup, mode, passage, y, rows)
     outcome, ending = unless_caught(rules, verdict.outcome, verdict.ending)
     return spent.impacts, rows, pieces[:k], outcome, ending, spent.time
+
+
+@compiled
+def after_event(
+    setup: Setup, before: int, passage: Passage, y: Array, rows: ImpactRows
+) -> tuple[int, Spent, TossEnd]:
+    """Bring a toss from the event that ends a mode to the start of the next, and return that.
+
+    Args:
+        setup: the toss.
+        before: number of the `Mode` that has ended.
+        passage: of that mode.
+        y: state, (13,); changed by the reset.
+        rows: where impacts are recorded, see `toss_coin`.
+
+    Returns:
+        The number of the next `Mode`; what the toss has spent; and how it ends, or `GOES_ON`.
+    """
+    event, spent, verdict = passage.event, passage.spent, passage.verdict
+    mode = mode_after(before, event)
+    ending = reset(setup, before, passage, y, rows[spent.impacts % len(rows)])
+    if ending != Ending.NONE:
+        verdict = TossEnd(Outcome.UNDECIDED, ending)
+    elif event == Event.IMPACT or event == Event.FALLS_FLAT:
+        spent = Spent(spent.time, spent.impacts + (1 if event == Event.IMPACT else 0), spent.steps)
+        verdict = classified(setup, y, spent.time)
+    if verdict.ending == Ending.NONE and mode != Mode.TOUCHING and spent.steps >= setup.limits.steps:
+        verdict = steps_spent(setup, y)
+    if verdict.ending != Ending.NONE and mode != Mode.ENDED:
+        mode = mode_after(mode, Event.ENDS)
+    return mode, spent, verdict
 
 
 @compiled
@@ -287,7 +305,33 @@ def ends(spent: Spent, outcome: Outcome, ending: Ending) -> Passage:
 def hold_to_event(setup: Setup, mode: int, y: Array, spent: Spent) -> Passage:
     """Follow a sustained contact to the end of its mode, or of the toss.
 
-    After each step these checks follow, in this order:
+    Args:
+        setup: the toss.
+        mode: number of the `Mode`, in contact.
+        y: state, (13,); advanced.
+        spent: at the start.
+    """
+    max_time, in_mode = setup.rules.max_time, 0
+    contact = contact_at(setup.body, setup.friction, mode, y)
+    stages, tilts = contact_work(contact, y), start_tilt_history(contact)
+    dt = np.inf
+    while spent.time < max_time:
+        step = step_contact(contact, y, min(dt, max_time - spent.time), setup.limits.tolerance, stages)
+        dt, in_mode = step.next_dt, in_mode + 1
+        passage = after_step(setup, mode, tilts, in_mode, step, y, spent)
+        if passage.event != Event.NONE:
+            return passage
+        spent, contact = passage.spent, contact_at(setup.body, setup.friction, mode, y)
+    return out_of_budget(contact, y, spent, OUT_OF_TIME)
+
+
+@inlined
+def after_step(
+    setup: Setup, mode: int, tilts: TiltHistory, in_mode: int, step: ContactStep, y: Array, spent: Spent
+) -> Passage:
+    """Return the `Passage` up to a step's end: its event is `NONE` where the mode goes on.
+
+    These checks follow a step, in this order:
 
     1. no step: nothing was computed, so the other checks have no state to test.
     2. falls flat: the reset comes first, and the other checks test the coin that lies flat.
@@ -302,45 +346,42 @@ def hold_to_event(setup: Setup, mode: int, y: Array, spent: Spent) -> Passage:
     Args:
         setup: the toss.
         mode: number of the `Mode`, in contact.
-        y: state, (13,); advanced.
-        spent: at the start.
+        tilts: of this mode.
+        in_mode: steps made in it.
+        step: the last of them.
+        y: state at its end, (13,).
+        spent: at its start.
     """
-    body, rules, friction, limits = setup.body, setup.rules, setup.friction, setup.limits
+    body, rules, friction = setup.body, setup.rules, setup.friction
+    if step.event == Event.NO_SOLUTION:
+        return Passage(step.event, spent, TossEnd(Outcome.UNDECIDED, Ending.NO_SOLUTION), NOT_FLOWN)
+    spent = Spent(spent.time + step.elapsed, spent.impacts, spent.steps + cost_of(body, step))
+    setup.so_far[1] = spent.time
+    if step.event == Event.FALLS_FLAT:
+        return Passage(step.event, spent, GOES_ON, NOT_FLOWN)
     contact = contact_at(body, friction, mode, y)
-    stages, tilts = contact_work(contact, y), start_tilt_history(contact)
-    early, dt, in_mode = rules.test != EndingTest.LYING, np.inf, 0
-    while spent.time < rules.max_time:
-        longest = min(dt, rules.max_time - spent.time)
-        step = step_contact(contact, y, longest, limits.tolerance, stages)
-        dt = step.next_dt
-        in_mode += 1
-        if step.event == Event.NO_SOLUTION:
-            return Passage(step.event, spent, TossEnd(Outcome.UNDECIDED, Ending.NO_SOLUTION), NOT_FLOWN)
-        spent = Spent(spent.time + step.elapsed, spent.impacts, spent.steps + cost_of(body, step))
-        setup.so_far[1] = spent.time
-        if step.event == Event.FALLS_FLAT:
-            return Passage(step.event, spent, GOES_ON, NOT_FLOWN)
-        contact = contact_at(body, friction, mode, y)
-        verdict = classified(setup, y, spent.time)
-        if verdict.ending != Ending.NONE:
-            return Passage(Event.ENDS, spent, verdict, NOT_FLOWN)
-        if has_resistance(friction) and rests(contact, y):
-            return ends(spent, Outcome.EDGE, Ending.AT_REST)
-        if tilts.periodic and not step.is_over:
-            record_tilt(tilts, y)
-            if repeats(tilts):
-                outcome, ending = endless(body, rules, state_of(y), setup.history, Ending.PERIODIC)
-                return ends(spent, outcome, ending)
-        if stands_for_good(contact, in_mode, early, y):
-            return ends(spent, Outcome.EDGE, Ending.STANDING)
-        if comes_upright(contact, y):
-            return Passage(Event.COMES_UPRIGHT, spent, GOES_ON, NOT_FLOWN)
-        if spent.steps >= limits.steps:
-            return out_of_budget(contact, y, spent, steps_spent(setup, y))
-        if step.is_over:
-            event = margin_event(contact, y) if step.event == Event.NONE else step.event
-            return Passage(event, spent, GOES_ON, NOT_FLOWN)
-    return out_of_budget(contact, y, spent, TossEnd(Outcome.UNDECIDED, Ending.MAX_TIME))
+    verdict = classified(setup, y, spent.time)
+    if verdict.ending != Ending.NONE:
+        return Passage(Event.ENDS, spent, verdict, NOT_FLOWN)
+    if has_resistance(friction) and rests(contact, y):
+        return ends(spent, Outcome.EDGE, Ending.AT_REST)
+    if tilts.periodic and not step.is_over:
+        record_tilt(tilts, y)
+        if repeats(tilts):
+            outcome, ending = endless(body, rules, state_of(y), setup.history, Ending.PERIODIC)
+            return ends(spent, outcome, ending)
+    if stands_for_good(contact, in_mode, rules.test != EndingTest.LYING, y):
+        return ends(spent, Outcome.EDGE, Ending.STANDING)
+    if comes_upright(contact, y):
+        return Passage(Event.COMES_UPRIGHT, spent, GOES_ON, NOT_FLOWN)
+    if spent.steps >= setup.limits.steps:
+        return out_of_budget(contact, y, spent, steps_spent(setup, y))
+    if step.is_over:
+        event = margin_event(contact, y) if step.event == Event.NONE else step.event
+        return Passage(event, spent, GOES_ON, NOT_FLOWN)
+    if spent.time >= rules.max_time:
+        return out_of_budget(contact, y, spent, OUT_OF_TIME)
+    return Passage(Event.NONE, spent, GOES_ON, NOT_FLOWN)
 
 
 @compiled

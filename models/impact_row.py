@@ -65,3 +65,9 @@ def with_room(rows: NDArray[Any], n: int) -> NDArray[Any]:
     for i in range(len(rows)):
         more[i] = rows[i]
     return more
+
+
+@compiled
+def last_face(impacts: ImpactRows, n: int) -> int:
+    """Return the face up at impact n, counted from 1, in the row that is its own; 0 for none."""
+    return impacts[(n - 1) % len(impacts)]["face"] if n > 0 else 0

@@ -26,6 +26,8 @@ _MOST_TAKEN = 4e-6
 _LARGEST_NONE = 2e-2
 # The number of checks remembered, and of the last ones that suffice to tell a loss that does not grow.
 _REMEMBERED, _FEW = 6, 4
+KEPT = 2 + _REMEMBERED
+"""The numbers that an `EnergyHistory` keeps."""
 
 
 class EnergyHistory(NamedTuple):
@@ -44,7 +46,13 @@ class EnergyHistory(NamedTuple):
 @compiled
 def energy_history(no_loss: float) -> EnergyHistory:
     """Return the `EnergyHistory`, with this `no_loss`, of a toss that was not in sustained contact yet."""
-    return EnergyHistory(np.full(1, np.inf), np.full(1, np.inf), np.full(_REMEMBERED, np.inf), no_loss)
+    return history_in(np.full(KEPT, np.inf), no_loss)
+
+
+@compiled
+def history_in(kept: Array, no_loss: float) -> EnergyHistory:
+    """Return the `EnergyHistory` that lies in `kept`, (`KEPT`,), infinite before the first contact."""
+    return EnergyHistory(kept[:1], kept[1:2], kept[2:], no_loss)
 
 
 @compiled

@@ -31,7 +31,13 @@ class TiltHistory(NamedTuple):
 
 @compiled
 def start_tilt_history(contact: SustainedContact) -> TiltHistory:
-    """Return the `TiltHistory` of a contact that starts.
+    """Return the `TiltHistory` of a contact that starts."""
+    return tilt_history(contact, np.zeros(2))
+
+
+@compiled
+def tilt_history(contact: SustainedContact, kept: Array) -> TiltHistory:
+    """Return the `TiltHistory` of a contact, which lies in `kept`, (2,), zeros at its start.
 
     An ideal coin in vacuum that slides without friction, or rolls without slip, has one degree of freedom,
     its tilt: L_z and L_ζ, or what takes their place in rolling, are functions of it (S. A. Chaplygin 1897;
@@ -44,7 +50,7 @@ def start_tilt_history(contact: SustainedContact) -> TiltHistory:
     lossless = lossless and not (has_resistance(friction) or slope_feeds(body, friction.sliding == 0))
     periodic = lossless and is_ideal(body) and in_vacuum(body)
     slowest = _NOTICEABLE * (body.gravity / body.radius) ** 0.5
-    return TiltHistory(periodic, slowest, np.zeros(1), np.zeros(1))
+    return TiltHistory(periodic, slowest, kept[:1], kept[1:])
 
 
 @compiled
