@@ -200,7 +200,7 @@ def _general_barrier(body: Body, up: Vector, w: Vector) -> float:
     today = min(tilt_sine_of(up), 1.0)
     upper = -lower_rim(up[2])
     c_across = math.hypot(body.center[0], body.center[1])
-    highest, J_across = 0.0, largest_across(J)
+    highest, J_across, J_out = 0.0, largest_across(J), math.hypot(J[0][2], J[1][2])
     for i in range(len(_SINES)):
         sine, cosine = _SINES[i], _COSINES[i]
         if sine < today:
@@ -208,7 +208,7 @@ def _general_barrier(body: Body, up: Vector, w: Vector) -> float:
         # The lowest height and the largest moment of inertia over all directions, each taken by itself.
         z = (body.radius - c_across) * sine + (body.thickness / 2 + upper * body.center[2]) * cosine
         moment = J_across * sine * sine + J[2][2] * cosine * cosine
-        moment += 2 * sine * cosine * math.hypot(J[0][2], J[1][2])
+        moment += 2 * sine * cosine * J_out
         highest = max(highest, body.mass * body.gravity * z + L_z * L_z / (2 * moment))
     return highest
 
