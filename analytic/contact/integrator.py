@@ -44,8 +44,10 @@ _CUBIC = 1e-4
 _NEAR_EDGE, _TURN = 0.1, 1e-7
 END_ROW = STAGES
 """The row after those of the stages: the rate of change at the end of a step."""
-# The state there, and the length that suited the last step.
-_NEW_ROW, _LENGTH_ROW, _ROWS = STAGES + 1, STAGES + 2, STAGES + 3
+NEW_ROW = STAGES + 1
+"""The row after that: the state there."""
+# The length that suited the last step.
+_LENGTH_ROW, ROWS = STAGES + 2, STAGES + 3
 
 
 class ContactStep(NamedTuple):
@@ -67,10 +69,16 @@ def contact_work(contact: SustainedContact, y: Array) -> Array:
 
     Its first row holds the rate of change at y, (15, 13).
     """
-    stages = np.empty((_ROWS, STATE_SIZE))
+    stages = np.empty((ROWS, STATE_SIZE))
+    start_contact(contact, y, stages)
+    return stages
+
+
+@compiled
+def start_contact(contact: SustainedContact, y: Array, stages: Array) -> None:
+    """Write what the work space of a contact holds at the state y, (13,), in which it starts."""
     flow(contact, y, stages[0])
     stages[_LENGTH_ROW, 0] = 0.0
-    return stages
 
 
 @compiled
@@ -158,23 +166,45 @@ def accepted_step(
         The length of the step made, 0 where none is short enough; a length for the next [s]; and the margin
         at the end.
     """
-    short, last = 8 * first_step(contact.body, y), stages[_LENGTH_ROW, 0]
-    ahead = _BEYOND * time_to_landing(contact, y, stages[0])
-    dt = min(_LONGEST * short, dt, max(ahead, _NOT_SHORT * short))
-    if last == 0:
-        dt = min(dt, first_length(contact, y, stages[0]))
+    dt, short = length_to_try(contact, y, dt, stages)
     while True:
         inside = step_of_length(contact, y, dt, stages, y_new)
         error = step_error(contact.body, y, dt, stages) / tolerance
-        if error <= 1 and (dt <= short or inside > 0):
-            suited = dt * step_factor(error)
-            stages[_LENGTH_ROW, 0] = suited
-            # The suitable length is extrapolated from its last change.
-            trend = min(max(suited / last, _LEAST_TREND), _MOST_TREND) if last > 0 else 1.0
-            return dt, _CAUTION * suited * trend, inlined_flow(contact, y_new, stages[END_ROW])
+        if is_accepted(error, dt, short, inside):
+            return dt, next_length(dt, error, stages), inlined_flow(contact, y_new, stages[END_ROW])
         dt = max(short, dt / 2) if error <= 1 else dt * step_factor(error)
         if not dt > _NO_STEP * short:
             return 0.0, short, 0.0
+
+
+@compiled
+def length_to_try(contact: SustainedContact, y: Array, dt: float, stages: Array) -> tuple[float, float]:
+    """Return the length of a step to try first, and a length that is short against the coin's motion [s].
+
+    Args as `accepted_step`'s.
+    """
+    short = 8 * first_step(contact.body, y)
+    ahead = _BEYOND * time_to_landing(contact, y, stages[0])
+    dt = min(_LONGEST * short, dt, max(ahead, _NOT_SHORT * short))
+    if stages[_LENGTH_ROW, 0] == 0:
+        dt = min(dt, first_length(contact, y, stages[0]))
+    return dt, short
+
+
+@compiled
+def is_accepted(error: float, dt: float, short: float, inside: float) -> bool:
+    """Return whether a step of length dt is accepted, by its error over that allowed and its least margin."""
+    return error <= 1 and (dt <= short or inside > 0)
+
+
+@compiled
+def next_length(dt: float, error: float, stages: Array) -> float:
+    """Return a length for the step after one of length dt [s] with an error, over that allowed."""
+    suited, last = dt * step_factor(error), stages[_LENGTH_ROW, 0]
+    stages[_LENGTH_ROW, 0] = suited
+    # The suitable length is extrapolated from its last change.
+    trend = min(max(suited / last, _LEAST_TREND), _MOST_TREND) if last > 0 else 1.0
+    return _CAUTION * suited * trend
 
 
 @compiled
@@ -190,10 +220,34 @@ def step_contact(
         tolerance: error allowed in a step, relative to the scales of the coin.
         stages: see `contact_work`; kept up.
     """
-    y_new = stages[_NEW_ROW]
-    high, dt, left = accepted_step(contact, y, dt, tolerance, stages, y_new)
-    if high == 0:
-        return ContactStep(high, dt, True, Event.NO_SOLUTION)
+    made, dt, left = accepted_step(contact, y, dt, tolerance, stages, stages[NEW_ROW])
+    if made == 0:
+        return ContactStep(made, dt, True, Event.NO_SOLUTION)
+    return ended_step(contact, y, made, dt, left, tolerance, stages)
+
+
+@compiled
+def ended_step(
+    contact: SustainedContact,
+    y: Array,
+    high: float,
+    dt: float,
+    left: float,
+    tolerance: float,
+    stages: Array,
+) -> ContactStep:
+    """Advance the state by a step that is accepted, or to the end of the mode within it.
+
+    Args:
+        contact: the contact, its rim that of y.
+        y: state, (13,); advanced.
+        high: the length of the step [s].
+        dt: that of the next to try [s].
+        left: the margin at the end.
+        tolerance: error allowed in a step, relative to the scales of the coin.
+        stages: of the step, the rates at its start and its end and the state there; kept up.
+    """
+    y_new = stages[NEW_ROW]
     if left > 0:
         high, left = _shortened_to_landing(contact, y, high, left, tolerance, stages)
     if left > 0:
@@ -230,7 +284,7 @@ def _shortened_to_landing(
     Returns:
         The length of the step [s], and the margin at its end; both as given where no rim lands.
     """
-    body, y_new = contact.body, stages[_NEW_ROW]
+    body, y_new = contact.body, stages[NEW_ROW]
     if contact.rim == BOTH_RIMS or body.thickness == 0:
         return dt, left
     (lean, fall), (lean_new, fall_new) = _lean_and_fall(contact, y), _lean_and_fall(contact, y_new)
@@ -245,8 +299,8 @@ def _shortened_to_landing(
     inner, bracket = stages.copy(), bracket_between(0.0, fall, dt, fall_new)
     while not is_narrow(bracket, _TURN * dt):
         tried = next_try(bracket)
-        step_of_length(contact, y, tried, inner, inner[_NEW_ROW])
-        lean, fall = _lean_and_fall(contact, inner[_NEW_ROW])
+        step_of_length(contact, y, tried, inner, inner[NEW_ROW])
+        lean, fall = _lean_and_fall(contact, inner[NEW_ROW])
         if lean * body.thickness < -tolerance * body.radius:
             step_of_length(contact, y, tried, stages, y_new)
             return tried, flow(contact, y_new, stages[END_ROW])

@@ -86,15 +86,23 @@ def _plus_4(a: Quaternion, k: float, b: Quaternion) -> Quaternion:
 
 @compiled
 def step_error(body: Body, y: Array, dt: float, stages: Array) -> float:
-    """Estimate the error of the step just made, relative to the scales of the coin.
+    """Estimate the error of the step just made, relative to the scales of the coin."""
+    sum_5, sum_3 = error_sums(body, y, stages)
+    return combined_error(dt, sum_5, sum_3, STATE_SIZE)
+
+
+@compiled
+def error_sums(body: Body, y: Array, stages: Array) -> tuple[float, float]:
+    """Return the sums of the squares of the estimates of order 5 and 3, see `combined_error`.
 
     The scales: r for positions, √(g r) beside |v| for velocities, 1 for Euler parameters, √(g/r) beside
     |ω| for angular velocities.
     """
     speed, spin = motion_scales(body, y)
-    sum_5 = _sum_of_squares(_weighted_slope(stages, ERROR_5), body.radius, speed, spin)
-    sum_3 = _sum_of_squares(_weighted_slope(stages, ERROR_3), body.radius, speed, spin)
-    return combined_error(dt, sum_5, sum_3, STATE_SIZE)
+    return (
+        _sum_of_squares(_weighted_slope(stages, ERROR_5), body.radius, speed, spin),
+        _sum_of_squares(_weighted_slope(stages, ERROR_3), body.radius, speed, spin),
+    )
 
 
 @compiled
@@ -105,13 +113,18 @@ def _sum_of_squares(
     x, v, e, w = slope
     total = 0.0
     for part in x:
-        total += (part / length) ** 2
+        total += _squared(part / length)
     for part in v:
-        total += (part / speed) ** 2
-    total += (e[0] ** 2 + e[1] ** 2) + (e[2] ** 2 + e[3] ** 2)
+        total += _squared(part / speed)
+    total += (_squared(e[0]) + _squared(e[1])) + (_squared(e[2]) + _squared(e[3]))
     for part in w:
-        total += (part / spin) ** 2
+        total += _squared(part / spin)
     return total
+
+
+@compiled
+def _squared(number: float) -> float:
+    return number * number
 
 
 @compiled
