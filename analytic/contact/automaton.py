@@ -76,6 +76,8 @@ class Event(IntEnum):
     """The coin comes to rest: on a face, or on its edge by the floor's resistance to rolling."""
 
 
+IN_LANES = (Mode.SLIDING, Mode.STICKING, Mode.UPRIGHT)
+"""The modes whose flow takes the same steps for every coin, so that four coins go side by side."""
 _ONE_RIM = (Mode.SLIDING, Mode.INCIPIENT_SLIP, Mode.STICKING)
 _CONTACT = (*_ONE_RIM, Mode.UPRIGHT)
 _TABLE = {
@@ -136,14 +138,20 @@ def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
 @inlined
 def inlined_flow(contact: SustainedContact, y: Array, dy: Array) -> float:
     """Return what `flow` does, inlined: a call in each step would copy all numbers of the coin."""
-    if contact.mode == Mode.STICKING:
-        return sticking.flow(contact, y, dy)
     if contact.mode == Mode.INCIPIENT_SLIP:
         return incipient_slip.flow(contact, y, dy)
-    if contact.mode == Mode.UPRIGHT:
-        return upright.flow(contact, y, dy)
     if contact.mode == Mode.LYING:
         return lying.flow(contact, y, dy)
+    return flow_in_lanes(contact, y, dy)
+
+
+@inlined
+def flow_in_lanes(contact: SustainedContact, y: Array, dy: Array) -> float:
+    """Return what `flow` does in the modes `IN_LANES`, for one coin or for four."""
+    if contact.mode == Mode.STICKING:
+        return sticking.flow(contact, y, dy)
+    if contact.mode == Mode.UPRIGHT:
+        return upright.flow(contact, y, dy)
     return sliding.flow(contact, y, dy)
 
 
@@ -154,14 +162,21 @@ def project(contact: SustainedContact, y: Array) -> None:
     An impulse at these points, without resistance, changes the velocities. This is a reset, and the last part
     of a step.
     """
-    if contact.mode == Mode.STICKING:
-        sticking.project(contact, y)
-    elif contact.mode == Mode.INCIPIENT_SLIP:
+    if contact.mode == Mode.INCIPIENT_SLIP:
         incipient_slip.project(contact, y)
-    elif contact.mode == Mode.UPRIGHT:
-        upright.project(contact, y)
     elif contact.mode == Mode.LYING:
         lying.project(contact, y)
+    else:
+        project_in_lanes(contact, y)
+
+
+@compiled
+def project_in_lanes(contact: SustainedContact, y: Array) -> None:
+    """Do what `project` does in the modes `IN_LANES`, for one coin or for four."""
+    if contact.mode == Mode.STICKING:
+        sticking.project(contact, y)
+    elif contact.mode == Mode.UPRIGHT:
+        upright.project(contact, y)
     else:
         sliding.project(contact, y)
 

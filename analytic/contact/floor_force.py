@@ -45,7 +45,7 @@ def sliding_force(K: Matrix, b: Vector, mu: float, slip: tuple[float, float]) ->
 @compiled
 def horizontal_size(a: Vector) -> float:
     """Return the length of the horizontal part of a vector in the space frame."""
-    return (a[0] * a[0] + a[1] * a[1]) ** 0.5
+    return math.sqrt(a[0] * a[0] + a[1] * a[1])
 
 
 @compiled

@@ -6,6 +6,7 @@ The flows of sliding and of sticking compute in the body frame, whose `RimMotion
 resets, and what compares two rims, in the space frame.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -133,7 +134,7 @@ def rim_point(body: Body, up: Vector, w: Vector, rim: float) -> tuple[Vector, Ve
     # The division and the root go on side by side.
     squared = up[0] * up[0] + up[1] * up[1]
     by_squared = 1 / squared
-    by_sine = squared**0.5 * by_squared
+    by_sine = math.sqrt(squared) * by_squared
     # Outward to the rim point, and the rate at which that direction turns about ζ.
     out = (-up[0] * by_sine, -up[1] * by_sine)
     up_rate = cross(up, w)

@@ -1,5 +1,7 @@
 """Sliding: the rim point A slips on the floor, and friction acts against the slip."""
 
+import math
+
 import numpy as np
 
 from cointoss.analytic.contact import smooth
@@ -22,6 +24,7 @@ from cointoss.analytic.flight.state_vector import spin_of, state_of, velocity_of
 from cointoss.analytic.numerics.tolerances import BORDER, SLOW
 from cointoss.models.body import Body
 from cointoss.models.kernel.compiled import compiled, inlined
+from cointoss.models.kernel.lanes import where
 from cointoss.models.kernel.vectors import Vector, add, apply_transposed, cross, dot, norm, scale, subtract
 from cointoss.models.records import Array
 
@@ -61,12 +64,13 @@ def flow_with_friction(contact: SustainedContact, y: Array, dy: Array) -> float:
 @inlined
 def normal_with_friction(A: RimMotion, mu: float) -> Vector:
     """Return a unit normal force at A with its friction against the slip, body frame, (3,)."""
+    if mu == 0:
+        return A.up
     slip = horizontal(A.up, A.velocity)
     squared = dot(slip, slip)
-    if mu == 0 or squared < _LEAST_SQUARE:
-        return A.up
     # The division and the root go on side by side.
-    return subtract(A.up, scale(mu * squared**0.5 * (1 / squared), slip))
+    per_slip = mu * math.sqrt(squared) * (1 / max(squared, _LEAST_SQUARE))
+    return subtract(A.up, scale(where(squared < _LEAST_SQUARE, 0.0, per_slip), slip))
 
 
 @inlined

@@ -17,6 +17,7 @@ from cointoss.analytic.flight.state_vector import (
 )
 from cointoss.models.body import Body, is_ideal
 from cointoss.models.kernel.compiled import compiled, inlined
+from cointoss.models.kernel.lanes import where
 from cointoss.models.kernel.vectors import Vector, add, apply, apply_transposed, cross, dot, scale
 from cointoss.models.records import Array
 
@@ -55,9 +56,9 @@ def _spare_spin(body: Body, w: Vector, change: Array) -> None:
         w: ω, body frame, (3,) [rad/s].
         change: see `stopping`.
     """
-    if body.air.exponent is None and w[2] == 0 and is_ideal(body):
-        w_xi, w_eta, _ = spin_of(change)
-        set_spin(change, (w_xi, w_eta, 0.0))
+    if body.air.exponent is None and is_ideal(body):
+        w_xi, w_eta, w_zeta = spin_of(change)
+        set_spin(change, (w_xi, w_eta, where(w[2] == 0, 0.0, w_zeta)))
 
 
 @inlined

@@ -64,7 +64,7 @@ def flow(contact: SustainedContact, y: Array, dy: Array) -> float:
     held = _holding(body, friction, tails, heads, fall)
     set_velocity(dy, add_quotient(velocity_of(dy), held.total, body.mass))
     set_spin(dy, add(spin_of(dy), held.spin_gained))
-    return min(held.normal) / (body.mass * body.gravity)
+    return min(held.normal[0], held.normal[1]) / (body.mass * body.gravity)
 
 
 @compiled
