@@ -11,11 +11,12 @@ from cointoss.analytic.horizon.certainty import certainty_of
 from cointoss.analytic.horizon.horizon import MOST_CARRIED, STEP_ERROR, TURN_ERROR, ErrorsMade, find_horizon
 from cointoss.analytic.path import force_in, sample_pieces
 from cointoss.analytic.settings import MANY, ContactLimits, contact_limits
+from cointoss.analytic.together import toss_together
 from cointoss.models.answers import ANSWER_AT, write_end
 from cointoss.models.barriers import energy
 from cointoss.models.body import NO_CODE, Body, OwnCode, Rules, with_budgets, with_own_law
 from cointoss.models.faults import Fault
-from cointoss.models.impact_row import FIRST_ROOM, ImpactRows
+from cointoss.models.impact_row import FIRST_ROOM, ImpactRows, last_face
 from cointoss.models.kernel.arrays import Row, Table, copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.making import MOST_LOSSLESS
@@ -56,12 +57,20 @@ def toss_rows(rows: Table, own: OwnCode, limits: ContactLimits, wanted: int, ans
     while first < len(rows):
         end = run_end(rows, first)
         some, found = rows[first:end], answers[first:end]
-        if has_linear_air(rows[first]):
-            _toss_run(body_of(rows[first], None), some, own, limits, wanted, found)
+        if has_linear_air(rows[first]) and wanted == NO_TRUST and own.address == NO_CODE.address:
+            toss_together(body_of(rows[first], None), some, limits, found)
         else:
-            body = body_of(rows[first], rows[first, AT.air_exponent])
-            _toss_run(body, some, own, limits, wanted, found)
+            _toss_one_by_one(some, own, limits, wanted, found)
         first = end
+
+
+@compiled
+def _toss_one_by_one(rows: Table, own: OwnCode, limits: ContactLimits, wanted: int, answers: Table) -> None:
+    """Toss rows with one coin, air and gravity; for the arguments see `toss_rows`."""
+    if has_linear_air(rows[0]):
+        _toss_run(body_of(rows[0], None), rows, own, limits, wanted, answers)
+    else:
+        _toss_run(body_of(rows[0], rows[0, AT.air_exponent]), rows, own, limits, wanted, answers)
 
 
 @compiled
@@ -82,7 +91,7 @@ def _toss_run(
         )
         if keep_all:
             _write_trust(body, rules, impacts[:n], pieces, TossEnd(outcome, ending), wanted, answer)
-        write_end(outcome, ending, n, _last_face(impacts, n), end_time, answer)
+        write_end(outcome, ending, n, last_face(impacts, n), end_time, answer)
 
 
 @compiled
@@ -90,12 +99,6 @@ def _forget(answer: Row) -> None:
     """Write -1, for what is not asked for, into an answer or a part of one."""
     for k in range(len(answer)):
         answer[k] = NOT_TOSSED
-
-
-@compiled
-def _last_face(impacts: ImpactRows, n: int) -> int:
-    """Return the face up at impact n, counted from 1, in the row that is its own; 0 for none."""
-    return impacts[(n - 1) % len(impacts)]["face"] if n > 0 else 0
 
 
 @compiled
@@ -112,7 +115,7 @@ def toss_each(rows: Table, wanted: int, answers: Table) -> None:
     for i in range(len(rows)):
         examine_each(rows[i : i + 1], faults)
         if faults[0] == Fault.NONE.value:
-            toss_rows(rows[i : i + 1], NO_CODE, _LIMITS, wanted, answers[i : i + 1])
+            _toss_one_by_one(rows[i : i + 1], NO_CODE, _LIMITS, wanted, answers[i : i + 1])
         else:
             _forget(answers[i])
             answers[i, ANSWER_AT.outcome] = REFUSED
@@ -181,7 +184,7 @@ def _toss_one(body: Body, row: Row, answer: Row, impacts: Table, pieces: Table, 
     write_release(row, y)
     room, until = np.zeros(FIRST_ROOM, IMPACT_ROW), float(row[AT.ending_until])
     n, rows, found, outcome, ending, end_time = toss_coin(body, rules, _LIMITS, y, room, True, sizes)
-    write_end(outcome, ending, n, _last_face(rows, n), end_time, answer)
+    write_end(outcome, ending, n, last_face(rows, n), end_time, answer)
     _write_trust(body, rules, rows[:n], found, TossEnd(outcome, ending), CERTAIN, answer)
     if until > end_time:
         found = go_on(body, rules, _LIMITS, found, ending, until)

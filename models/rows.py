@@ -263,10 +263,23 @@ def fault_of(body: Body, row: Row) -> FoundFault:
 @compiled
 def bodies_alike(first: Array, second: Array) -> bool:
     """Return whether two rows have the same coin, air and gravity."""
-    for i in range(AT.floor_restitution):
+    return _alike(first, second, 0, AT.floor_restitution) and _alike(
+        first, second, AT.floor_slope, AT.floor_slope + 1
+    )
+
+
+@compiled
+def floors_alike(first: Array, second: Array) -> bool:
+    """Return whether the floors of two rows have the same contact law and friction."""
+    return _alike(first, second, AT.floor_contact, AT.floor_slope)
+
+
+@compiled
+def _alike(first: Array, second: Array, start: int, end: int) -> bool:
+    for i in range(start, end):
         if not (first[i] == second[i] or (math.isnan(first[i]) and math.isnan(second[i]))):
             return False
-    return first[AT.floor_slope] == second[AT.floor_slope]
+    return True
 
 
 @compiled

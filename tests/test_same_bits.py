@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 
 from cointoss import analytic, coin_mj
-from cointoss.analytic.by_rows import CERTAIN, IMPACT, PIECE
+from cointoss.analytic.by_rows import CERTAIN, IMPACT, NO_TRUST, PIECE
 from cointoss.analytic.entries import sample_path, toss_apart, toss_each, toss_one, toss_rows
 from cointoss.analytic.settings import contact_limits
 from cointoss.coin_mj import Friction, Realisation
 from cointoss.models.answers import ANSWER, REFUSED, unanswered
+from cointoss.models.batch import rows_of as many_rows
 from cointoss.models.body import NO_CODE
 from cointoss.models.fields import FIELDS
 from cointoss.models.laws import ContactLaw, RestitutionKind
@@ -93,6 +94,16 @@ def by_entry(toss, engine, name):
     return answers[[0, 4]].tolist(), [answer_of(toss_of(engine, name))] * 2
 
 
+def side_by_side(_, name):
+    """Toss it with others of its coin, whose contacts go side by side, on two floors; and each by itself."""
+    changed = {"release.position.z": CASES[name].release.position[2] * np.linspace(1, 1.3, 30)}
+    rows = many_rows(CASES[name], 30, changed | {"floor.friction": np.repeat([0.0, 0.3, 0.3], 10)})
+    answers = unanswered(30), unanswered(30)
+    toss_rows(rows, NO_CODE, LIMITS, NO_TRUST, answers[0])
+    toss_apart(rows, answers[1], LIMITS, NO_TRUST)
+    return answers[0].tolist(), answers[1].tolist()
+
+
 def on_page(rows, answers):
     toss_each(rows, CERTAIN, answers)
 
@@ -164,6 +175,7 @@ WAYS = {
     "by the entry of many": partial(by_entry, lambda rows, to: toss_rows(rows, NO_CODE, LIMITS, CERTAIN, to)),
     "by the entry of cards": partial(by_entry, lambda rows, to: toss_apart(rows, to, LIMITS, CERTAIN)),
     "by the entry of pages": partial(by_entry, on_page),
+    "side by side": side_by_side,
     "by numbers": by_numbers,
     "followed on": followed_on,
     "at any times": at_times,
@@ -171,7 +183,7 @@ WAYS = {
     "mirrored in zeta": partial(mirrored, Mirror.ZETA),
 }
 BY_ALL = ("one after the other", "mixed, by three threads", "followed on", "at any times")
-LINEAR_ALONE = ("by the entry of cards", "mirrored in eta", "mirrored in zeta")
+LINEAR_ALONE = ("by the entry of cards", "side by side", "mirrored in eta", "mirrored in zeta")
 """Ways for air that is linear in the velocity."""
 USUAL = ("analytic, coarse", "mujoco, spring, explicit")
 

@@ -33,6 +33,7 @@ ROOT = Path(__file__).parents[2]
 HOUSES = ("bounce", "reproduction", "yardstick")
 COPIED = ("pyproject.toml", "cointoss", "models", "analytic", "coin_mj", "compare", "docs", *HOUSES, "tests")
 CHECKOUT = "checkout"
+LANES = ("analytic/together.py", "analytic/contact/side_by_side.py", "models/kernel/lanes.py")
 COMMITS, LONGEST = 40, 600.0
 """Of `--recent`: the last commits, and the time after which none is begun [s]."""
 _FAILED = 1
@@ -73,8 +74,8 @@ class Damage(NamedTuple):
 
     @property
     def runs_plainly(self) -> bool:
-        """Whether the test runs without the library: but those of MuJoCo's steps do."""
-        return self.is_compiled and not self.file.startswith("coin_mj/")
+        """Whether the test runs without the library: but those of MuJoCo's steps and of lanes do."""
+        return self.is_compiled and not self.file.startswith(("coin_mj/", *LANES))
 
 
 @cache
