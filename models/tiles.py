@@ -25,7 +25,7 @@ def in_tiles(n: int, most: int, work: Callable[[slice], None], workers: int | No
         workers: number of threads, by default that of `cores_used`.
     """
     threads = workers or cores_used()
-    tile = min(most, max(1, n // (PARTS * threads)))
+    tile = min(most, max(1, n // (PARTS * threads))) if threads > 1 else most
     left = deque(range(0, n, tile))
 
     def work_on_what_is_left() -> None:

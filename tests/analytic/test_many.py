@@ -56,6 +56,7 @@ def test_what_an_interruption_leaves_undone_is_not_tossed(monkeypatch):
         time.sleep(0.5)
 
     monkeypatch.setattr(many, "toss_some", interrupting)
+    monkeypatch.setattr(many, "TILE", 100)
     table = np.empty((len(rows), len(ANSWER)))
     with pytest.raises(KeyboardInterrupt):
         analytic.toss_rows(rows, workers=1, answers=table)
