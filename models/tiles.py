@@ -8,7 +8,7 @@ from cointoss.models.cores import cores_used
 from cointoss.models.interruptible import await_all, begun
 
 PARTS = 4
-"""Tiles that each thread has at least, where there are tosses enough: all end at about the same time."""
+"""Tiles that each of several threads has at least, of tosses enough: all end at about the same time."""
 PATIENCE = 1.0
 """How long an interruption waits for the tiles under way [s]."""
 
