@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 import numpy as np
+from scipy.spatial import KDTree
 
 from cointoss.compare.film.encodings import LONGEST
 from cointoss.compare.film.filmed import Filmed
@@ -37,11 +38,12 @@ def film_times(
     """
     end = max(each.motion.end_time for each in shown)
     settled = max(_settled(each) for each in shown)
-    slow = np.sort(np.concatenate([_slow_times(each) for each in shown]))
+    slow = np.concatenate([_slow_times(each) for each in shown])
     # Film time is the integral of 1/speed, here on a grid that is fine where the speed changes.
     changes = np.append(slow[:, None] + _AROUND, settled + SPEEDS_UP_FOR * np.linspace(0, 1, 41))
     grid = np.unique(np.clip(np.append(changes, np.linspace(0, end, 1001)), 0, end))
-    speed = SLOW + (FAST - SLOW) * _smooth(_distance_to(slow, grid) / SLOW_FOR)
+    to_nearest, _ = KDTree(slow[:, None]).query(grid[:, None], p=1)
+    speed = SLOW + (FAST - SLOW) * _smooth(to_nearest / SLOW_FOR)
     speed += (SETTLED - speed) * _smooth((grid - settled) / SPEEDS_UP_FOR)
     film = np.append(0.0, np.cumsum(np.diff(grid) * (1 / speed[1:] + 1 / speed[:-1]) / 2))
     stretch = max(1.0, film[-1] / longest)
@@ -72,10 +74,3 @@ def _slow_times(filmed: Filmed) -> Array:
     size = np.linalg.norm(impacts.impulse, axis=1)
     strong = impacts.time[size >= WEAK * size.max(initial=0.0)]
     return np.append(strong, toss.end_time) if toss.ending == Ending.CAUGHT else strong
-
-
-def _distance_to(places: Array, x: Array) -> Array:
-    """Return the distance from each x to the nearest of the sorted places."""
-    fenced = np.concatenate([[-np.inf], places, [np.inf]])
-    after = np.searchsorted(fenced, x)
-    return np.minimum(x - fenced[after - 1], fenced[after] - x)
