@@ -6,7 +6,7 @@ from dataclasses import replace
 import click
 
 from cointoss.compare.commands.common import SCENARIO_HELP, say
-from cointoss.compare.commands.names import axes, scenario_argument
+from cointoss.compare.commands.names import fields_in, scenario_argument
 from cointoss.compare.commands.options import one_of, only_with, options_of, without, words_of
 from cointoss.compare.commands.settings import set_option, with_scenario
 from cointoss.compare.sweep.asked import Job, Source
@@ -27,7 +27,7 @@ from cointoss.models.devices import Device
     only_with("report", "compare"),
     only_with("no_video", "report"),
     *(only_with(name, "png", "report") for name in ("palette", "boundaries", "size", "dpi")),
-    completed={"x": axes, "y": axes},
+    completed=dict.fromkeys("xy", fields_in("cointoss.models.fields", "UNITS")),
 )
 @with_scenario
 def basin(source: Source, asked: Job) -> None:

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 import click
 
 from cointoss.compare.commands.common import SCENARIO_HELP, print_json, say
-from cointoss.compare.commands.names import scenario_argument, varied, varying
+from cointoss.compare.commands.names import fields_in, scenario_argument, varied
 from cointoss.compare.commands.options import options_of
 from cointoss.compare.commands.settings import set_option, with_scenario
 from cointoss.compare.find.sequence import sequence_of
@@ -44,7 +44,7 @@ class SoughtToss:
 @click.command(epilog=SCENARIO_HELP)
 @scenario_argument
 @set_option
-@options_of(SoughtToss, completed={"vary": varying})
+@options_of(SoughtToss, completed={"vary": fields_in("cointoss.compare.find.fields")})
 @with_scenario
 def find(source: Source, asked: SoughtToss) -> None:
     """Find a toss that shows a sequence of faces, or ends on its edge.

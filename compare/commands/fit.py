@@ -14,7 +14,7 @@ from cointoss.compare.commands.common import (
     plain_errors,
     print_json,
 )
-from cointoss.compare.commands.names import fitted, optional_scenario_argument, varied
+from cointoss.compare.commands.names import fields_in, optional_scenario_argument, varied
 from cointoss.compare.commands.options import options_of
 from cointoss.compare.commands.settings import set_option, with_scenario
 from cointoss.compare.output.accepted import Form, Within, Written
@@ -56,7 +56,7 @@ class SoughtValues:
 @click.argument("observed", metavar="OBSERVED.csv", is_eager=True, type=ReadPlace("a CSV file"))
 @optional_scenario_argument
 @set_option
-@options_of(SoughtValues, completed={"vary": fitted})
+@options_of(SoughtValues, completed={"vary": fields_in("cointoss.compare.fitting.fields")})
 @with_scenario
 def fit(observed: Path, source: Source | None, asked: SoughtValues) -> None:
     """Find the values of a scenario's fields that explain what was seen of a coin, or that none do.

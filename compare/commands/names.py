@@ -1,9 +1,12 @@
 """Arguments and options that a shell can complete with names."""
 
 from collections.abc import Callable, Iterable
+from importlib import import_module
 from typing import Any
 
 import click
+
+from cointoss.models.sources import named_scenarios
 
 
 def completing(known: Callable[[], Iterable[str]], *, files: bool = False) -> dict[str, Any]:
@@ -18,12 +21,6 @@ def completing(known: Callable[[], Iterable[str]], *, files: bool = False) -> di
     return {"shell_complete": complete}
 
 
-def _scenarios() -> list[str]:
-    from cointoss.models.sources import named_scenarios
-
-    return named_scenarios()
-
-
 def settable() -> list[str]:
     """Return what a setting of a field of a scenario begins with."""
     from cointoss.compare.sweep.batch import KNOWN
@@ -32,35 +29,19 @@ def settable() -> list[str]:
     return [f"{field}=" for field in (*KNOWN, ROLLS)]
 
 
-def axes() -> list[str]:
-    """Return what an axis of a map begins with."""
-    from cointoss.models.fields import UNITS
+def fields_in(module: str, table: str = "FIELDS") -> Callable[[], list[str]]:
+    """Return what returns the beginnings of an option, one for each field in a table of a module.
 
-    return [f"{field}=" for field in UNITS]
-
-
-def ranging() -> list[str]:
-    """Return what an axis of a count begins with."""
-    from cointoss.compare.shares.plan import FIELDS
-
-    return [f"{field}=" for field in FIELDS]
+    The module, which takes long to import, is imported when a shell asks.
+    """
+    return lambda: [f"{field}=" for field in getattr(import_module(module), table)]
 
 
-def varying() -> list[str]:
-    """Return what a span of a search begins with."""
-    from cointoss.compare.find.fields import FIELDS
-
-    return [f"{field}=" for field in FIELDS]
-
-
-def fitted() -> list[str]:
-    """Return what a span of a fit begins with."""
-    return ["clock=", *(axis for axis in axes() if not axis.startswith(("ending.", "release.quaternion.")))]
-
-
-_named: dict[str, Any] = {"is_eager": True, **completing(_scenarios, files=True)}
+_named: dict[str, Any] = {"is_eager": True, **completing(named_scenarios, files=True)}
 scenario_argument = click.argument("scenario", **_named)
-named_scenario_argument = click.argument("name", required=False, metavar="[NAME]", **completing(_scenarios))
+named_scenario_argument = click.argument(
+    "name", required=False, metavar="[NAME]", **completing(named_scenarios)
+)
 optional_scenario_argument = click.argument("scenario", default=None, **_named)
 spared_scenario_argument = click.argument("scenario", default="fig24a", **_named)
 

@@ -19,7 +19,7 @@ from cointoss.compare.commands.common import (
     say,
 )
 from cointoss.compare.commands.hand_options import ByHand, chosen_hand
-from cointoss.compare.commands.names import ranging, scenario_argument, varied
+from cointoss.compare.commands.names import fields_in, scenario_argument, varied
 from cointoss.compare.commands.options import one_of, options_of, without
 from cointoss.compare.commands.settings import set_option, with_scenario
 from cointoss.compare.output.accepted import Form, Within, Written
@@ -68,7 +68,7 @@ class CountedTosses(ByHand):
     CountedTosses,
     one_of("engine", "compare"),
     without("device", "scheduler"),
-    completed={"vary": ranging},
+    completed={"vary": fields_in("cointoss.compare.shares.plan")},
 )
 @with_scenario
 def shares(source: Source, asked: CountedTosses) -> None:
