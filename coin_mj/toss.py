@@ -11,7 +11,6 @@ import mujoco
 import numpy as np
 
 from cointoss.coin_mj.entries import air_force, go_on, toss_coin
-from cointoss.coin_mj.model.air import PowerLaw
 from cointoss.coin_mj.model.machine import Machine, machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import FINE, ROUGH, Friction, MujocoSettings, Realisation
@@ -252,8 +251,7 @@ def _contact_certificate(machine: Machine) -> tuple[Setting, ...]:
 def _force_and_moment(body: Body, v: Vector, w: Vector) -> tuple[Vector, Vector]:
     """Return the air's force and its moment about C for b > 0; see `cointoss.models.certificate.Air`."""
     c = body.center
-    law = PowerLaw(body.air.normal, body.air.tangential, body.air.exponent or 0.0)
-    f, m_B = air_force(body.radius, body.thickness, law, subtract(v, cross(w, c)), w)
+    f, m_B = air_force(body.radius, body.thickness, body.air, subtract(v, cross(w, c)), w)
     return f, subtract(m_B, cross(c, f))
 
 

@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from cointoss.models.body import AirLaw
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector
@@ -45,17 +46,6 @@ class ScaledMotion(NamedTuple):
     """Body frame."""
 
 
-class PowerLaw(NamedTuple):
-    """The air's resistance for 0 < b <= 1: the force on dA is -λ |v|^b v."""
-
-    normal: float
-    """λ_n [kg m^(-2-b) s^(b-1)]."""
-    tangential: float
-    """λ_τ [kg m^(-2-b) s^(b-1)]."""
-    exponent: float
-    """b."""
-
-
 class LineVelocity(NamedTuple):
     """The velocity along a line of the wall: T = C + D z around, and B along ζ."""
 
@@ -65,13 +55,13 @@ class LineVelocity(NamedTuple):
 
 
 @compiled
-def air_force(radius: float, thickness: float, air: PowerLaw, v: Vector, w: Vector) -> tuple[Vector, Vector]:
+def air_force(radius: float, thickness: float, air: AirLaw, v: Vector, w: Vector) -> tuple[Vector, Vector]:
     """Return the air's force on a coin and its moment about B. Strzalko et al. 2008, eqs (49)-(74).
 
     Args:
         radius: r [m].
         thickness: h, 0 for the thin coin [m].
-        air: its law.
+        air: its law, with an exponent.
         v: velocity of B, body frame, (3,) [m/s].
         w: angular velocity, body frame, (3,) [rad/s].
 
@@ -79,14 +69,14 @@ def air_force(radius: float, thickness: float, air: PowerLaw, v: Vector, w: Vect
         f: force, body frame, (3,) [N].
         m_B: moment about B, body frame, (3,) [N m].
     """
-    r = radius
+    r, b = radius, air.exponent or 0.0
     speed = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) ** 0.5
     speed += r * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) ** 0.5
     if speed == 0:
         return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     k = 1 / speed
     motion = ScaledMotion(
-        air.exponent,
+        b,
         thickness / (2 * r),
         (k * v[0], k * v[1], k * v[2]),
         (k * r * w[0], k * r * w[1], k * r * w[2]),
@@ -96,7 +86,7 @@ def air_force(radius: float, thickness: float, air: PowerLaw, v: Vector, w: Vect
         total = _plus(total, -air.normal, _pressure(motion))
     if air.tangential > 0:
         total = _plus(total, -air.tangential, _friction(motion))
-    size = r * r * speed ** (1 + air.exponent)
+    size = r * r * speed ** (1 + b)
     f_0, f_1, f_2, m_0, m_1, m_2 = total
     return (size * f_0, size * f_1, size * f_2), (size * r * m_0, size * r * m_1, size * r * m_2)
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from cointoss.coin_mj.model.addresses import numbers_at
-from cointoss.coin_mj.model.air import PowerLaw, air_force
+from cointoss.coin_mj.model.air import air_force
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin, joint_of, run
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import is_linear
@@ -52,6 +52,5 @@ def _write_air(coin: MujocoCoin) -> None:
     qpos, v = joint.qpos, joint.qvel
     R = rotation_matrix(four(qpos, 3))
     of_B, w = apply_transposed(R, three(v, 0)), three(v, 3)
-    law = PowerLaw(body.air.normal, body.air.tangential, body.air.exponent or 0.0)
-    f, m = air_force(body.radius, body.thickness, law, of_B, w)
+    f, m = air_force(body.radius, body.thickness, body.air, of_B, w)
     copy_into(joint.qfrc_passive, apply(R, f) + m)

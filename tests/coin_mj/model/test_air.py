@@ -7,7 +7,7 @@ import pytest
 
 from cointoss.analytic.entries import force_and_moment
 from cointoss.coin_mj.entries import air_force
-from cointoss.coin_mj.model.air import PowerLaw
+from cointoss.models.body import AirLaw
 from tests.helpers.draws import AIR, ZLOTY, scenario
 from tests.helpers.tuples import vector
 
@@ -19,7 +19,7 @@ def by_both(b, h, v, w):
     """Force and moment about B over r by both engines, (6,) each, in units of λ (|v| + r |ω|)^(1+b) π r²."""
     body = scenario(coin={"thickness": h}, air={**AIR, "exponent": b}).body
     pairs = (
-        air_force(R, h, PowerLaw(LN, LT, b), vector(v), vector(w)),
+        air_force(R, h, AirLaw(b, LN, LT), vector(v), vector(w)),
         force_and_moment(body, vector(v), vector(w)),
     )
     speed = np.linalg.norm(v) + R * np.linalg.norm(w)
@@ -70,4 +70,4 @@ def test_a_spin_whose_square_underflows_is_none():
 
 
 def test_a_coin_at_rest_feels_no_air():
-    assert air_force(R, H, PowerLaw(LN, LT, 0.5), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)) == ((0, 0, 0), (0, 0, 0))
+    assert air_force(R, H, AirLaw(0.5, LN, LT), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)) == ((0, 0, 0), (0, 0, 0))

@@ -10,11 +10,11 @@ import pytest
 from cointoss.coin_mj import MANY
 from cointoss.coin_mj.entries import air_force
 from cointoss.coin_mj.model import state
-from cointoss.coin_mj.model.air import PowerLaw
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.steps import constrained_step, free_step
 from cointoss.coin_mj.steps.constrained_step import IMPACT
 from cointoss.models.attitude import rotation_matrix
+from cointoss.models.body import AirLaw
 from cointoss.models.kernel.compiled import by_numba
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 from tests.helpers.tuples import quaternion, vector
@@ -30,7 +30,7 @@ FORCES = ("qfrc_bias", "qfrc_passive", "qfrc_actuator", "qfrc_smooth", "qacc_smo
 def force_of_the_air(case, data):
     """Force and moment of the air with b > 0, as MuJoCo's generalized forces, (6,)."""
     coin, air, R = case.coin, case.air, np.array(rotation_matrix(quaternion(data.qpos[3:])))
-    law = PowerLaw(air.normal, air.tangential, air.exponent)
+    law = AirLaw(air.exponent, air.normal, air.tangential)
     f, m = air_force(coin.radius, coin.thickness, law, vector(R.T @ data.qvel[:3]), vector(data.qvel[3:]))
     return np.array([*(R @ f), *m])
 
