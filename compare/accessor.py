@@ -3,23 +3,20 @@
 from collections.abc import Hashable
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.maps import as_map, field_along, untrusted_in
 from cointoss.compare.sweep.words import codes_of, in_words, words_of
+from cointoss.models.notebook import Frame
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
 from cointoss.models.scenario import Scenario
-
-if TYPE_CHECKING:
-    import pandas as pd
-
-    from cointoss.models.notebook import Frame
 
 
 @xr.register_dataset_accessor("cointoss")
@@ -95,7 +92,7 @@ class Tosses:
         """Whether the dataset is of shares, not of tosses."""
         return "share" in self._dataset
 
-    def table(self) -> "pd.DataFrame | str":
+    def table(self) -> pd.DataFrame | str:
         """Return a table of pandas, a row for each toss, in words, with units in `attrs["units"]`.
 
         Of shares it is a text: a row for each setting, with 99 % intervals, in Markdown.
@@ -161,7 +158,7 @@ class Tosses:
             return plot_shares(self.shares(*fields).swap_dims(fields), ax)
         return show.plot_counts(self.counts, ax)
 
-    def page(self) -> "Frame":
+    def page(self) -> Frame:
         """Return what a notebook shows as the page of `cointoss explore --static`: pixels can be clicked.
 
         MuJoCo tosses a grid of the pixels first, and the analytic engine any pixel in the page; of a large

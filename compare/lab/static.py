@@ -2,9 +2,9 @@
 
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
 
 from cointoss.compare.lab.lab import lab_page
 from cointoss.compare.lab.saved import made_by, saved_map, scenario_of
@@ -14,9 +14,6 @@ from cointoss.compare.sweep.maps import name_of, thinned
 from cointoss.compare.sweep.reading import read_map
 from cointoss.models.notebook import Frame
 from cointoss.models.stages import counted
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 MOST_BYTES = 10_000_000
 """The largest size of the file."""
@@ -44,7 +41,7 @@ def write_static(path: Path, out: Path) -> None:
     write_text(out, _page(read_map(path, most=MOST_PIXELS), path.name, TOSSED))
 
 
-def explore(found: "xr.Dataset") -> Frame:
+def explore(found: xr.Dataset) -> Frame:
     """Return a frame with that page of a map, for a notebook.
 
     Raises:
@@ -54,7 +51,7 @@ def explore(found: "xr.Dataset") -> Frame:
     return Frame(f"map of {saved_map(shown, name)['title']}", _page(shown, name, TOSSED_IN_FRAME))
 
 
-def _page(found: "xr.Dataset", name: str, most: tuple[int, int]) -> str:
+def _page(found: xr.Dataset, name: str, most: tuple[int, int]) -> str:
     """Return the page of a map, with at most `most` columns and rows of its pixels tossed by MuJoCo."""
     scenario, saved = scenario_of(found), saved_map(found, name)
     *_, contact = made_by(found)

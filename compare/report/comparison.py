@@ -5,7 +5,9 @@ from contextlib import ExitStack
 from html import escape
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from matplotlib.axes import Axes
 
 from cointoss.compare.engines import Engine, EngineSettings, label_of, toss
 from cointoss.compare.film.back_end import BackEndError, drawing_problem
@@ -22,10 +24,6 @@ from cointoss.models.records import UnsupportedError, UnusableEngineError
 from cointoss.models.scenario import Scenario
 from cointoss.models.sources import scenario_text
 from cointoss.models.stages import stage
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
 
 BOTH = ("analytic", "mujoco")
 """The engines of a comparison by default."""
@@ -56,7 +54,7 @@ class Comparison(ComparedTosses):
         reasons = [f"{reason}." for reason in self.absent.values()]
         return " ".join([*(verdict.text for verdict in verdicts_of(self)), *reasons])
 
-    def plot(self, ax: "Axes | None" = None) -> "Axes":
+    def plot(self, ax: Axes | None = None) -> Axes:
         """Plot the heights of the mass centre over time, and lines up to which the faces must agree.
 
         Args:

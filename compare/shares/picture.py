@@ -1,9 +1,10 @@
 """Shares of outcomes drawn over a field, a panel for each value of a second."""
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -19,9 +20,6 @@ from cointoss.models.records import Outcome
 from cointoss.models.title import title_of_toss
 from cointoss.models.units import printed_unit
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 MOST_PANELS, IN_A_ROW = 30, 3
 OF_THE_HAND = "release.position.z"
 """The field of the scenario's own release that a title leaves out, because the hand releases the coin."""
@@ -31,7 +29,7 @@ _LINES: dict[Engine, Any] = {
 }
 
 
-def plot_shares(shares: "xr.Dataset", ax: Axes | None = None) -> Any:
+def plot_shares(shares: xr.Dataset, ax: Axes | None = None) -> Any:
     """Draw shares with their intervals over the first field, a panel for each value of the second.
 
     Args:
@@ -53,7 +51,7 @@ def plot_shares(shares: "xr.Dataset", ax: Axes | None = None) -> Any:
     return _panels(pyplot.figure(layout="constrained"), shares)
 
 
-def picture_of(shares: "xr.Dataset", suffix: str) -> bytes:
+def picture_of(shares: xr.Dataset, suffix: str) -> bytes:
     """Draw shares as the content of a file of that suffix, as in ".png"; see `require_drawable`."""
     fields = fields_of(shares)
     with rc_context(STYLE):
@@ -78,7 +76,7 @@ def require_drawable(shape: tuple[int, ...]) -> None:
         raise SweepError(f"{shape[1]} values of the second field; accepted: at most {MOST_PANELS}")
 
 
-def _size(shares: "xr.Dataset") -> tuple[float, float]:
+def _size(shares: xr.Dataset) -> tuple[float, float]:
     fields = fields_of(shares)
     if len(fields) < 2:
         return 6.0, 3.8
@@ -86,14 +84,14 @@ def _size(shares: "xr.Dataset") -> tuple[float, float]:
     return 3.2 * min(panels, IN_A_ROW), 2.7 * math.ceil(panels / IN_A_ROW) + 0.8
 
 
-def _whole(axes: Axes, shares: "xr.Dataset") -> Axes:
+def _whole(axes: Axes, shares: xr.Dataset) -> Axes:
     """Draw shares over one field, or of none."""
     _draw(axes, shares, outcomes_of(shares))
     axes.legend()
     return axes
 
 
-def _panels(figure: Figure, shares: "xr.Dataset") -> Any:
+def _panels(figure: Figure, shares: xr.Dataset) -> Any:
     """Draw a panel for each value of the second field."""
     second = fields_of(shares)[1]
     values, unit = shares[second].values, printed_unit(shares[second].attrs["units"])
@@ -114,7 +112,7 @@ def _panels(figure: Figure, shares: "xr.Dataset") -> Any:
     return each[: len(values)]
 
 
-def _draw(axes: Axes, shares: "xr.Dataset", outcomes: list[str]) -> None:
+def _draw(axes: Axes, shares: xr.Dataset, outcomes: list[str]) -> None:
     """Draw the shares of some outcomes over the field that is left, if any."""
     fields, whole = fields_of(shares), over_engines(shares)
     x = shares[fields[0]].values if fields else np.zeros(1)

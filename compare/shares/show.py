@@ -2,9 +2,10 @@
 
 import json
 from collections.abc import Hashable, Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 from cointoss.compare.metrics.estimate import Estimate
@@ -13,15 +14,12 @@ from cointoss.compare.output.tables import sheet, table
 from cointoss.compare.sweep.axes import word_of
 from cointoss.models.units import printed_unit
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 _FACES, _LAST = ["heads", "tails"], "undecided"
 
 
 def shares_of(
     counts: NDArray[np.int64], dims: tuple[Hashable, ...], coordinates: Any, attributes: Any
-) -> "xr.Dataset":
+) -> xr.Dataset:
     """Return a dataset of shares and their 99 % intervals.
 
     Args:
@@ -30,8 +28,6 @@ def shares_of(
         coordinates: of these.
         attributes: of the dataset.
     """
-    import xarray
-
     values, low, high = wilson(counts, counts.sum(axis=-1, keepdims=True))
     about = {
         "count": (counts, "number of tosses"),
@@ -40,21 +36,21 @@ def shares_of(
         "high": (high, "high end of its 99 % interval"),
     }
     variables = {name: (dims, array, {"long_name": text}) for name, (array, text) in about.items()}
-    return xarray.Dataset(variables, coordinates, attributes)
+    return xr.Dataset(variables, coordinates, attributes)
 
 
-def over_engines(shares: "xr.Dataset") -> "xr.Dataset":
+def over_engines(shares: xr.Dataset) -> xr.Dataset:
     """Return shares over engine, the fields that vary, and outcome, in this order."""
     whole = shares if "engine" in shares.dims else shares.expand_dims("engine")
     return whole.transpose("engine", ..., "outcome")
 
 
-def fields_of(shares: "xr.Dataset") -> list[str]:
+def fields_of(shares: xr.Dataset) -> list[str]:
     """Return the fields that vary, in their order."""
     return [str(dim) for dim in shares["count"].dims if dim not in ("engine", "outcome")]
 
 
-def outcomes_of(shares: "xr.Dataset") -> list[str]:
+def outcomes_of(shares: xr.Dataset) -> list[str]:
     """Return heads, tails, and the other outcomes that there were."""
     met = shares["count"].sum([dim for dim in shares["count"].dims if dim != "outcome"])
     others = [str(one) for one in shares.outcome.values if one not in _FACES and met.sel(outcome=one)]
@@ -62,7 +58,7 @@ def outcomes_of(shares: "xr.Dataset") -> list[str]:
     return [*faces, *sorted(others, key=lambda one: one == _LAST)]
 
 
-def alike(shares: "xr.Dataset") -> NDArray[np.float64]:
+def alike(shares: xr.Dataset) -> NDArray[np.float64]:
     """Return the probability, for each setting, that both engines' counts differ by chance as much as these.
 
     It is that of a χ² test; NaN where an engine tossed nothing. With one engine there is none, (0,).
@@ -75,7 +71,7 @@ def alike(shares: "xr.Dataset") -> NDArray[np.float64]:
     return np.array([chance_alike(one) if one.any(axis=1).all() else np.nan for one in both])
 
 
-def least_alike(shares: "xr.Dataset") -> float:
+def least_alike(shares: xr.Dataset) -> float:
     """Return the probability that the smallest of `alike` is by chance as small as it is."""
     known = alike(shares)
     known = known[~np.isnan(known)]
@@ -95,7 +91,7 @@ class _Row(NamedTuple):
     shares: dict[str, Estimate]
 
 
-def _rows(shares: "xr.Dataset") -> Iterator[_Row]:
+def _rows(shares: xr.Dataset) -> Iterator[_Row]:
     """Yield each setting by each engine, the engine varying fastest."""
     whole, names = over_engines(shares), [str(one) for one in shares.outcome.values]
     ends = np.stack([whole[name].values for name in ("share", "low", "high")], axis=-1)
@@ -109,7 +105,7 @@ def _rows(shares: "xr.Dataset") -> Iterator[_Row]:
         yield _Row(tuple(at), str(whole.engine.values[engine]), tosses, int(missed[place]), own, told)
 
 
-def markdown(shares: "xr.Dataset") -> str:
+def markdown(shares: xr.Dataset) -> str:
     """Return the shares with their 99 % intervals, as a table in Markdown."""
     fields, outcomes, chances = fields_of(shares), outcomes_of(shares), alike(shares)
     both = len(chances) > 0
@@ -132,13 +128,13 @@ def texts_of(values: NDArray[np.float64]) -> list[str]:
     return next(texts for texts in written if len(set(texts)) == len(values))
 
 
-def labelled(shares: "xr.Dataset", field: str) -> str:
+def labelled(shares: xr.Dataset, field: str) -> str:
     """Return what a person calls a field that varies, with its unit."""
     unit = printed_unit(shares[field].attrs.get("units", ""))
     return f"{word_of(field)} [{unit}]" if unit else word_of(field)
 
 
-def csv(shares: "xr.Dataset") -> str:
+def csv(shares: xr.Dataset) -> str:
     """Return a row for each setting and engine as comma-separated values, in SI and full precision."""
     fields, outcomes = fields_of(shares), outcomes_of(shares)
     units = [printed_unit(shares[field].attrs["units"]) for field in fields]
@@ -152,7 +148,7 @@ def csv(shares: "xr.Dataset") -> str:
     return sheet([*heads, "engine", "tosses", *names], rows)
 
 
-def as_json(shares: "xr.Dataset") -> dict[str, Any]:
+def as_json(shares: xr.Dataset) -> dict[str, Any]:
     """Return what `cointoss shares --json` prints, but for the names of what was asked for."""
     fields, chances, settings = fields_of(shares), alike(shares), []
     for row in _rows(shares):

@@ -3,8 +3,9 @@
 import json
 from collections.abc import Mapping
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import xarray as xr
 from numpy.typing import NDArray
 
 from cointoss.compare.sweep.batch import Batch
@@ -12,11 +13,8 @@ from cointoss.compare.sweep.pieces import How
 from cointoss.compare.sweep.words import in_words
 from cointoss.models.answers import COLUMNS
 
-if TYPE_CHECKING:
-    import xarray as xr
 
-
-def dataset_of(batch: Batch, how: How, answers: Mapping[str, NDArray[Any]]) -> "xr.Dataset":
+def dataset_of(batch: Batch, how: How, answers: Mapping[str, NDArray[Any]]) -> xr.Dataset:
     """Return the answers of a batch, its codes in words, with the values of what varies as coordinates.
 
     Args:
@@ -24,8 +22,6 @@ def dataset_of(batch: Batch, how: How, answers: Mapping[str, NDArray[Any]]) -> "
         how: it was.
         answers: by name, over the dimensions of the batch.
     """
-    import xarray
-
     about = {
         "scenario": batch.scenario.to_toml(),
         "engine": how.engine.value,
@@ -38,4 +34,4 @@ def dataset_of(batch: Batch, how: How, answers: Mapping[str, NDArray[Any]]) -> "
     variables = {
         name: (tuple(batch.sizes), array, COLUMNS[name].attributes) for name, array in answers.items()
     }
-    return in_words(xarray.Dataset(variables, batch.coordinates, about))
+    return in_words(xr.Dataset(variables, batch.coordinates, about))

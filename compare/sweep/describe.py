@@ -2,18 +2,15 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.compare.basins.agreement import Agreement, Share
+from cointoss.compare.metrics.margin import ReleaseQuantity
 from cointoss.compare.sweep.layout import Layout, is_untrusted, trust_layer
 from cointoss.compare.sweep.store import Store
 from cointoss.models.records import Array, Outcome
-
-if TYPE_CHECKING:
-    from cointoss.compare.metrics.margin import ReleaseQuantity
 
 AWAY = 2.0
 """A pixel is away from the boundaries where all within this distance have its outcome [pixels]."""
@@ -48,7 +45,7 @@ def describe_map(path: Path, layout: Layout, counts: NDArray[np.int64]) -> str:
     return "\n".join(lines)
 
 
-def describe_margins(quantity: "ReleaseQuantity", margins: Array) -> str:
+def describe_margins(quantity: ReleaseQuantity, margins: Array) -> str:
     """Return the sizes of the margins of a map along a quantity, (y, x) [its unit], as text."""
     unit, most, sizes = quantity.unit, quantity.factor, np.abs(margins)
     few, middle = np.quantile(sizes, [0.1, 0.5], method="lower")

@@ -4,12 +4,13 @@ import time
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.compare.engines import Engine
+from cointoss.compare.metrics.margin import MANY, ReleaseQuantity, quantity_of, smallest_changes
 from cointoss.compare.sweep.batch import Batch
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.answers import (
@@ -30,9 +31,6 @@ from cointoss.models.records import Array
 from cointoss.models.resting_place import REST
 from cointoss.models.stages import stage
 from cointoss.models.unused import warn_of_unused_fields
-
-if TYPE_CHECKING:
-    from cointoss.compare.metrics.margin import ReleaseQuantity
 
 FIRST, GROWTH, SECOND = 64, 8, 1.0
 """Tosses of the first piece; the factor by which the next may grow; and the time that a piece should take
@@ -76,10 +74,8 @@ class How:
         return names_of(self.trust) + (REST if self.rest else ())
 
     @property
-    def quantity(self) -> "ReleaseQuantity":
+    def quantity(self) -> ReleaseQuantity:
         """The quantity along which each toss has its margin, where one is asked for."""
-        from cointoss.compare.metrics.margin import quantity_of
-
         return quantity_of(self.margin or "")
 
 
@@ -236,8 +232,6 @@ def _rests(how: How, rows: Array, outcomes: NDArray[np.int8]) -> Columns:
 
 
 def _margins(how: How, rows: Array) -> Array:
-    from cointoss.compare.metrics.margin import MANY, smallest_changes
-
     def outcomes(changed: Array) -> NDArray[np.int8]:
         return _shown(how, how.engine.package.toss_rows(changed, settings=how.settings, device=how.processor))
 

@@ -6,6 +6,8 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+import xarray as xr
+
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.batch import Batch, batch_of
 from cointoss.compare.sweep.dataset import dataset_of
@@ -19,8 +21,6 @@ from cointoss.models.reading import ScenarioSource
 from cointoss.models.records import UnsupportedError
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from cointoss.analytic import OwnLaw
 
 MOST_IN_MEMORY = 50_000_000
@@ -45,7 +45,7 @@ def toss_many(
     out: str | PathLike[str] | None = None,
     resume: bool = False,
     overwrite: bool = False,
-) -> "xr.Dataset":
+) -> xr.Dataset:
     """Toss a batch of scenarios, and return how each ended.
 
         ds = cointoss.toss_many("table", {"restitution": "0.4:0.8:5", "height": ("20 cm", "60 cm", 400)})
@@ -143,10 +143,8 @@ def toss_many(
 
 def _into_store(
     batch: Batch, how: How, path: Path, progress: bool | None, *, resume: bool, overwrite: bool
-) -> "xr.Dataset":
+) -> xr.Dataset:
     """Toss a batch into a store, and return its dataset; the arguments are those of `toss_many`."""
-    import xarray
-
     from cointoss.compare.sweep import store
     from cointoss.compare.sweep.layout import layout_of
 
@@ -162,4 +160,4 @@ def _into_store(
         except KeyboardInterrupt:
             left = sum(kept.missing(tile).size for tile in kept.tiles)
             warn_of_interruption(len(batch) - left, len(batch))
-    return xarray.open_zarr(path, chunks=None).assign_attrs(how.processor.attributes)
+    return xr.open_zarr(path, chunks=None).assign_attrs(how.processor.attributes)
