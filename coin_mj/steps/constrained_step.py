@@ -14,7 +14,7 @@ import numpy as np
 from cointoss.coin_mj.model.addresses import address_at, integer_at, numbers_at
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin, joint_of, run
 from cointoss.coin_mj.model.state import motion_of, set_motion
-from cointoss.coin_mj.steps.free_step import place_body, place_body_again
+from cointoss.coin_mj.steps.free_step import place_body
 from cointoss.coin_mj.steps.mujoco_step import euler_step
 from cointoss.coin_mj.steps.runge_kutta import CLASSICAL, TSITOURAS, end_motion, stage_motion, write_rate
 from cointoss.coin_mj.steps.smooth_forces import write_smooth_forces
@@ -62,7 +62,7 @@ def constrained_forward(coin: MujocoCoin, constraint: Constraint) -> float:
         coin: MuJoCo's, with a margin.
         constraint: how the floor holds it.
     """
-    place_body(coin)
+    place_body(coin, False)
     return _constrained_force(coin, constraint)
 
 
@@ -106,7 +106,7 @@ def constrained_step(coin: MujocoCoin, constraint: Constraint, dt: float) -> Non
     for stage in range(1, stages):
         stage_motion(start, rates, weights, stage, dt, motion)
         set_motion(coin, motion)
-        place_body_again(coin)
+        place_body(coin, True)
         _constrained_force(coin, constraint)
         write_rate(motion_of(coin), joint_of(coin).qacc, rates[stage])
     set_motion(coin, end_motion(start, rates, weights, dt, motion))

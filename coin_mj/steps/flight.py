@@ -6,7 +6,7 @@ import numpy as np
 
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
 from cointoss.coin_mj.model.state import Motion, motion_of, state_of
-from cointoss.coin_mj.steps.free_step import free_rate, free_rate_again, free_step_from, nudge, rates_of_step
+from cointoss.coin_mj.steps.free_step import free_rate, free_step_from, nudge, rates_of_step
 from cointoss.coin_mj.steps.gap_evaluation import (
     clear_flight,
     evaluate_gap,
@@ -60,7 +60,7 @@ def fly(
     # routine may take the radius for the height.
     shortest = TOUCH_STEP * coin.rebound.step
     rates, end_rate = rates_of_step(), np.empty(13)
-    free_rate(coin, rates[0])
+    free_rate(coin, rates[0], False)
     is_above = state_above_floor(coin).position[2] > rules.caught
     while time < rules.max_time and steps_left > 0:
         steps_left -= 1
@@ -73,14 +73,14 @@ def fly(
         clear = clear_flight(coin, dt) >= dt
         path = add_knot(coin, time, StepKind.FLIGHT, path)
         free_step_from(coin, start, rates, dt)
-        free_rate_again(coin, end_rate)
+        free_rate(coin, end_rate, True)
         if not clear:
             touch = first_touch(coin, arc_of(start, rates[0], motion_of(coin), end_rate, dt), shortest)
             if touch < dt:
                 dt, touches = _land(coin, start, rates, touch, dt, shortest)
                 if touches:
                     return time + dt, FlightExit.TOUCHES, steps_left, path
-                free_rate_again(coin, end_rate)
+                free_rate(coin, end_rate, True)
         copy_into(rates[0], end_rate)
         time += dt
     return time, FlightExit.BUDGET, steps_left, path

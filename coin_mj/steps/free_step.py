@@ -24,7 +24,7 @@ def free_step(coin: MujocoCoin, dt: float) -> None:
     A stage leaves out those parts of `mj_forward` that concern contacts and joints: it takes half the time.
     """
     rates = rates_of_step()
-    free_rate(coin, rates[0])
+    free_rate(coin, rates[0], False)
     free_step_from(coin, motion_of(coin), rates, dt)
 
 
@@ -52,7 +52,7 @@ def free_step_from(coin: MujocoCoin, start: Motion, rates: Array, dt: float) -> 
         stage_motion(start, of_stages, TSITOURAS, stage, dt, slow)
         to_motion(turn, slow, motion)
         set_motion(coin, motion)
-        place_body_again(coin)
+        place_body(coin, True)
         _find_acceleration(coin)
         write_slow_rate(frame, turn, slow, joint_of(coin).qacc_smooth, of_stages[stage])
     to_motion(turn_after(frame, dt), end_motion(start, of_stages, TSITOURAS, dt, slow), motion)
@@ -60,17 +60,9 @@ def free_step_from(coin: MujocoCoin, start: Motion, rates: Array, dt: float) -> 
 
 
 @compiled
-def free_rate(coin: MujocoCoin, rate: Array) -> None:
-    """Write the rate of change of the present state without the floor, (13,)."""
-    place_body(coin)
-    _find_acceleration(coin)
-    write_rate(motion_of(coin), joint_of(coin).qacc_smooth, rate)
-
-
-@compiled
-def free_rate_again(coin: MujocoCoin, rate: Array) -> None:
-    """Write the same once more after a motion; see `place_body_again`."""
-    place_body_again(coin)
+def free_rate(coin: MujocoCoin, rate: Array, again: bool) -> None:
+    """Write the rate of change of the present state without the floor, (13,); see `place_body`."""
+    place_body(coin, again)
     _find_acceleration(coin)
     write_rate(motion_of(coin), joint_of(coin).qacc_smooth, rate)
 
@@ -79,7 +71,7 @@ def free_rate_again(coin: MujocoCoin, rate: Array) -> None:
 def nudge(coin: MujocoCoin, dt: float) -> None:
     """Advance by a time dt in which the coin hardly turns [s], of either sign, at a constant rate."""
     rate, motion = np.empty(13), np.array(motion_of(coin))
-    free_rate_again(coin, rate)
+    free_rate(coin, rate, True)
     set_motion(coin, motion + dt * rate)
 
 
@@ -90,19 +82,15 @@ def _find_acceleration(coin: MujocoCoin) -> None:
 
 
 @compiled
-def place_body(coin: MujocoCoin) -> None:
-    """Compute what of MuJoCo's data depends on qpos alone, but for contacts."""
+def place_body(coin: MujocoCoin, again: bool) -> None:
+    """Compute what of MuJoCo's data depends on qpos alone, but for contacts.
+
+    Args:
+        coin: MuJoCo's.
+        again: whether once more after a motion: the mass matrix of a balanced coin is what it was.
+    """
     run(coin, coin.mujoco.mj_kinematics)
     run(coin, coin.mujoco.mj_comPos)
-    run(coin, coin.mujoco.mj_makeM)
-    run(coin, coin.mujoco.mj_factorM)
-
-
-@compiled
-def place_body_again(coin: MujocoCoin) -> None:
-    """Compute the same once more after a motion; the mass matrix of a balanced coin is what it was."""
-    if not coin.is_balanced:
-        place_body(coin)
-        return
-    run(coin, coin.mujoco.mj_kinematics)
-    run(coin, coin.mujoco.mj_comPos)
+    if not (again and coin.is_balanced):
+        run(coin, coin.mujoco.mj_makeM)
+        run(coin, coin.mujoco.mj_factorM)

@@ -93,8 +93,7 @@ def follow_contact(
         landings = landings if abs(up_rate[2]) < GROWTH * landing_rate else 0
         # Where the coin would be if it did not sink: the energy tests are finer than that.
         sunk = -min(evaluate_gap(coin).gap, 0.0)
-        z = x[2] + sunk
-        now = State((x[0], x[1], z), v, e, w, R)
+        now = State((x[0], x[1], x[2] + sunk), v, e, w, R)
         if still == NOT_DECIDED:
             outcome, ending = classify_ending(body, rules, now, time, history)
             stands = upright * rate > FIRST_CHECK and not (may_speed_up or slows(coin, R, w))

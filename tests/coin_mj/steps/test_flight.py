@@ -59,9 +59,9 @@ def step_arc(coin, start, duration):
     """Return the arc of a step of free flight from a state."""
     rates, end_rate = rates_of_step(), np.empty(13)
     set_motion(coin, start)
-    free_rate(coin, rates[0])
+    free_rate(coin, rates[0], False)
     free_step_from(coin, start, rates, duration)
-    free_rate(coin, end_rate)
+    free_rate(coin, end_rate, False)
     return arc_of(start, rates[0], motion_of(coin), end_rate, duration)
 
 
@@ -121,7 +121,7 @@ def test_a_nudge_is_a_short_step(coin):
         free_step(machine.coin, way)
         exact = np.array(motion_of(machine.coin))
         set_motion(machine.coin, start)
-        free_rate(machine.coin, np.empty(13))
+        free_rate(machine.coin, np.empty(13), False)
         nudge(machine.coin, way)
         assert np.abs(exact - start).max() > 1e-8, "it should move"
         assert np.array(motion_of(machine.coin)) == pytest.approx(exact, rel=1e-12, abs=1e-12)

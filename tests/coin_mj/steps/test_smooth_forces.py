@@ -49,7 +49,7 @@ def test_forces_and_accelerations_of_flight_are_those_of_mj_forward(center, air)
         motion = np.array([0, 0, 1, *e, *rng.uniform(-2, 2, 3), *rng.uniform(-40, 40, 3)])
         set_motion(machine.coin, motion)
         reference.qpos[:], reference.qvel[:] = motion[:7], motion[7:]
-        free_rate(machine.coin, np.empty(13))
+        free_rate(machine.coin, np.empty(13), False)
         if case.body.air.exponent is not None:
             reference.qfrc_applied[:] = force_of_the_air(case, reference)
         mujoco.mj_forward(machine.model, reference)
