@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import Body, Rules, in_vacuum, is_ideal, resists
-from cointoss.models.contact_laws.law import Impact, Recorded
+from cointoss.models.contact_laws.law import Impact, Recorded, dot_each
 from cointoss.models.contact_laws.table import LAWS, is_smooth
 from cointoss.models.geometry import lowest_point
 from cointoss.models.kernel.vectors import Matrix, Vector, cross, norm
@@ -130,7 +130,10 @@ def _of_contacts(scenario: Scenario, in_contact: InContact) -> Iterator[Setting]
     """Yield the measured lines of sustained contacts, see `measurements`."""
     body, rules, (stretches, landings, _) = scenario.body, scenario.rules, in_contact
     if len(stretches.before.time):
-        start, end = (conserved_energies(body, states) for states in stretches)
+        # Energy with that along a slope, which only the air and the floor's friction change.
+        start, end = (
+            energies(body, states) - body.mass * body.downhill * states.position[:, 0] for states in stretches
+        )
         gained = float((end - start).max()) / (body.mass * body.gravity * body.radius)
         yield Setting(name=CONTACT_ENERGY, value=max(gained, 0.0), unit="m g r")
         if is_smooth(rules.law) and in_vacuum(body) and body.downhill == 0 and not resists(rules):
@@ -151,7 +154,7 @@ def momenta(body: Body, states: States) -> Array:
     """
     L = states.angular_velocity @ np.array(body.inertia) / (body.mass * body.radius)
     up = turned(_conjugate(states.quaternion), np.broadcast_to([0.0, 0.0, 1.0], L.shape))
-    kept = np.column_stack([states.velocity[:, :2], _dot(up, L), L[:, 2] * is_ideal(body)])
+    kept = np.column_stack([states.velocity[:, :2], dot_each(up, L), L[:, 2] * is_ideal(body)])
     return kept / (body.gravity * body.radius) ** 0.5
 
 
@@ -273,7 +276,7 @@ def momentum_residuals(body: Body, impacts: Impacts) -> Array:
 def energy_residuals(impacts: Impacts) -> Array:
     """Return the energy change of each impact less the work of its impulse, S . (v_A + v_A')/2, (n,) [J]."""
     mean = (impacts.contact_velocity_before + impacts.contact_velocity_after) / 2
-    return impacts.energy_change - _dot(impacts.impulse, mean)
+    return impacts.energy_change - dot_each(impacts.impulse, mean)
 
 
 def gaps(body: Body, states: States) -> Array:
@@ -286,16 +289,8 @@ def gaps(body: Body, states: States) -> Array:
 def energies(body: Body, states: States) -> Array:
     """Return the mechanical energy of each state, with height measured from the floor only, (n,) [J]."""
     v, w = states.velocity, states.angular_velocity
-    turning = _dot(w, w @ np.array(body.inertia))
-    return body.mass * (_dot(v, v) / 2 + body.gravity * states.position[:, 2]) + turning / 2
-
-
-def conserved_energies(body: Body, states: States) -> Array:
-    """Return the energy of each state, including its potential energy along a slope, (n,) [J].
-
-    It is zero at rest with C on the floor at x = 0. Only the air and the floor's friction change it.
-    """
-    return energies(body, states) - body.mass * body.downhill * states.position[:, 0]
+    turning = dot_each(w, w @ np.array(body.inertia))
+    return body.mass * (dot_each(v, v) / 2 + body.gravity * states.position[:, 2]) + turning / 2
 
 
 def air_power(body: Body, v: Array, w: Array, air: Air) -> Array:
@@ -308,17 +303,12 @@ def air_power(body: Body, v: Array, w: Array, air: Air) -> Array:
         air: for b > 0.
     """
     if body.air.exponent is None:
-        return linear_air_power(body, v, w)
+        drag, v_B = body.drag, v - np.cross(w, np.array([body.center]))
+        force = [drag.force_tangential, drag.force_tangential, drag.force_normal]
+        moment = [drag.moment_tangential, drag.moment_tangential, drag.moment_normal]
+        return -(v_B**2 @ force + w**2 @ moment)
     pairs = [(air(body, tuple(a), tuple(b)), a, b) for a, b in zip(v.tolist(), w.tolist(), strict=True)]
     return np.array([np.dot(f, a) + np.dot(m, b) for (f, m), a, b in pairs])
-
-
-def linear_air_power(body: Body, v: Array, w: Array) -> Array:
-    """Return the power of linear air drag at B and about B; see `air_power`."""
-    drag, v_B = body.drag, v - np.cross(w, np.array([body.center]))
-    force = [drag.force_tangential, drag.force_tangential, drag.force_normal]
-    moment = [drag.moment_tangential, drag.moment_tangential, drag.moment_normal]
-    return -(v_B**2 @ force + w**2 @ moment)
 
 
 def turned(quaternions: Array, vectors: Array) -> Array:
@@ -360,7 +350,7 @@ def _flights(
         return states, change[free]
     v = turned(_conjugate(states.quaternion), states.velocity)
     power, w = air_power(body, v, states.angular_velocity, air), states.angular_velocity
-    motion = body.mass * _dot(v, v) + _dot(w, w @ np.array(body.inertia))
+    motion = body.mass * dot_each(v, v) + dot_each(w, w @ np.array(body.inertia))
     decay = np.divide(-power, motion, out=np.zeros_like(power), where=motion > 0)
     of_flight = np.repeat(np.arange(len(counts)), counts)
     turn = np.linalg.norm(w, axis=1) * durations[of_flight]
@@ -396,10 +386,6 @@ def _restitution(rules: Rules, impacts: Impacts) -> Array:
     if varies(rules):
         return np.array([restitution_at_speed(rules, float(speed)) for speed in speeds])
     return np.where(speeds > rules.restitution_threshold, rules.restitution, 0.0)
-
-
-def _dot(a: Array, b: Array) -> Array:
-    return np.sum(a * b, axis=-1)
 
 
 def _conjugate(quaternions: Array) -> Array:

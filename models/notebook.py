@@ -42,26 +42,26 @@ def with_bar(sequence: str, trusted: int) -> str:
     return sequence if trusted >= len(sequence) else f"{sequence[:trusted]}|{sequence[trusted:]}"
 
 
-def block(title: str, picture: str, facts: Mapping[str, str]) -> str:
-    """Return a title, a picture in HTML, and a table of facts as HTML."""
-    return str(_macros().block(title, picture, facts))
-
-
-def path_picture(
+def path_block(
+    title: str,
+    facts: Mapping[str, str],
     times: Sequence[float],
     heights: Sequence[float],
     touches: Sequence[tuple[float, float, str]],
     trusted_until: float | None,
 ) -> str:
-    """Return the height of a coin over time as SVG, marked where it touches the floor.
+    """Return a title, the height of a coin over time, marked where it touches the floor, and facts as HTML.
 
     Args:
+        title: of the block.
+        facts: by their names, for a table.
         times: of the path [s].
         heights: at these times [m].
         touches: time [s], height [m] and the face that is up, "heads" or "tails"; the first are drawn.
         trusted_until: where the horizon of trust is drawn [s]; None for nowhere.
     """
-    return str(_macros().path(times, heights, touches[:MOST_SHOWN], trusted_until, COLORS))
+    picture = _macros().path(times, heights, touches[:MOST_SHOWN], trusted_until, COLORS)
+    return str(_macros().block(title, picture, facts))
 
 
 @cache

@@ -528,20 +528,18 @@ class Toss(EqualByValue):
         labels = [str(Face(face)) for face in impacts.face]
         touches = list(zip(impacts.time.tolist(), impacts.position[:, 2].tolist(), labels, strict=True))
         sequence = notebook.with_bar(self.sequence, trusted)
-        return notebook.block(
+        return notebook.path_block(
             f"{self.outcome}, by the engine {self.engine}",
-            notebook.path_picture(
-                times.tolist(),
-                heights.tolist(),
-                touches,
-                float(impacts.time[trusted]) if trusted < len(impacts) else None,
-            ),
             {
                 "ending": f"{self.ending}: {self.ending.sentence}",
                 "end": f"{self.end_time:.6g} s, after {len(impacts)} impacts",
                 "sequence": notebook.shortened(sequence),
                 "trusted": self.trust,
             },
+            times.tolist(),
+            heights.tolist(),
+            touches,
+            float(impacts.time[trusted]) if trusted < len(impacts) else None,
         )
 
     def to_xarray(self) -> "xr.Dataset":

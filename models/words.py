@@ -66,9 +66,5 @@ class Word(IntEnum):
             begun = [word for word in words if word.startswith(other.lower())]  # as H for heads
             if near := meant(begun[0] if begun else other.lower(), words):
                 warnings.warn(f"{type(self).__name__} == {other!r}: {near.rstrip()}", stacklevel=3)
-        return how(str(self) if _is_text(other) else int(self), other)
-
-
-def _is_text(value: Any) -> bool:
-    """Return whether a value is a text, or an array of texts."""
-    return isinstance(value, str) or getattr(getattr(value, "dtype", None), "kind", "") in ("U", "T")
+        is_array_of_texts = getattr(getattr(other, "dtype", None), "kind", "") in ("U", "T")
+        return how(str(self) if isinstance(other, str) or is_array_of_texts else int(self), other)

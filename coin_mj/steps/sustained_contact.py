@@ -111,7 +111,9 @@ def follow_contact(
             return ContactExit.DECIDED, time, steps_left, outcome, ending, path
         dt, face_lands = next_step(coin, chi, up, up_rate, w, sunk)
         if face_lands:
-            _pass_over(coin, dt)
+            # It passes over its face, and onto the rim point that lands.
+            free_step(coin, dt / APPROACH * (2 - APPROACH))
+            joint_of(coin).qpos[2] -= evaluate_gap(coin).gap
             return ContactExit.RIM_LANDS, time + dt, steps_left, Outcome.UNDECIDED, Ending.NONE, path
         dt = min(dt, shortest_stop(coin, up, w), rules.max_time - time)
         path = add_knot(coin, time, StepKind.CONTACT, path)
@@ -216,10 +218,3 @@ def out_of_budget(
     if upright and (coin.resists or slope_feeds(coin.body, coin.friction == 0)):
         return Outcome.EDGE, Ending.ROLLING
     return outcome, ending
-
-
-@compiled
-def _pass_over(coin: MujocoCoin, dt: float) -> None:
-    """Let the coin pass over its face in a time dt [s], and put it on the rim point that lands."""
-    free_step(coin, dt / APPROACH * (2 - APPROACH))
-    joint_of(coin).qpos[2] -= evaluate_gap(coin).gap

@@ -138,16 +138,6 @@ def go_straight(y: Array, f: tuple[float, float], gained: Vector, p: float) -> N
 
 
 @compiled
-def end_straight(y: Array, f: tuple[float, float], gained: Vector, p: float, stops: bool, goal: Goal) -> None:
-    """Advance the state by the p of `straight_slip`, and take the rounding out of its end."""
-    go_straight(y, f, gained, p)
-    if stops:
-        y[0], y[1] = 0.0, 0.0
-    else:
-        y[goal.component] = goal.target
-
-
-@compiled
 def slide(A: RoughPoint, y: Array, goal: Goal) -> bool:
     """Follow the slip until it stops or reaches the goal; return whether it has reached it.
 
@@ -163,7 +153,12 @@ def slide(A: RoughPoint, y: Array, goal: Goal) -> bool:
             return False
         f, gained, p, stops = straight_slip(A, y, goal)
         if p > 0:
-            end_straight(y, f, gained, p, stops, goal)
+            go_straight(y, f, gained, p)
+            # Its end is without rounding.
+            if stops:
+                y[0], y[1] = 0.0, 0.0
+            else:
+                y[goal.component] = goal.target
             return not stops
         if die_away(A, y, goal, to_stop, y_new):
             copy_into(y, y_new[:SIZE])

@@ -61,18 +61,19 @@ class Recorded(NamedTuple):
 
     def changed(self, direction: Array) -> Array:
         """Return by how much the velocity in a direction has changed, relative to |v_A| before, (n,)."""
-        return np.abs(_dot(self.after - self.before, direction)) / self._speed
+        return np.abs(dot_each(self.after - self.before, direction)) / self._speed
 
     def left(self, direction: Array) -> Array:
         """Return how much velocity is left in a direction, relative to |v_A| before, (n,)."""
-        return np.abs(_dot(self.after, direction)) / self._speed
+        return np.abs(dot_each(self.after, direction)) / self._speed
 
     @property
     def _speed(self) -> Array:
         return np.linalg.norm(self.before, axis=1)
 
 
-def _dot(a: Array, b: Array) -> Array:
+def dot_each(a: Array, b: Array) -> Array:
+    """Return the products of vectors, (n,)."""
     return np.sum(a * b, axis=-1)
 
 

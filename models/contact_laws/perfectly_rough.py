@@ -17,8 +17,7 @@ def impulse(A: Impact) -> tuple[Vector, bool]:
 
 def missed(impacts: Recorded) -> Array:
     """Return what is left of the slip."""
-    x_axis, y_axis = np.eye(3)[:2]
-    return np.hypot(impacts.left(x_axis), impacts.left(y_axis))
+    return np.hypot(*map(impacts.left, np.eye(3)[:2]))
 
 
 LAW = Law(impulse, missed, is_rough=True, is_followed=True, hardly_adds_energy=True, is_in_mujoco=True)

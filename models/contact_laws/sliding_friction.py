@@ -2,13 +2,11 @@
 
 import numpy as np
 
-from cointoss.models.contact_laws import smooth
 from cointoss.models.contact_laws.law import NO_IMPULSE, Impact, Law, Recorded
+from cointoss.models.contact_laws.smooth import impulse as impulse_without_friction
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, dot, scale
-
-_without_friction = smooth.impulse
 
 
 @compiled
@@ -21,7 +19,7 @@ def impulse(A: Impact) -> tuple[Vector, bool]:
     v_A, mu = A.velocity, A.friction
     slip = (v_A[0] * v_A[0] + v_A[1] * v_A[1]) ** 0.5
     if slip == 0:
-        return _without_friction(A)
+        return impulse_without_friction(A)
     direction = (-mu * v_A[0] / slip, -mu * v_A[1] / slip, 1.0)
     gained = dot(A.delassus[2], direction)
     if gained <= 0:

@@ -16,8 +16,7 @@ def impulse(A: Impact) -> tuple[Vector, bool]:
 
 def missed(impacts: Recorded) -> Array:
     """Return the change of the slip."""
-    x_axis, y_axis = np.eye(3)[:2]
-    return np.hypot(impacts.changed(x_axis), impacts.changed(y_axis))
+    return np.hypot(*map(impacts.changed, np.eye(3)[:2]))
 
 
 LAW = Law(impulse, missed, spares_spin=True)

@@ -94,7 +94,9 @@ def expand_stop(K: Matrix, mu: float, slip: tuple[float, float], with_path: bool
     others = _CLEAR * (abs(H[1]) + _CLEAR * (abs(H[2]) + _CLEAR * abs(H[3])))
     if not (H[0] < 0 and G[0] < 0 and others < -H[0] and _CLEAR * abs(m) < 1):
         return SlipStop(s, 0.0, 0)
-    _first_terms(G[0], mu, series)
+    # The terms of x⁰, of which that of q is 1, G[0] being dq/dp at the stop.
+    # In the order of the columns: q; S along s*, across it, and S_z; q² and X.
+    copy_into(series[BEFORE], (1.0, -mu / G[0], 0.0, 1 / G[0], 1.0, 1 / (2 * G[0])))
     end = BEFORE + 1
     while not _converges(series, end):
         if end == len(series):
@@ -129,13 +131,6 @@ def kept_direction(K: Matrix, mu: float, s: tuple[float, float]) -> tuple[tuple[
         if abs(turn) < _LAST:
             return s, True
     return s, False
-
-
-@compiled
-def _first_terms(g: float, mu: float, series: Array) -> None:
-    """Write the terms of x⁰, of which that of q is 1, g being dq/dp at the stop."""
-    # In the order of the columns: q; S along s*, across it, and S_z; q² and X.
-    copy_into(series[BEFORE], (1.0, -mu / g, 0.0, 1 / g, 1.0, 1 / (2 * g)))
 
 
 @compiled
