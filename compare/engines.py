@@ -86,8 +86,7 @@ def label_of(engine: str) -> str:
 
 
 _PACKAGES = {Engine.ANALYTIC: "cointoss.analytic", Engine.MUJOCO: "cointoss.coin_mj"}
-_OF_BOTH = ("cointoss", "numpy")
-_MADE_OF = {Engine.ANALYTIC: _OF_BOTH, Engine.MUJOCO: (*_OF_BOTH, "mujoco")}
+_MADE_OF = {Engine.ANALYTIC: ("cointoss", "numpy"), Engine.MUJOCO: ("cointoss", "numpy", "mujoco")}
 
 
 def toss(

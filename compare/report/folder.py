@@ -45,7 +45,14 @@ def write_report(
     """
     engines = [toss.engine for toss in comparison.tosses]
     with written_together(folder, names_in(folder, engines)) as aside, stage("making the report"):
-        numbers = _numbers(comparison) | ({"map": maps.numbers} if maps else {})
+        numbers = {
+            "name": comparison.name,
+            "versions": versions(),
+            "tosses": [answer.as_json(toss) for toss in comparison.tosses],
+            "comparisons": {pair.toss.engine: _compared(pair) for pair in comparison.against},
+            "absent": comparison.absent,
+            **({"map": maps.numbers} if maps else {}),
+        }
         (aside / "numbers.json").write_text(json_text(numbers), encoding="utf-8")
         for toss in comparison.tosses:
             path = answer.path_csv(toss.sample(answer.path_times(toss)), toss.scenario)
@@ -66,16 +73,6 @@ def write_report(
             film = (aside / "toss.mp4").read_bytes(), compress_image(poster, fmt="jpeg", quality=80)
             (aside / "report.html").write_text(render(comparison, film=film, maps=maps), encoding="utf-8")
     return folder / "report.html"
-
-
-def _numbers(comparison: ComparedTosses) -> dict[str, Any]:
-    return {
-        "name": comparison.name,
-        "versions": versions(),
-        "tosses": [answer.as_json(toss) for toss in comparison.tosses],
-        "comparisons": {pair.toss.engine: _compared(pair) for pair in comparison.against},
-        "absent": comparison.absent,
-    }
 
 
 def _compared(pair: Against) -> dict[str, Any]:

@@ -27,11 +27,8 @@ from cointoss.models.stages import stage
 if TYPE_CHECKING:
     import xarray as xr
 
-Say = Callable[[str], None]
-"""Called with a message on what the command waits for."""
 
-
-def make(job: Job, source: Source, command: str, say: Say) -> Iterator[str]:
+def make(job: Job, source: Source, command: str, say: Callable[[str], None]) -> Iterator[str]:
     """Make what is asked for, and yield the results as text, each as soon as it is ready.
 
     Nothing is begun before all is checked that can be.
@@ -115,10 +112,9 @@ def _layout(job: Job, source: Source, engine: Engine, x: Axis, y: Axis) -> Layou
 
 def _tosser(layout: Layout, workers: Workers | None) -> store.Tosser:
     """Return what tosses the pixels of a map: this machine, or the workers of a cluster."""
-    what = layout.batch, layout.how
     if workers is None:
-        return partial(pieces, *what)
-    return lambda parts: workers(partial(toss_part, *what), parts, layout.how.engine)
+        return partial(pieces, layout.batch, layout.how)
+    return lambda parts: workers(partial(toss_part, layout.batch, layout.how), parts, layout.how.engine)
 
 
 def _shown(job: Job, source: Source, made: "list[xr.Dataset]", command: str) -> Iterator[str]:

@@ -406,11 +406,9 @@ def _locked(path: Path, target: Path) -> Iterator[None]:
             raise UnwritableError(
                 f"{path}: another process is at this map; accepted: wait for its end"
             ) from None
-        held.callback(_unlink, lock)
-        yield
-
-
-def _unlink(lock: Path) -> None:
-    """Remove a lock's file while the lock is held; Windows removes it when the lock is released."""
-    with suppress(OSError):
-        lock.unlink()
+        try:
+            yield
+        finally:
+            # While the lock is held; Windows removes its file when it is released.
+            with suppress(OSError):
+                lock.unlink()
