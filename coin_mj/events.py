@@ -179,13 +179,12 @@ def go_on(
         if not sustained:
             result, time, _, path = resolve_impact(touched, time, path)
             sustained = result == TouchResult.SUSTAINED
-        held = sustained
-        if held:
+        if sustained:
             left_by, time, steps_left, _, now, path = follow_contact(
                 coin, plastic, rules, time, steps_left, history, path, still
             )
         touches = doubled(touches) if n == len(touches) else touches
-        touches[n, 0], touches[n, 1], touches[n, 2] = start, time, 1.0 if held else 0.0
+        touches[n, 0], touches[n, 1], touches[n, 2] = start, time, 1.0 if sustained else 0.0
         n += 1
         steps_left -= 1
         sustained, lands = False, left_by == ContactExit.RIM_LANDS

@@ -2,7 +2,7 @@
 
 import itertools
 import math
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from enum import StrEnum
 from numbers import Integral
 from typing import NamedTuple
@@ -105,17 +105,11 @@ class MujocoSettings:
 
     def as_dict(self) -> dict[str, str | float]:
         """Return the settings on which a toss depends, by name; without those of another contact."""
-        one_step = self.contact == Realisation.ONE_STEP
-        rebound = {"step": self.step} if one_step else {"stiffness": self.stiffness, "steps": self.steps}
-        slip = {} if self.slip_damping is None else {"slip_damping": self.slip_damping}
+        unused = ("stiffness", "steps") if self.contact == Realisation.ONE_STEP else ("step",)
         return {
-            "contact": self.contact.value,
-            "friction": self.friction.value,
-            **rebound,
-            **slip,
-            "flight_angle": self.flight_angle,
-            "contact_steps": self.contact_steps,
-            "flight_steps": self.flight_steps,
+            name: value
+            for name, value in asdict(self).items()
+            if name not in unused and value is not None  # as `slip_damping`, by default
         }
 
 

@@ -20,9 +20,10 @@ from cointoss.models.kernel.vectors import Matrix, Vector, add, apply, apply_tra
 
 
 @compiled
-def friction_step(coin: MujocoCoin, constraint: Constraint, dt: float) -> None:
-    """Advance by dt [s] with the forces of `apply_friction` in a frictionless contact."""
-    apply_friction(coin, constraint, dt)
+def step_on_floor(coin: MujocoCoin, constraint: Constraint, dt: float, has_friction: bool) -> None:
+    """Advance by dt [s], after `constrained_forward`, where asked for with the forces of `apply_friction`."""
+    if has_friction:
+        apply_friction(coin, constraint, dt)
     contact_step(coin, constraint, dt)
     joint_of(coin).qfrc_applied[:] = 0
 

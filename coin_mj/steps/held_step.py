@@ -4,8 +4,8 @@ import math
 
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin, joint_of
 from cointoss.coin_mj.model.state import motion_of, set_motion, state_of
-from cointoss.coin_mj.steps.constrained_step import Constraint, constrained_forward, contact_step
-from cointoss.coin_mj.steps.friction import apply_friction, friction_step
+from cointoss.coin_mj.steps.constrained_step import Constraint, constrained_forward
+from cointoss.coin_mj.steps.friction import apply_friction, step_on_floor
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap, turning_rate
 from cointoss.coin_mj.steps.mujoco_step import set_margin, set_spring
 from cointoss.models.body import Rules
@@ -165,10 +165,7 @@ def sustained_step(coin: MujocoCoin, chi: float, w: Vector, dt: float) -> float:
     """
     constraint = constrain(coin, chi, w, dt)
     force = constrained_forward(coin, constraint)
-    if force > 0 and (coin.has_explicit_friction or coin.resists):
-        friction_step(coin, constraint, dt)
-    else:
-        contact_step(coin, constraint, dt)
+    step_on_floor(coin, constraint, dt, force > 0 and (coin.has_explicit_friction or coin.resists))
     return force
 
 

@@ -5,9 +5,9 @@ from enum import IntEnum
 
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin, joint_of
 from cointoss.coin_mj.model.state import Motion, momentum_of, motion_of, set_motion
-from cointoss.coin_mj.steps.constrained_step import IMPACT, constrained_forward, contact_step, forward
+from cointoss.coin_mj.steps.constrained_step import IMPACT, constrained_forward, forward
 from cointoss.coin_mj.steps.flight import TOUCH_STEP
-from cointoss.coin_mj.steps.friction import friction_step
+from cointoss.coin_mj.steps.friction import step_on_floor
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap
 from cointoss.coin_mj.steps.knots import RecordedPath, StepKind, add_knot
 from cointoss.coin_mj.steps.mujoco_step import other_force, set_margin, set_spring
@@ -147,10 +147,7 @@ def _resolve(
         acted = acted or force > 0
         other = add(other, scale(dt, other_force(coin)))
         path = add_knot(coin, time, StepKind.IMPACT, path)
-        if force > 0 and has_friction:
-            friction_step(coin, IMPACT, dt)
-        else:
-            contact_step(coin, IMPACT, dt)
+        step_on_floor(coin, IMPACT, dt, force > 0 and has_friction)
         time += dt
         if acted and coin.has_one_step:
             joint_of(coin).qpos[2] -= min(evaluate_gap(coin).gap, 0.0)

@@ -5,9 +5,9 @@ from enum import IntEnum
 
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin, joint_of
 from cointoss.coin_mj.model.state import state_of
-from cointoss.coin_mj.steps.constrained_step import IMPACT, contact_step, forward
+from cointoss.coin_mj.steps.constrained_step import IMPACT, forward
 from cointoss.coin_mj.steps.free_step import free_step
-from cointoss.coin_mj.steps.friction import friction_step
+from cointoss.coin_mj.steps.friction import step_on_floor
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap
 from cointoss.coin_mj.steps.held_step import (
     APPROACH,
@@ -166,10 +166,8 @@ def _land(plastic: MujocoCoin) -> float:
     """
     set_margin(plastic, max(evaluate_gap(plastic).gap, 0.0) + NEAR * plastic.body.thickness)
     set_spring(plastic, 0.0, plastic.rebound.damping, plastic.rebound.slip_damping)
-    if forward(plastic) > 0 and plastic.has_explicit_friction:
-        friction_step(plastic, IMPACT, plastic.rebound.step)
-    else:
-        contact_step(plastic, IMPACT, plastic.rebound.step)
+    pushes = forward(plastic) > 0
+    step_on_floor(plastic, IMPACT, plastic.rebound.step, pushes and plastic.has_explicit_friction)
     up, w, qvel = state_of(plastic).R[2], state_of(plastic).spin, joint_of(plastic).qvel
     rate = cross(up, w)[2]
     if half_period(plastic, up, w) >= 1:
