@@ -121,11 +121,10 @@ class Drawer(ExitStack):
 
     def draw(self, i: int) -> np.ndarray:
         """Draw the picture at one of the times, (height, width, 3) of uint8."""
-        position = self._play.states.position[i]
         self._data.qpos[:] = self._play.qpos[i]
         mujoco.mj_forward(self._model, self._data)
         if self._follows:
-            self._camera.lookat[:] = position
+            self._camera.lookat[:] = self._play.states.position[i]
         self._renderer.update_scene(self._data, self._camera)
         # What a camera sees moves up, and so the coin in its picture down.
         for eye in self._renderer.scene.camera:

@@ -106,10 +106,9 @@ def search(
             progress(tried, tosses)
     made = tried - refused
     longest = int(shown.max())
+    points = points[shown == longest]
     if 0 < longest < target.steps:
-        points, longest = _in_boxes(window, target, points[shown == longest], longest, seed)
-    elif longest == target.steps:
-        points = points[shown == longest]
+        points, longest = _in_boxes(window, target, points, longest, seed)
     if longest < target.steps:
         return Searched((), made, refused, longest)
     showing = "1 toss shows" if (count := hits or len(points)) == 1 else f"{count:,d} tosses show"
