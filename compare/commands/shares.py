@@ -169,8 +169,10 @@ def _print(found: "xr.Dataset", plan: "Plan", scenario: str, as_json: bool) -> N
     instead = f"; but {' and '.join(varied)} as above" if varied else ""
     missed, alike = int(found.not_caught.sum()), show.alike(found)
     differ = "engines that agree differ as much with this probability"
+    # What goes into a file or a pipe keeps its lines whole.
+    width = shutil.get_terminal_size().columns if sys.stdout.isatty() else WHOLE
     lines = [
-        laid_out(show.markdown(found), _width()),
+        laid_out(show.markdown(found), width),
         "",
         f"shares     of the {of}; in brackets 99 % intervals",
         f"hand       {plan.hand.in_words}{instead}",
@@ -183,8 +185,3 @@ def _print(found: "xr.Dataset", plan: "Plan", scenario: str, as_json: bool) -> N
         by_chance = f"by chance the least is as small in {show.least_alike(found):.2g} of all runs"
         lines.append(f"           (the least of {len(alike)} settings; {by_chance})")
     click.echo("\n".join(lines))
-
-
-def _width() -> int:
-    """Return the width of the terminal; what goes into a file or a pipe keeps its lines whole."""
-    return shutil.get_terminal_size().columns if sys.stdout.isatty() else WHOLE

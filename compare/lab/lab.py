@@ -1,10 +1,14 @@
 """The lab as one file: a page with the engine in it, which needs no network."""
 
+import gzip
+from base64 import b64encode
+
 from cointoss.compare.web.playable import shown_outcomes
 from cointoss.compare.web.scripts import ENGINE_POLICY, files_of, one_file
-from cointoss.compare.web.wasm.carried import engine_data, engine_scripts
+from cointoss.compare.web.wasm.carried import engine_bytes, engine_scripts
 from cointoss.models.notebook import Frame
 from cointoss.models.reading import ScenarioSource, scenario_of
+from cointoss.models.rows import fields_of
 from cointoss.models.scenario import Scenario
 from cointoss.models.title import title_of_toss
 
@@ -54,9 +58,13 @@ def lab_page(
         UnusableEngineError: where the engine for a browser was not built.
     """
     files = {**files_of("cointoss.compare.lab"), **engine_scripts()}
-    told = {"tour": is_tour, "served": is_served, "saved": saved, "tosses": tosses}
-    return one_file(
-        files,
-        {**engine_data(scenario), "outcomes": shown_outcomes(), **told},
-        SERVED_POLICY if is_served else ENGINE_POLICY,
-    )
+    told = {
+        "wasm": b64encode(gzip.compress(engine_bytes(), mtime=0)).decode("ascii"),
+        "scenario": fields_of(scenario),
+        "outcomes": shown_outcomes(),
+        "tour": is_tour,
+        "served": is_served,
+        "saved": saved,
+        "tosses": tosses,
+    }
+    return one_file(files, told, SERVED_POLICY if is_served else ENGINE_POLICY)

@@ -1,16 +1,11 @@
-"""The engine's file, where the package carries it, and what a page needs beside it to toss one scenario."""
+"""The engine's file, where the package carries it, and the scripts by which a page uses it."""
 
-import gzip
 import json
-from base64 import b64encode
 from importlib import resources
-from typing import Any
 
 from cointoss.models.distribution import versions_of
 from cointoss.models.kernel.digests import digest_of_parts
 from cointoss.models.records import UnusableEngineError
-from cointoss.models.rows import fields_of
-from cointoss.models.scenario import Scenario
 
 SECTION = "cointoss"
 """Name of the last part of the file, which says what made it."""
@@ -50,21 +45,3 @@ def made_of(content: bytes) -> str:
         return str(json.loads(b"{" + about)["sources"]) if found else ""
     except (ValueError, KeyError):
         return ""
-
-
-def engine_data(scenario: Scenario) -> dict[str, Any]:
-    """Return what a page needs to toss a scenario with other values of some fields, as JSON.
-
-    Args:
-        scenario: to be tossed.
-
-    Returns:
-        The engine's file by gzip and base64, and the scenario.
-
-    Raises:
-        UnusableEngineError: where the engine was not built.
-    """
-    return {
-        "wasm": b64encode(gzip.compress(engine_bytes(), mtime=0)).decode("ascii"),
-        "scenario": fields_of(scenario),
-    }
