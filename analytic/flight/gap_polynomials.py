@@ -10,10 +10,10 @@ from typing import NamedTuple
 import numpy as np
 
 from cointoss.analytic.flight.power_series import HEIGHT, ORDER, UP
-from cointoss.analytic.numerics.fours import NONE, add_product, add_products, read_four
 from cointoss.models.body import Body
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.lanes import four, read_four
 
 DEGREE = 2 * ORDER
 # Rounding of F, against the sum of all products in it, and terms of it that are left out.
@@ -73,16 +73,17 @@ def gap_polynomials(
     size, degree, power = height * height + level * level, 0, 1.0
     for k in range(2 * order + 1):
         # The squares of the four.
-        half, square = NONE, NONE
+        square = four(0.0, 0.0, 0.0, 0.0)
         for j in range(max(0, k - order), (k + 1) // 2):
-            half = add_products(half, read_four(parts, j, 0), read_four(parts, k - j, 0))
+            square += read_four(parts, j, 0) * read_four(parts, k - j, 0)
+        square *= 2.0
         if k % 2 == 0:
             middle = read_four(parts, k // 2, 0)
-            square = add_products(NONE, middle, middle)
-        tails, heads, across, along = add_product(square, half, 2.0)
-        level = across + along
-        coefficients[0, k], coefficients[1, k] = tails - level, heads - level
-        if max(abs(tails - level), abs(heads - level)) * power > _SMALLEST * size:
+            square += middle * middle
+        level = square[2] + square[3]
+        tails, heads = square[0] - level, square[1] - level
+        coefficients[0, k], coefficients[1, k] = tails, heads
+        if max(abs(tails), abs(heads)) * power > _SMALLEST * size:
             degree = k
         elif k > max(degree + 2, order):
             break
@@ -109,12 +110,12 @@ def time_surely_clear(body: Body, polynomials: GapPolynomials, sink: float, wind
     rims = 2 if body.thickness > 0 else 1
     for rim in range(rims):
         for k in range(degree + 1):
-            shifted[rim, k] = coefficients[rim, k]
-        shifted[rim, 0] += sink - rounding
-        if inside > 0:
-            for i in range(degree):
-                for k in range(degree - 1, i - 1, -1):
-                    shifted[rim, k] += inside * shifted[rim, k + 1]
+            shifted[rim, k] = 0.0
+        # Horner's scheme at inside + t; written so that all sums of a round are independent.
+        for m in range(degree, -1, -1):
+            left = coefficients[rim, m] + (sink - rounding if m == 0 else 0.0)
+            for k in range(degree - m + 1):
+                left, shifted[rim, k] = shifted[rim, k], inside * shifted[rim, k] + left
     time = window.length
     for _ in range(_TRIES):
         if time < least:
@@ -141,14 +142,15 @@ def _positive_until(polynomials: Array, rim: int, length: float, sink: float, be
         bernstein: work space, (n,).
     """
     degree, scale = len(bernstein) - 1, 1.0
+    # The last coefficient comes first.
     for k in range(degree + 1):
-        bernstein[k] = polynomials[rim, k] * scale
+        bernstein[degree - k] = polynomials[rim, k] * scale
         # The next power of the length, over the next binomial coefficient.
         scale *= length * ((k + 1) / max(degree - k, 1))
-    for i in range(1, degree + 1):
-        for k in range(degree, i - 1, -1):
-            bernstein[k] += bernstein[k - 1]
-    if not bernstein[0] > 0:
+    for i in range(degree):
+        for k in range(degree - i):
+            bernstein[k] += bernstein[k + 1]
+    if not bernstein[degree] > 0:
         return 0.0
     changes = 0
     for k in range(degree):

@@ -21,21 +21,11 @@ from cointoss.analytic.flight.state_vector import (
     set_velocity,
     state_of,
 )
-from cointoss.analytic.numerics.fours import (
-    NONE,
-    Four,
-    add_product,
-    add_products,
-    minus,
-    plus,
-    read_four,
-    times,
-    write_four,
-)
 from cointoss.analytic.numerics.rotation import attitude_near
 from cointoss.models.body import Body
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.lanes import Lanes, four, read_four, write_four
 from cointoss.models.kernel.vectors import Vector, add, apply, apply_transposed, scale, subtract
 from cointoss.models.state import State
 
@@ -43,8 +33,8 @@ ORDER = 24
 # The last two terms of a step are at most this part of the coin's scales. The next one, less than a tenth of
 # them, is then below the rounding of the sum.
 _SMALLEST = 2e-16
-ROWS, _WORK = ORDER + 2, ORDER + 1
-"""Rows of a series: one for each order, and one of work space."""
+ROWS = ORDER + 1
+"""Rows of a series: one for each order."""
 # Where vectors of four numbers start in the columns of a series. The first of `_TURNED` has the ξ components
 # of the rows of R, of which the last is u, and of U, which ω turns alike; the next have those along η and ζ.
 _TURNED, UP = (0, 4, 8), (2, 6, 10)
@@ -53,8 +43,6 @@ _SPIN, _POSITION, _VELOCITY = 12, 16, 20
 HEIGHT = _POSITION + 2
 # L and ω, their components in the orders η ζ ξ and ζ ξ η.
 _MOMENTUM, _CROSSED, COLUMNS = (24, 28), (32, 36), 40
-# Columns of the work space: `_TURNED` × ω, L × ω, and the speed of B along the normal, times the normal.
-_TURNING, _GYROSCOPIC, _ALONG_NORMAL = (0, 4, 8), 12, 16
 _INVERSE = 1 / np.arange(1, ORDER + 1)
 
 
@@ -69,21 +57,15 @@ class _Scales(NamedTuple):
 class _Sums(NamedTuple):
     """Sums of products up to some term; what they lose is summed apart, lest one sum waits for the other."""
 
-    x: Four
+    x: Lanes
     """ξ components of what ω turns, × ω."""
-    x_less: Four
-    y: Four
-    y_less: Four
-    z: Four
-    z_less: Four
-    gyroscopic: Four
-    """L × ω."""
-    gyroscopic_less: Four
-    along_normal: Four
+    x_less: Lanes
+    y: Lanes
+    y_less: Lanes
+    z: Lanes
+    z_less: Lanes
+    along: Lanes
     """The speed of B along the normal, times the normal in space."""
-
-
-_NO_SUMS = _Sums(NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE)
 
 
 @compiled
@@ -101,13 +83,14 @@ def expand_flight(body: Body, y: Array, longest: float, series: Array) -> tuple[
         the floor, or by a radius if that is farther.
     """
     state = state_of(y)
-    U, momentum = apply_transposed(state.R, state.velocity), apply(body.inertia, state.spin)
-    for i in range(3):
-        write_four(series, 0, _TURNED[i], (state.R[0][i], state.R[1][i], state.R[2][i], U[i]))
-    _write_spin(body, series, 0, state.spin, momentum, U[2])
-    write_four(series, 0, _POSITION, _and_none(state.position))
-    write_four(series, 0, _VELOCITY, _and_none(state.velocity))
+    U, x, v = apply_transposed(state.R, state.velocity), state.position, state.velocity
     length = min(longest, _fall_time(body, state))
+    for i in range(3):
+        write_four(series, 0, _TURNED[i], four(state.R[0][i], state.R[1][i], state.R[2][i], U[i]))
+    _write_spin(body, series, 0, state.spin, U[2])
+    _write_momentum(series, 0, state.spin, apply(body.inertia, state.spin))
+    write_four(series, 0, _POSITION, four(x[0], x[1], x[2], 0.0))
+    write_four(series, 0, _VELOCITY, four(v[0], v[1], v[2], 0.0))
     speed, spin = motion_scales(body, y)
     scales = _Scales(1 / (speed * speed), 1 / (body.radius * body.radius), 1 / (spin * spin))
     # All are squares.
@@ -118,7 +101,6 @@ def expand_flight(body: Body, y: Array, longest: float, series: Array) -> tuple[
         order += 1
         power *= length * length
         small = small + 1 if square * power < least else 0
-    _write_velocity(body, series, order)
     if small < 2:
         if square > 0:
             length = min(length, (least / square) ** (1 / (2 * ORDER)))
@@ -129,7 +111,7 @@ def expand_flight(body: Body, y: Array, longest: float, series: Array) -> tuple[
 
 @compiled
 def _next_terms(body: Body, k: int, series: Array, scales: _Scales) -> float:
-    """Write the coefficients of order k + 1, but for those of the velocity in space: those of order k.
+    """Write the coefficients of order k + 1.
 
     Args:
         body: the coin.
@@ -140,8 +122,6 @@ def _next_terms(body: Body, k: int, series: Array, scales: _Scales) -> float:
     Returns:
         The square of the largest of the new coefficients, against the coin's scales [1/s^(2 k + 2)].
     """
-    if k > 0:
-        _write_velocity(body, series, k)
     part, w = _INVERSE[k], read_four(series, k, _SPIN)
     x, y, z = (
         read_four(series, k, _TURNED[0]),
@@ -152,26 +132,35 @@ def _next_terms(body: Body, k: int, series: Array, scales: _Scales) -> float:
     a = subtract(scale(1 / body.mass, f), scale(body.gravity, (x[2], y[2], z[2])))
     if body.downhill > 0:
         a = add(a, scale(body.downhill, (x[0], y[0], z[0])))
-    position = times(part, read_four(series, k, _VELOCITY))
-    _write_products(series, k)
+    position = part * read_four(series, k, _VELOCITY)
     write_four(series, k + 1, _POSITION, position)
-    x = times(part, plus(read_four(series, _WORK, _TURNING[0]), (0.0, 0.0, 0.0, a[0])))
-    y = times(part, plus(read_four(series, _WORK, _TURNING[1]), (0.0, 0.0, 0.0, a[1])))
-    z = times(part, plus(read_four(series, _WORK, _TURNING[2]), (0.0, 0.0, 0.0, a[2])))
+    none = four(0.0, 0.0, 0.0, 0.0)
+    sums = _Sums(none, none, none, none, none, none, none)
+    for j in range(1, k):
+        sums = _with_term(sums, series, j, k - j)
+    # The terms of the newest coefficients come last: the sums of the others need not wait for them.
+    sums = _with_term(sums, series, 0, k)
+    if k > 0:
+        sums = _with_term(sums, series, k, 0)
+    x = part * (sums.x - sums.x_less + four(0.0, 0.0, 0.0, a[0]))
+    y = part * (sums.y - sums.y_less + four(0.0, 0.0, 0.0, a[1]))
+    z = part * (sums.z - sums.z_less + four(0.0, 0.0, 0.0, a[2]))
     write_four(series, k + 1, _TURNED[0], x)
     write_four(series, k + 1, _TURNED[1], y)
     write_four(series, k + 1, _TURNED[2], z)
-    momentum = scale(part, add(m_C, _three(read_four(series, _WORK, _GYROSCOPIC))))
+    momentum = scale(part, add(m_C, _three(_gyroscopic(series, k))))
     spin = apply(body.inertia_inverse, momentum)
-    _write_spin(body, series, k + 1, spin, momentum, z[3])
-    turned = add_products(add_products(add_products(NONE, x, x), y, y), z, z)
+    _write_momentum(series, k + 1, spin, momentum)
+    _write_spin(body, series, k + 1, spin, z[3])
+    _write_velocity(body, series, k + 1, sums.along)
+    turned = x * x + y * y + z * z
     largest = max(max(turned[0], turned[1]), max(turned[2], turned[3] * scales.speed))
     moved = _square(_three(position)) * scales.length
     return max(largest, max(moved, _square(spin) * scales.spin))
 
 
 @compiled
-def _write_velocity(body: Body, series: Array, k: int) -> None:
+def _write_velocity(body: Body, series: Array, k: int, along_normal: Lanes) -> None:
     """Write the coefficient of order k, not 0, of the velocity in space.
 
     That of B in space is the rate of x_C - R c.
@@ -182,55 +171,51 @@ def _write_velocity(body: Body, series: Array, k: int) -> None:
         read_four(series, k, _TURNED[1]),
         read_four(series, k, _TURNED[2]),
     )
-    arm = add_product(add_product(times(c[0], x), y, c[1]), z, c[2])
-    slowed = times(c_t / body.mass, minus(read_four(series, k, _POSITION), arm))
-    along_normal = read_four(series, _WORK, _ALONG_NORMAL)
-    slowed = add_product(slowed, along_normal, _INVERSE[k - 1] * (c_n - c_t) / body.mass)
+    arm = c[0] * x + y * c[1] + z * c[2]
+    slowed = c_t / body.mass * (read_four(series, k, _POSITION) - arm)
+    slowed += along_normal * (_INVERSE[k - 1] * (c_n - c_t) / body.mass)
     along, down = (body.downhill, body.gravity) if k == 1 else (0.0, 0.0)
-    write_four(series, k, _VELOCITY, (along - slowed[0], -slowed[1], -slowed[2] - down, -slowed[3]))
-
-
-@compiled
-def _write_products(series: Array, k: int) -> None:
-    """Write the coefficients of order k of the products into the work space of the series.
-
-    Read from there, they are vectors of four numbers to LLVM, as they are in the sums.
-    """
-    sums = _NO_SUMS
-    for j in range(1, k):
-        sums = _with_term(sums, series, j, k - j)
-    # The terms of the newest coefficients come last: the sums of the others need not wait for them.
-    sums = _with_term(sums, series, 0, k)
-    if k > 0:
-        sums = _with_term(sums, series, k, 0)
-    write_four(series, _WORK, _TURNING[0], minus(sums.x, sums.x_less))
-    write_four(series, _WORK, _TURNING[1], minus(sums.y, sums.y_less))
-    write_four(series, _WORK, _TURNING[2], minus(sums.z, sums.z_less))
-    write_four(series, _WORK, _GYROSCOPIC, minus(sums.gyroscopic, sums.gyroscopic_less))
-    write_four(series, _WORK, _ALONG_NORMAL, sums.along_normal)
+    write_four(series, k, _VELOCITY, four(along, -0.0, -down, -0.0) - slowed)
 
 
 @compiled
 def _with_term(sums: _Sums, series: Array, j: int, i: int) -> _Sums:
     """Return the `_Sums` with the products of coefficients of order j with those of order i of ω added."""
-    w_xi, w_eta, w_zeta, speed = read_four(series, i, _SPIN)
+    w_xi, w_eta, w_zeta = series[i, _SPIN], series[i, _SPIN + 1], series[i, _SPIN + 2]
     x, y, z = (
         read_four(series, j, _TURNED[0]),
         read_four(series, j, _TURNED[1]),
         read_four(series, j, _TURNED[2]),
     )
     return _Sums(
-        add_product(sums.x, y, w_zeta),
-        add_product(sums.x_less, z, w_eta),
-        add_product(sums.y, z, w_xi),
-        add_product(sums.y_less, x, w_zeta),
-        add_product(sums.z, x, w_eta),
-        add_product(sums.z_less, y, w_xi),
-        add_products(sums.gyroscopic, read_four(series, j, _MOMENTUM[0]), read_four(series, i, _CROSSED[1])),
-        add_products(
-            sums.gyroscopic_less, read_four(series, j, _MOMENTUM[1]), read_four(series, i, _CROSSED[0])
-        ),
-        add_product(sums.along_normal, z, speed),
+        sums.x + y * w_zeta,
+        sums.x_less + z * w_eta,
+        sums.y + z * w_xi,
+        sums.y_less + x * w_zeta,
+        sums.z + x * w_eta,
+        sums.z_less + y * w_xi,
+        sums.along + z * series[i, _SPIN + 3],
+    )
+
+
+@compiled
+def _gyroscopic(series: Array, k: int) -> Lanes:
+    """Return the coefficients of order k of L × ω."""
+    more, less = four(0.0, 0.0, 0.0, 0.0), four(0.0, 0.0, 0.0, 0.0)
+    for j in range(1, k):
+        more, less = _with_gyroscopic(more, less, series, j, k - j)
+    more, less = _with_gyroscopic(more, less, series, 0, k)
+    if k > 0:
+        more, less = _with_gyroscopic(more, less, series, k, 0)
+    return more - less
+
+
+@compiled
+def _with_gyroscopic(more: Lanes, less: Lanes, series: Array, j: int, i: int) -> tuple[Lanes, Lanes]:
+    """Return both sums of L × ω with the products of the orders j of L and i of ω added."""
+    return (
+        more + read_four(series, j, _MOMENTUM[0]) * read_four(series, i, _CROSSED[1]),
+        less + read_four(series, j, _MOMENTUM[1]) * read_four(series, i, _CROSSED[0]),
     )
 
 
@@ -245,14 +230,15 @@ def state_in_flight(series: Array, order: int, t: float, y: Array, y_new: Array)
         y: state at its start, (13,).
         y_new: state, (13,).
     """
-    xi, eta, zeta, spin, position, velocity = NONE, NONE, NONE, NONE, NONE, NONE
+    none = four(0.0, 0.0, 0.0, 0.0)
+    xi, eta, zeta, spin, position, velocity = none, none, none, none, none, none
     for k in range(order, -1, -1):
-        xi = add_product(read_four(series, k, _TURNED[0]), xi, t)
-        eta = add_product(read_four(series, k, _TURNED[1]), eta, t)
-        zeta = add_product(read_four(series, k, _TURNED[2]), zeta, t)
-        spin = add_product(read_four(series, k, _SPIN), spin, t)
-        position = add_product(read_four(series, k, _POSITION), position, t)
-        velocity = add_product(read_four(series, k, _VELOCITY), velocity, t)
+        xi = read_four(series, k, _TURNED[0]) + xi * t
+        eta = read_four(series, k, _TURNED[1]) + eta * t
+        zeta = read_four(series, k, _TURNED[2]) + zeta * t
+        spin = read_four(series, k, _SPIN) + spin * t
+        position = read_four(series, k, _POSITION) + position * t
+        velocity = read_four(series, k, _VELOCITY) + velocity * t
     R = ((xi[0], eta[0], zeta[0]), (xi[1], eta[1], zeta[1]), (xi[2], eta[2], zeta[2]))
     set_position(y_new, _three(position))
     set_velocity(y_new, _three(velocity))
@@ -268,26 +254,25 @@ def _fall_time(body: Body, state: State) -> float:
 
 
 @compiled
-def _write_spin(body: Body, series: Array, k: int, w: Vector, momentum: Vector, U_zeta: float) -> None:
-    """Write the coefficients of order k of ω, of the speed of B along ζ, and of L."""
-    c, h = body.center, momentum
-    write_four(series, k, _SPIN, (w[0], w[1], w[2], U_zeta - (w[0] * c[1] - w[1] * c[0])))
-    write_four(series, k, _MOMENTUM[0], (h[1], h[2], h[0], 0.0))
-    write_four(series, k, _MOMENTUM[1], (h[2], h[0], h[1], 0.0))
-    write_four(series, k, _CROSSED[0], (w[1], w[2], w[0], 0.0))
-    write_four(series, k, _CROSSED[1], (w[2], w[0], w[1], 0.0))
+def _write_spin(body: Body, series: Array, k: int, w: Vector, U_zeta: float) -> None:
+    """Write the coefficients of order k of ω and of the speed of B along ζ."""
+    c = body.center
+    write_four(series, k, _SPIN, four(w[0], w[1], w[2], U_zeta - (w[0] * c[1] - w[1] * c[0])))
 
 
 @compiled
-def _three(a: Four) -> Vector:
+def _write_momentum(series: Array, k: int, w: Vector, h: Vector) -> None:
+    """Write the coefficients of order k of ω and of L, by which they are multiplied."""
+    write_four(series, k, _MOMENTUM[0], four(h[1], h[2], h[0], 0.0))
+    write_four(series, k, _MOMENTUM[1], four(h[2], h[0], h[1], 0.0))
+    write_four(series, k, _CROSSED[0], four(w[1], w[2], w[0], 0.0))
+    write_four(series, k, _CROSSED[1], four(w[2], w[0], w[1], 0.0))
+
+
+@compiled
+def _three(a: Lanes) -> Vector:
     """Return the first three of four numbers."""
     return a[0], a[1], a[2]
-
-
-@compiled
-def _and_none(a: Vector) -> Four:
-    """Return a vector and 0."""
-    return a[0], a[1], a[2], 0.0
 
 
 @compiled

@@ -1,9 +1,10 @@
 """Rotation in Euler parameters: from the rotation matrix, and by angular velocity."""
 
-from cointoss.analytic.numerics.fours import Four
 from cointoss.models.attitude import Quaternion, norm_of
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector
+
+Four = tuple[float, float, float, float]
 
 
 @compiled

@@ -14,9 +14,15 @@ import operator
 from functools import cache
 from typing import Any
 
+import numpy as np
+
 from cointoss.models.kernel.compiled import ForCompiledCode
 
 WIDTH = 4
+Lanes = Any
+"""A vector; where Python runs a function, an array of numpy's."""
+# Where in memory a vector may lie: where a number may [B].
+_ALIGNED = 8
 
 
 @cache
@@ -44,8 +50,8 @@ def _lanes() -> Any:
 
     numbers, answers = Lanes("numbers"), Lanes("answers")
 
-    def known(function: Any, returned: Any, count: int, make: Any) -> None:
-        given = [numbers] * count
+    def known(function: Any, returned: Any, count: int, make: Any, *others: Any) -> None:
+        given = [numbers] * count + list(others)
         infer_global(function)(type("_", (ConcreteTemplate,), {"cases": [signature(returned, *given)]}))
         builtin_registry.lower(function, *given)(lambda _, builder, __, vectors: make(builder, *vectors))
 
@@ -55,7 +61,8 @@ def _lanes() -> Any:
 
     for function, name in (
         (operator.add, "fadd"), (operator.iadd, "fadd"), (operator.sub, "fsub"),
-        (operator.mul, "fmul"), (operator.truediv, "fdiv"), (operator.itruediv, "fdiv"),
+        (operator.mul, "fmul"), (operator.imul, "fmul"),
+        (operator.truediv, "fdiv"), (operator.itruediv, "fdiv"),
     ):  # fmt: skip
         known(function, numbers, 2, lambda builder, a, b, name=name: getattr(builder, name)(a, b))
     for function, sign in ((operator.lt, "<"), (operator.eq, "==")):
@@ -68,6 +75,7 @@ def _lanes() -> Any:
     for function, name in ((math.sqrt, "sqrt"), (abs, "fabs")):
         known(function, numbers, 1, lambda builder, a, name=name: exact(builder, name, a))
     known(operator.neg, numbers, 1, lambda builder, a: builder.fneg(a))
+    known(operator.getitem, types.float64, 1, lambda builder, a, i: builder.extract_element(a, i), types.intp)
 
     def in_each(context: Any, builder: Any, given: Any, _: Any, number: Any) -> Any:
         number = context.cast(builder, number, given, types.float64)
@@ -129,3 +137,59 @@ def _make_in_lanes() -> Any:
 
 in_lanes = ForCompiledCode(_make_in_lanes)
 """Return an array whose last axis has four numbers as an array of vectors; (array)."""
+
+
+@cache
+def _of_vectors() -> tuple[Any, Any, Any]:
+    """Return numba's `four`, `read_four` and `write_four`."""
+    from llvmlite import ir
+    from numba.core import cgutils, types
+    from numba.core.typing import signature
+    from numba.extending import intrinsic
+    from numba.np.arrayobj import make_array
+
+    vector = ir.VectorType(ir.DoubleType(), WIDTH)
+
+    def place(context: Any, builder: Any, kind: Any, table: Any, row: Any, column: Any) -> Any:
+        table = make_array(kind)(context, builder, table)
+        first = cgutils.get_item_pointer(context, builder, kind, table, [row, column])
+        return builder.bitcast(first, vector.as_pointer())
+
+    @intrinsic
+    def four(_: Any, _a: Any, _b: Any, _c: Any, _d: Any) -> Any:
+        def side_by_side(__: Any, builder: Any, ___: Any, given: Any) -> Any:
+            made = vector(ir.Undefined)
+            for lane in range(WIDTH):
+                made = builder.insert_element(made, given[lane], ir.IntType(32)(lane))
+            return made
+
+        return signature(_lanes(), *[types.float64] * WIDTH), side_by_side
+
+    @intrinsic
+    def read_four(_: Any, table: Any, _row: Any, _column: Any) -> Any:
+        def read(context: Any, builder: Any, _: Any, given: Any) -> Any:
+            return builder.load(place(context, builder, table, *given), align=_ALIGNED)
+
+        return signature(_lanes(), table, types.intp, types.intp), read
+
+    @intrinsic
+    def write_four(_: Any, table: Any, _row: Any, _column: Any, _vector: Any) -> Any:
+        def write(context: Any, builder: Any, _: Any, given: Any) -> Any:
+            builder.store(given[3], place(context, builder, table, *given[:3]), align=_ALIGNED)
+            return context.get_dummy_value()
+
+        return signature(types.void, table, types.intp, types.intp, _lanes()), write
+
+    return four, read_four, write_four
+
+
+def _write(table: Any, row: int, column: int, a: Any) -> None:
+    table[row, column : column + WIDTH] = a
+
+
+four = ForCompiledCode(lambda: _of_vectors()[0], lambda *numbers: np.array(numbers))
+"""Return a vector of four numbers."""
+read_four = ForCompiledCode(lambda: _of_vectors()[1], lambda table, i, j: table[i, j : j + WIDTH].copy())
+"""Return four numbers of a row of a table, from a column on, as a vector; (table, row, column)."""
+write_four = ForCompiledCode(lambda: _of_vectors()[2], _write)
+"""Set what `read_four` returns; (table, row, column, vector)."""
