@@ -111,7 +111,7 @@ def within_step(body: Body, y: Array, t: float, order: int, work: Array, y_new: 
         y_new: state, (13,).
     """
     if body.air.exponent is None:
-        state_in_flight(work, order, t, y, y_new)
+        state_in_flight(body, work, order, t, y, y_new)
     else:
         step(body, y, t, work, y_new)
 
@@ -129,7 +129,7 @@ def finish_step(body: Body, made: float, order: int, work: Array, y: Array, scra
         scratch: work space, (13,).
     """
     if body.air.exponent is None:
-        state_in_flight(work, order, made, y, scratch)
+        state_in_flight(body, work, order, made, y, scratch)
         copy_into(y, scratch)
     else:
         copy_into(y, work[STAGES])

@@ -5,6 +5,10 @@ da/dt = a × ω, the velocity of C in the body frame dU/dt = U × ω + f/m - g u
 dL/dt = m_C + L × ω, L = J ω, where the air's f and m_C are linear in U and ω. In space m dv/dt = R f - m g ẑ,
 where R f is -c_t times the velocity of B and -(c_n - c_t) times its part along the normal. So each
 coefficient of their series follows from those before it; docs/FLIGHT.md derives them.
+
+A balanced coin that is a symmetric top is seen from the frame in which its normal stands still: that turns at
+Ω = L/J_ξ, of which the air leaves exp(-d_t t/J_ξ) across the normal and exp(-d_n t/J_ζ) along it. Ω takes the
+place of ω, and few terms of its series matter. Under the normal the coin turns in closed form.
 """
 
 from typing import NamedTuple
@@ -12,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cointoss.analytic.air.force import force_and_moment
+from cointoss.analytic.flight.fall import clock, slowing_of
 from cointoss.analytic.flight.state_vector import (
     attitude_of,
     motion_scales,
@@ -19,20 +24,24 @@ from cointoss.analytic.flight.state_vector import (
     set_position,
     set_spin,
     set_velocity,
+    spin_of,
     state_of,
 )
+from cointoss.analytic.flight.turning import turn_under
 from cointoss.analytic.numerics.rotation import attitude_near
-from cointoss.models.body import Body
+from cointoss.models.body import Body, is_ideal
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.lanes import Lanes, four, read_four, write_four
-from cointoss.models.kernel.vectors import Vector, add, apply, apply_transposed, scale, subtract
+from cointoss.models.kernel.vectors import Vector, add, apply, apply_transposed, norm, scale, subtract
 from cointoss.models.state import State
 
 ORDER = 24
 # The last two terms of a step are at most this part of the coin's scales. The next one, less than a tenth of
 # them, is then below the rounding of the sum.
 _SMALLEST = 2e-16
+# A step for which 24 orders hold turns the frame of a top by less [rad].
+_MOST_TURNED = 2.5
 ROWS = ORDER + 1
 """Rows of a series: one for each order."""
 # Where vectors of four numbers start in the columns of a series. The first of `_TURNED` has the ξ components
@@ -52,6 +61,18 @@ class _Scales(NamedTuple):
     speed: float
     length: float
     spin: float
+
+
+class _Frame(NamedTuple):
+    """How the frame of a series turns: with the coin, or at L/J_ξ of a balanced top."""
+
+    is_of_top: bool
+    order: int
+    """Terms of its angular velocity of higher order are below rounding."""
+    across: float
+    """The rate at which the air takes its angular velocity across the normal, of a top [1/s]."""
+    along: float
+    """The rate at which it takes that along the normal [1/s]."""
 
 
 class _Sums(NamedTuple):
@@ -83,12 +104,17 @@ def expand_flight(body: Body, y: Array, longest: float, series: Array) -> tuple[
         the floor, or by a radius if that is farther.
     """
     state = state_of(y)
-    U, x, v = apply_transposed(state.R, state.velocity), state.position, state.velocity
+    U, momentum, w = apply_transposed(state.R, state.velocity), apply(body.inertia, state.spin), state.spin
     length = min(longest, _fall_time(body, state))
+    if is_ideal(body):
+        w = scale(1 / body.inertia[0][0], momentum)
+        length *= _MOST_TURNED / max(norm(w) * length, _MOST_TURNED)
+    frame = _frame(body, length)
+    x, v = state.position, state.velocity
     for i in range(3):
         write_four(series, 0, _TURNED[i], four(state.R[0][i], state.R[1][i], state.R[2][i], U[i]))
-    _write_spin(body, series, 0, state.spin, U[2])
-    _write_momentum(series, 0, state.spin, apply(body.inertia, state.spin))
+    _write_spin(body, series, 0, w, U[2])
+    _write_momentum(series, 0, w, momentum)
     write_four(series, 0, _POSITION, four(x[0], x[1], x[2], 0.0))
     write_four(series, 0, _VELOCITY, four(v[0], v[1], v[2], 0.0))
     speed, spin = motion_scales(body, y)
@@ -97,7 +123,7 @@ def expand_flight(body: Body, y: Array, longest: float, series: Array) -> tuple[
     least, square, before, power = _SMALLEST * _SMALLEST, 0.0, 0.0, 1.0
     order, small = 0, 0
     while order < ORDER and small < 2:
-        before, square = square, _next_terms(body, order, series, scales)
+        before, square = square, _next_terms(body, order, series, scales, frame)
         order += 1
         power *= length * length
         small = small + 1 if square * power < least else 0
@@ -110,7 +136,20 @@ def expand_flight(body: Body, y: Array, longest: float, series: Array) -> tuple[
 
 
 @compiled
-def _next_terms(body: Body, k: int, series: Array, scales: _Scales) -> float:
+def _frame(body: Body, length: float) -> _Frame:
+    """Return the `_Frame` of a series that holds for at most this time [s]."""
+    if not is_ideal(body):
+        return _Frame(False, ORDER, 0.0, 0.0)
+    across, along = slowing_of(body), body.drag.moment_normal / body.inertia[2][2]
+    order, term = 0, 1.0
+    while order < ORDER and term > _SMALLEST:
+        order += 1
+        term *= max(across, along) * length / order
+    return _Frame(True, order, across, along)
+
+
+@compiled
+def _next_terms(body: Body, k: int, series: Array, scales: _Scales, frame: _Frame) -> float:
     """Write the coefficients of order k + 1.
 
     Args:
@@ -118,6 +157,7 @@ def _next_terms(body: Body, k: int, series: Array, scales: _Scales) -> float:
         k: order up to which the coefficients are known.
         series: the coefficients, (ROWS, COLUMNS).
         scales: of the coin.
+        frame: of the series.
 
     Returns:
         The square of the largest of the new coefficients, against the coin's scales [1/s^(2 k + 2)].
@@ -134,9 +174,12 @@ def _next_terms(body: Body, k: int, series: Array, scales: _Scales) -> float:
         a = add(a, scale(body.downhill, (x[0], y[0], z[0])))
     position = part * read_four(series, k, _VELOCITY)
     write_four(series, k + 1, _POSITION, position)
-    none = four(0.0, 0.0, 0.0, 0.0)
-    sums = _Sums(none, none, none, none, none, none, none)
-    for j in range(1, k):
+    first, none = max(1, k - frame.order), four(0.0, 0.0, 0.0, 0.0)
+    along = none
+    for j in range(1, first):
+        along += read_four(series, j, _TURNED[2]) * series[k - j, _SPIN + 3]
+    sums = _Sums(none, none, none, none, none, none, along)
+    for j in range(first, k):
         sums = _with_term(sums, series, j, k - j)
     # The terms of the newest coefficients come last: the sums of the others need not wait for them.
     sums = _with_term(sums, series, 0, k)
@@ -148,9 +191,12 @@ def _next_terms(body: Body, k: int, series: Array, scales: _Scales) -> float:
     write_four(series, k + 1, _TURNED[0], x)
     write_four(series, k + 1, _TURNED[1], y)
     write_four(series, k + 1, _TURNED[2], z)
-    momentum = scale(part, add(m_C, _three(_gyroscopic(series, k))))
-    spin = apply(body.inertia_inverse, momentum)
-    _write_momentum(series, k + 1, spin, momentum)
+    if frame.is_of_top:
+        spin = scale(-part, (frame.across * w[0], frame.across * w[1], frame.along * w[2]))
+    else:
+        momentum = scale(part, add(m_C, _three(_gyroscopic(series, k))))
+        spin = apply(body.inertia_inverse, momentum)
+        _write_momentum(series, k + 1, spin, momentum)
     _write_spin(body, series, k + 1, spin, z[3])
     _write_velocity(body, series, k + 1, sums.along)
     turned = x * x + y * y + z * z
@@ -220,10 +266,11 @@ def _with_gyroscopic(more: Lanes, less: Lanes, series: Array, j: int, i: int) ->
 
 
 @compiled
-def state_in_flight(series: Array, order: int, t: float, y: Array, y_new: Array) -> None:
+def state_in_flight(body: Body, series: Array, order: int, t: float, y: Array, y_new: Array) -> None:
     """Write the state at the time t [s] of an expanded flight that starts with the state y into y_new.
 
     Args:
+        body: the coin.
         series: see `expand_flight`.
         order: of the series.
         t: time since its start [s].
@@ -244,6 +291,10 @@ def state_in_flight(series: Array, order: int, t: float, y: Array, y_new: Array)
     set_velocity(y_new, _three(velocity))
     set_attitude(y_new, attitude_near(R, attitude_of(y)))
     set_spin(y_new, _three(spin))
+    if is_ideal(body):
+        J_perp, J = body.inertia[0][0], body.inertia[2][2]
+        set_spin(y_new, (spin[0], spin[1], spin[2] * (J_perp / J)))
+        turn_under(y_new, (1 - J / J_perp) * spin_of(y)[2] * clock(body.drag.moment_normal / J, t))
 
 
 @compiled

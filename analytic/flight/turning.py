@@ -85,15 +85,19 @@ def turn(turning: Turning, y: Array, s: float, left: float, y_new: Array) -> Non
     """
     half = turning.rate * s / 2
     turned = (math.cos(half), *scale(math.sin(half), turning.axis))
-    e = quaternion_product(turned, attitude_of(y))
     w_xi, w_eta, w_zeta = spin_of(y)
-    w_xi, w_eta = left * w_xi, left * w_eta
+    set_attitude(y_new, quaternion_product(turned, attitude_of(y)))
+    set_spin(y_new, (left * w_xi, left * w_eta, w_zeta))
     if turning.spin != 0:
-        half = turning.spin * s / 2
-        c, d = math.cos(half), math.sin(half)
-        e = quaternion_product(e, (c, 0.0, 0.0, d))
-        c, d = c * c - d * d, 2 * c * d
-        w_xi, w_eta = c * w_xi + d * w_eta, c * w_eta - d * w_xi
-    set_attitude(y_new, e)
-    set_spin(y_new, (w_xi, w_eta, w_zeta))
+        turn_under(y_new, turning.spin * s)
     normalise(y_new)
+
+
+@compiled
+def turn_under(y: Array, angle: float) -> None:
+    """Turn the coin in the state y, (13,), about ζ by an angle [rad]; in space ω stays what it is."""
+    c, d = math.cos(angle / 2), math.sin(angle / 2)
+    set_attitude(y, quaternion_product(attitude_of(y), (c, 0.0, 0.0, d)))
+    c, d = c * c - d * d, 2 * c * d
+    w_xi, w_eta, w_zeta = spin_of(y)
+    set_spin(y, (c * w_xi + d * w_eta, c * w_eta - d * w_xi, w_zeta))

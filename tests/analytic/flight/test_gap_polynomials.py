@@ -28,7 +28,7 @@ def test_both_polynomials_are_those_of_tails_rim_and_of_heads(seed):
     length, order = expand_flight(body, y, 1e-2, series)
     found = gap_polynomials(body, series, order, length, coefficients)
     for t in np.linspace(0, length, 5):
-        state_in_flight(series, order, t, y, now)
+        state_in_flight(body, series, order, t, y, now)
         up = np.array(rotation_matrix(tuple(now[6:10]))[2])
         for rim, side in enumerate((-1, 1)):
             q = now[2] + up @ ([0, 0, side * body.thickness / 2] - np.array(body.center))

@@ -53,11 +53,13 @@ def flown(body: Body, start: Array, duration: float) -> Array:
 
 
 @pytest.mark.parametrize("air", [{}, AIR, {"normal": 20.0, "tangential": 5.0}])
-@pytest.mark.parametrize("offset", [(0.0, 0.0, 0.0), PAPER_OFFSET])
-def test_a_flight_by_power_series_is_that_of_an_independent_integration(air, offset):
+@pytest.mark.parametrize(
+    ("thickness", "offset"), [(2e-3, (0.0, 0.0, 0.0)), (0.1, (0.0, 0.0, 0.0)), (2e-3, PAPER_OFFSET)]
+)
+def test_a_flight_by_power_series_is_that_of_an_independent_integration(air, thickness, offset):
     rng = np.random.default_rng(6)
     for spin in (0.3, 40.0, 400.0):
-        body, start = coin_and_start(rng, air=air, offset=offset, spin=spin)
+        body, start = coin_and_start(rng, thickness=thickness, air=air, offset=offset, spin=spin)
 
         def rate(_, y, body=body):
             dy = np.empty(13)
