@@ -33,7 +33,7 @@ ROOT = Path(__file__).parents[2]
 HOUSES = ("bounce", "reproduction", "yardstick")
 COPIED = ("pyproject.toml", "cointoss", "models", "analytic", "coin_mj", "compare", "docs", *HOUSES, "tests")
 CHECKOUT = "checkout"
-LANES = ("analytic/together.py", "analytic/contact/side_by_side.py", "models/kernel/lanes.py")
+LANES = ("analytic/together.py", "analytic/contact/side_by_side.py", "models/kernel/vector_type.py")
 COMMITS, LONGEST = 40, 600.0
 """Of `--recent`: the last commits, and the time after which none is begun [s]."""
 _FAILED = 1

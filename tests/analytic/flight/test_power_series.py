@@ -6,13 +6,7 @@ from scipy.integrate import solve_ivp
 
 from cointoss.analytic.flight.equations_of_motion import derivative
 from cointoss.analytic.flight.gap_polynomials import gap_polynomials, time_surely_clear
-from cointoss.analytic.flight.integrated_flight import (
-    first_step,
-    flight_step,
-    flight_work,
-    sample_flight,
-    within_step,
-)
+from cointoss.analytic.flight.integrated_flight import sample_flight
 from cointoss.analytic.flight.power_series import COLUMNS, ORDER, ROWS, expand_flight
 from cointoss.analytic.flight.state_vector import state_of
 from cointoss.analytic.flight.touch_search import fly_by_steps
@@ -43,13 +37,9 @@ def coin_and_start(rng, *, thickness=2e-3, offset=PAPER_OFFSET, air=AIR, spin=40
 
 def flown(body: Body, start: Array, duration: float) -> Array:
     """Give the state after a flight, step by step."""
-    work, y, y_new, elapsed = flight_work(body), start.copy(), np.empty(13), 0.0
-    while elapsed < duration:
-        made, _, order = flight_step(body, y, first_step(body, y), duration - elapsed, work)
-        within_step(body, y, made, order, work, y_new)
-        y[:] = y_new
-        elapsed += made
-    return y
+    states = np.empty((1, 13))
+    sample_flight(body, start, 0.0, np.array([duration]), states)
+    return states[0]
 
 
 @pytest.mark.parametrize("air", [{}, AIR, {"normal": 20.0, "tangential": 5.0}])
