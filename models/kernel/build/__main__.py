@@ -38,12 +38,13 @@ def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> N
     before = {path: digest_of(path) for part in ENGINES for path in (HOME / part).rglob("*.py")}
     table = alone(module)
     assembled = _assembler() if CUDA in systems else None  # is read as a source
-    sources = {name: before.get(HOME / name) or digest_of(HOME / name) for name in read_sources()}
     known = [name for name in (*linking.SYSTEMS, CUDA) if entries_of(table, name)]
     if unknown := [name for name in systems if name not in known]:
         raise RuntimeError(f"{', '.join(unknown)}: accepted: {', '.join(known)}")
     symbols, ready = symbols_of(table, *systems), dict[str, bytes]()
     code = lowering.lowered(asked_of(table, *systems))
+    # Some are imported where they are first compiled.
+    sources = {name: before.get(HOME / name) or digest_of(HOME / name) for name in read_sources()}
     if any(digest_of(HOME / name) != digest for name, digest in sources.items()):
         raise RuntimeError("its sources have changed while they were compiled: build it again")
     forms = {each.symbol_of(lacks): each.form for each in entries_of(table) for lacks in each.variants}
