@@ -125,7 +125,10 @@ def acceleration_bounds(body: Body, v: Vector, up: Vector, w: Vector, window: fl
     apart = (2 * spin * spin * j + arm * drag * speed) / J_min + j / J_min * turn_drag * spin / J_min
     growth = (spin * spread + turn_drag) / J_min
     across = math.hypot(w[0], w[1])
-    across = min((across + apart * window) * math.exp(growth * window), spin)
+    # Beyond this the exponential overflows, and is no number times 0.
+    across = (
+        min((across + apart * window) * math.exp(growth * window), spin) if growth * window < 700 else spin
+    )
     spin_rate = (spread / 2 * spin * spin + turn_drag * spin + arm * drag * speed) / J_min
     across_rate = min(apart + growth * across, spin_rate)
     tilt_sine = min(math.hypot(up[0], up[1]) + across * window, 1.0)
