@@ -21,7 +21,7 @@ from cointoss.models.kernel.vectors import Matrix, Vector, add, apply, apply_tra
 
 @compiled
 def step_on_floor(coin: MujocoCoin, constraint: Constraint, dt: float, has_friction: bool) -> None:
-    """Advance by dt [s], after `constrained_forward`, where asked for with the forces of `apply_friction`."""
+    """Advance by dt [s] from a state whose forces are known; with friction by `apply_friction`, if any."""
     if has_friction:
         apply_friction(coin, constraint, dt)
     contact_step(coin, constraint, dt)

@@ -30,7 +30,7 @@ def settable() -> list[str]:
 
 
 def fields_in(module: str, table: str = "FIELDS") -> Callable[[], list[str]]:
-    """Return what returns the beginnings of an option, one for each field in a table of a module.
+    """Return a function that lists `FIELD=` for each field in a table of a module.
 
     The module, which takes long to import, is imported when a shell asks.
     """

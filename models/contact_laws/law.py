@@ -73,7 +73,7 @@ class Recorded(NamedTuple):
 
 
 def dot_each(a: Array, b: Array) -> Array:
-    """Return the products of vectors, (n,)."""
+    """Return the dot products of vectors, (n,)."""
     return np.sum(a * b, axis=-1)
 
 

@@ -22,7 +22,7 @@ from numba.np.arrayobj import make_array, populate_array
 
 from cointoss.models.kernel.lanes import WIDTH
 
-# Where in memory a vector may lie: where a number may [B].
+# Alignment of a vector in memory: that of one number [B].
 _ALIGNED = 8
 _NUMBER, _INDEX = ir.DoubleType(), ir.IntType(32)
 _VECTOR = ir.VectorType(_NUMBER, WIDTH)
