@@ -47,7 +47,8 @@ ROWS = ORDER + 1
 # Where vectors of four numbers start in the columns of a series. The first of `_TURNED` has the ξ components
 # of the rows of R, of which the last is u, and of U, which ω turns alike; the next have those along η and ζ.
 _TURNED, UP = (0, 4, 8), (2, 6, 10)
-# ω, or Ω of a top, and the speed of B along ζ; position and velocity of C in space, whose fourth number is of no use.
+# ω, or Ω of a top, and the speed of B along ζ; position and velocity of C in space, whose fourth number is of
+# no use.
 _SPIN, _POSITION, _VELOCITY = 12, 16, 20
 HEIGHT = _POSITION + 2
 # L and ω, their components in the orders η ζ ξ and ζ ξ η.
